@@ -36,7 +36,7 @@ struct ChoiceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns for each row the number of the option in force (0 is the default). Throws ChoiceError for an
+/// Returns for each row the number of the option in effect (0 is the default). Throws ChoiceError for an
 /// unknown id or option, naming what was expected.
 std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);

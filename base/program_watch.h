@@ -1,4 +1,4 @@
-// An onlooker of the programs that interpreters run: it counts lines, or stops at one. It changes nothing.
+// An observer of the programs that interpreters run: it counts lines, or stops at one. It changes nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace understudy {
 class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
-  /// What follows concerns the present program of the device. Another program has another mark.
+  /// The following calls are about the present program of the device. Another program has another mark.
   virtual void look(std::uint64_t mark) = 0;
   /// The instruction begins. It begins once, however long it waits. `times` is more than 1 only for scans of
   /// a PLC that are crossed in bulk.
@@ -19,7 +19,7 @@ class ProgramWatch {
   virtual void decides(int part, int line, bool outcome, std::int64_t times) = 0;
 };
 
-/// What a watch can look at. The watch is not state, and null if nobody looks on.
+/// What a watch can look at. The watch is not part of the state. It is null if there is no observer.
 class Watched {
  public:
   ProgramWatch* watch() const { return watch_; }
@@ -29,12 +29,13 @@ class Watched {
   ProgramWatch* watch_ = nullptr;
 };
 
-/// Several onlookers of one program. Each is told everything, in the order in which they came.
+/// Several observers of one program. Each is told everything, in the order in which they came.
 class ProgramWatches final : public ProgramWatch {
  public:
   void add(ProgramWatch& watch) { watches_.push_back(&watch); }
   void remove(const ProgramWatch& watch) { std::erase(watches_, &watch); }
-  /// Returns what is to be told: null if nobody looks on, and the onlooker itself if it is the only one.
+  /// Returns the watch to notify: null if there is no observer, and the observer itself if it is the only
+  /// one.
   ProgramWatch* watch() {
     if (watches_.size() > 1) return this;
     return watches_.empty() ? nullptr : watches_.front();

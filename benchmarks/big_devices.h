@@ -14,7 +14,7 @@
 
 namespace understudy::benchmarks {
 
-/// A register by its name. Throws CannotRun if there is none, or if it refuses the value.
+/// Returns a register by its name. Throws CannotRun if there is none, or if it refuses the value.
 void set(emulator::Device& device, std::string_view name, emulator::Value value);
 emulator::Value get(emulator::Device& device, std::string_view name);
 
@@ -29,13 +29,14 @@ std::unique_ptr<emulator::world::World> make_devices(
 /// Nanoseconds of processor time of a device's tick: `ticks` more, after those `done`.
 double ticks_ns(emulator::world::World& world, Tick& done, Tick ticks);
 
-/// Of this process.
+/// The memory of this process.
 double heap_bytes();
 
-/// Microseconds to save and to restore, the register `changing` of the first device written before each.
+/// Returns the microseconds to save and to restore; the register `changing` of the first device is written
+/// before each.
 double snapshot_us(emulator::world::World& world, std::string_view changing);
 
-/// Runs the parts of a benchmark: its exit code. Says why it cannot run.
+/// Runs the parts of a benchmark and returns its exit code. Reports why it cannot run.
 int run_benchmark(const char* name, const std::function<void()>& parts);
 
 }  // namespace understudy::benchmarks

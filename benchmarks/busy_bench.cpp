@@ -88,7 +88,7 @@ emulator::world::DeviceSetup device_setup(std::size_t number) {
       {"PROG_VAR1", 80'000 + 37 * own},
       {"PROG_VAR2", 80'000 + 35 * own},
       {"PROG_VAR3", 90'000},      // mrpm
-      {"PROG_MEM0", 300},         // rpm: 16 pulses a tick
+      {"PROG_MEM0", 300},         // rpm: 16 pulses per tick
       {"PROG_MEM1", 50},          // of 10 ms each
       {"PROG_MEM2", 4000 + own},  // ms
       {"Axis_VelMode_ACC", 32'768},

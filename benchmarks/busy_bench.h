@@ -11,7 +11,7 @@ namespace understudy::benchmarks {
 
 /// The motion of both axes of every device, until the world ends.
 enum class Activity {
-  positions,  // long position moves to and fro, begun anew by the program
+  positions,  // long position moves back and forth, started again by the program
   velocity,   // velocity mode, up and down a ramp
   sync,       // following encoders; those must be turned: see turn_encoders()
   homing,     // away from a home switch, and home again
@@ -20,11 +20,11 @@ enum class Activity {
 };
 std::string_view name_of(Activity activity);
 
-/// Fifteen stations a line, at 19200 baud. Every device has machines with limit switches, a home switch and
+/// Fifteen stations per line, at 19200 baud. Every device has machines with limit switches, a home switch and
 /// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
 std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity);
 
-/// A world of one idle device: an hour at 267 pulses a second.
+/// A world of one idle device: an hour at 267 pulses per second.
 void begin_hour_long_move(emulator::world::World& world);
 
 /// Turns the encoders of Activity::sync to where they are at `tick`.

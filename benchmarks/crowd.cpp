@@ -1,6 +1,6 @@
-// A thousand busy Simple2-R3 in one process: the work of a tick, beside that of one of them in a world of its
-// own; and how late a 1 kHz loop wakes up that does it, beside a loop that does nothing. The two of each pair
-// take turns, so that what else runs on the machine meets both. Loops wait as the daemon does.
+// A thousand busy Simple2-R3 in one process: the work of a tick, compared with that of one of them in its own
+// world; and how late a 1 kHz loop that does this work wakes up, compared with a loop that does nothing. The
+// two of each pair take turns, so that other load on the machine affects both. Loops wait as the daemon does.
 #include <array>
 #include <cstdint>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// What a Simple2-R3 costs: a tick of a world with one device, in each of its modes, beside the bare
-// arithmetic of one; and simulated seconds a second.
+// The cost of a Simple2-R3: a tick of a world with one device, in each of its modes, compared with the bare
+// arithmetic of one; and simulated seconds per second.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -31,7 +31,7 @@ double nanoseconds_each(Tick count, const std::function<void()>& work) {
   return static_cast<double>((processor_time_here() - start).count()) / static_cast<double>(count);
 }
 
-/// The least a tick of two axes can be: two cubics, compared with limits, and stored.
+/// The minimum work of a tick of two axes: two cubics, compared with limits, and stored.
 struct BareAxis {
   double place, first, second, third, low, high;
   std::int64_t pulses;
@@ -85,7 +85,7 @@ class Contestant {
   std::vector<double> samples_;
 };
 
-/// A position move of an hour, from a command to its end, with nothing to meet.
+/// A position move of an hour, from a command to its end, without any event.
 struct HourLongMove {
   double each_ns = 0;  // for each of its ticks
   std::uint64_t ticks_run = 0;

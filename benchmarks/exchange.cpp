@@ -1,7 +1,7 @@
-// Request and reply over a pty: Understudy with `--timing instant` and an axis that moves, beside a bare
-// echo responder and a libmodbus slave. A read of a Simple2-R3, and a command through the window of an
-// RS-M8194H. All three live on one processor, the host on the other; they are asked in turn, in blocks, and
-// while one is asked the others are stopped, so that none pays for another.
+// Request and reply over a pty: Understudy with `--timing instant` and an axis that moves, compared with a
+// bare echo responder and a libmodbus slave. A read of a Simple2-R3, and a command through the window of an
+// RS-M8194H. All three run on one processor, the host on the other; they are asked in turn, in blocks, and
+// while one is asked the others are stopped, so that none slows down another.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -62,8 +62,8 @@ Question read_of_a_register() {
           .start_moving = &UnderstudyServer::start_long_move};
 }
 
-/// RSM_CHANGE_VEL_ON_FLY Y 1000 of an RS-M8194H: it is carried out on receipt, however many come in a tick;
-/// what goes through the FIFO is refused as busy soon.
+/// RSM_CHANGE_VEL_ON_FLY Y 1000 of an RS-M8194H: it is executed on receipt, however many arrive in a tick;
+/// commands that go through the FIFO are soon refused as busy.
 Question command_through_the_window() {
   constexpr unsigned kWindow = 8000;
   return {.name = "a command",

@@ -20,8 +20,8 @@ inline double percentile(std::span<const double> samples, double fraction) {
 
 inline double median(std::span<const double> samples) { return percentile(samples, 0.5); }
 
-/// "met      what: 1.050 (bar: at most 1.100)". Only ratios from one run are judged: a time is the machine's
-/// as much as ours.
+/// "met      what: 1.050 (bar: at most 1.100)". Only ratios from one run are judged: a time depends on the
+/// machine as much as on us.
 inline void print_verdict(const char* what, double ratio, double bar) {
   std::printf("%-8s %s: %.3f (bar: at most %.3f)\n", ratio <= bar ? "met" : "NOT MET", what, ratio, bar);
 }

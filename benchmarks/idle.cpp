@@ -35,7 +35,7 @@ struct Shares {
 };
 
 Shares measure(const char* what, const Process& understudy, const Process& timer_loop, int seconds) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // what came before is over
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // earlier work has ended
   const Nanoseconds start = now();
   const Nanoseconds understudy_before = understudy.processor_time();
   const Nanoseconds timer_before = timer_loop.processor_time();

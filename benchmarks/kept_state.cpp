@@ -1,5 +1,6 @@
-// What 700 KB of files cost a device that keeps them: a snapshot after the change of one register (beside one
-// of a device without files), what is given to the writer of its file, and reading images of 1, 2 and 4 MB.
+// The cost of 700 KB of files for a device that stores them: a snapshot after the change of one register
+// (compared with a device without files), the data given to the writer of its file, and reading images of 1,
+// 2 and 4 MB.
 #include <chrono>
 #include <cstdio>
 #include <string>

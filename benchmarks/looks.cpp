@@ -1,5 +1,5 @@
 // How long the devices of a bench of fifteen stations wait for an observer at a time: each message that may
-// be long, as the control socket gets it, and the longest piece of the work that it makes, in processor time.
+// be long, as the control socket gets it, and the longest piece of its work, in processor time.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -54,7 +54,7 @@ std::string bench_text(const std::string& folder) {
   return text;
 }
 
-/// The request that the live page sends thirty times a second.
+/// The request that the live page sends thirty times per second.
 std::string names_of_a_page() {
   std::string names;
   for (int i = 1; i <= kStations; ++i) {

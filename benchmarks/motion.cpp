@@ -37,9 +37,9 @@ double nanoseconds_each(double count, const std::function<void()>& work) {
   return seconds_of(work) * 1e9 / count;
 }
 
-// ---- The bare tick, in which the others are reckoned
+// ---- The bare tick, in which the others are calculated
 
-/// The least an axis's tick can be: a cubic, two comparisons with limits, one counter.
+/// The minimum work of an axis's tick: a cubic, two comparisons with limits, one counter.
 struct Bare {
   double p, v, a, j, low, high;
   std::int64_t count;
@@ -238,7 +238,7 @@ void coordinated() {
 // ---- All together
 
 void simulated_time() {
-  // Four axes that move to and fro without a rest, with limits and an index to look out for.
+  // Four axes that move back and forth without a rest, with limits and an index to look out for.
   std::vector<Axis> axes(4);
   Environment environment;
   environment.add(Signal::limit_plus, 1'000'000, 2'000'000);

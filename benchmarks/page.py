@@ -3,9 +3,9 @@
 
 usage: page.py UNDERSTUDY [ROUNDS [SECONDS]]
 
-A bench runs and a host talks to it all the time; by turns with a page and a browser that watches everything, and without
-any, each time with a daemon of its own. Prints ratios: the daemon's processor time, what a host meets (the time of an
-exchange) and the daemon's own lateness with the page against without it, and how long it takes from before a register is
+A bench runs and a host talks to it all the time, alternately with and without a page and a browser that watches
+everything, each time with a separate daemon. Prints ratios: the daemon's processor time, the time of a host's
+exchange and the daemon's own lateness with the page against without it, and how long it takes from before a register is
 written to its event at the browser.
 """
 import base64
@@ -204,7 +204,7 @@ def main():
     read = struct.pack(">BBHH", 1, 3, 0x0E04, 2)
     for turn in range(2 * rounds):
         works = turn % 2 == 0
-        daemon, host = begin_bench()  # anew, as its lateness is that of its whole life
+        daemon, host = begin_bench()  # a new daemon, because its lateness covers its whole life
         visit = Visit(program, control) if works else None
         time.sleep(0.3)
         begin, before = time.monotonic(), processor_seconds(daemon.pid)

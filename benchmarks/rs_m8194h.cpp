@@ -1,6 +1,7 @@
-// What an RS-M8194H costs: a tick with four axes in moves and a macro at work, alone and among 1,000, and one
-// with a stream of three axes and two synchronous actions, beside the bare arithmetic of four axes; a resting
-// one, which is crossed; its memory, and a snapshot with its restore, also with every macro full.
+// The cost of an RS-M8194H: a tick with four moving axes and a running macro, alone and among 1,000, and one
+// with a stream of three axes and two synchronous actions, compared with the bare arithmetic of four axes; a
+// device at rest, which is fast-forwarded; its memory, and a snapshot with its restore, also with every macro
+// full.
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -37,7 +38,7 @@ constexpr double kBytesBar = 256 * 1024;
 constexpr double kSnapshotBar_us = 150;
 constexpr double kFullSnapshotBar_us = 500;
 
-/// Four axes go to and fro while the macro counts.
+/// Four axes go back and forth while the macro counts.
 constexpr const char* kMoves =
     "MP 91\n"
     "RSM_MACRO_SET_SV XYZU 1000\nRSM_MACRO_SET_V XYZU 10000\nRSM_MACRO_SET_A XYZU 20000\n"
@@ -62,7 +63,7 @@ constexpr const char* kStream =
 
 constexpr int kMacro = 91;
 
-/// The least a tick of four axes can be: a cubic, two comparisons with limits and a count each.
+/// The minimum work of a tick of four axes: a cubic, two comparisons with limits and a count for each.
 struct BareAxis {
   double place, first, second, third, low, high;
   std::int64_t pulses;
@@ -172,7 +173,7 @@ std::string full_macros() {
 
 void measure_memory() {
   constexpr std::size_t kMany = 100;
-  const auto first = make_busy(1, kMoves, 15);  // what all share is there
+  const auto first = make_busy(1, kMoves, 15);  // what all devices share exists
   const double before = heap_bytes();
   const auto many = make_busy(kMany, kMoves, 15);
   const double each = (heap_bytes() - before) / kMany;

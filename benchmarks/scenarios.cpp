@@ -57,7 +57,7 @@ struct Played {
   double simulated_s = 0;
 };
 
-/// Reads them, checks them and plays them, as `understudy run` does.
+/// Reads, checks and runs them, as `understudy run` does.
 template <typename OptionsFor>
 Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
   Played played;

@@ -1,5 +1,5 @@
-// What a SUPER-40NC costs: a tick with a PLC of 200 steps that changes something in every scan, C on a path
-// of three axes and U in a DRV, alone and among 200; a settled and standing one, which is crossed; its
+// The cost of a SUPER-40NC: a tick with a PLC of 200 steps that changes something in every scan, C on a path
+// of three axes and U in a DRV, alone and among 200; a settled device at rest, which is fast-forwarded; its
 // memory, and a snapshot with its restore, also with every file and every recipe full.
 #include <cstdio>
 #include <memory>
@@ -130,7 +130,7 @@ void fill(World& world) {
 
 void measure_memory() {
   constexpr std::size_t kMany = 30;
-  const auto first = make_busy(1);  // what all share is there
+  const auto first = make_busy(1);  // what all devices share exists
   const double before = heap_bytes();
   const auto many = make_busy(kMany);
   const double each = (heap_bytes() - before) / kMany;

@@ -1,7 +1,7 @@
 // The largest reads over a pty: as many coils with function 01 as there are (2,000 at most) and 125 registers
-// with function 03, of the tests' controller with four tables and of a SUPER-40NC (--timing instant), beside
-// a libmodbus slave. Both live on one processor, the host on the other; while one is asked the other is
-// stopped.
+// with function 03, of the tests' controller with four tables and of a SUPER-40NC (--timing instant),
+// compared with a libmodbus slave. Both run on one processor, the host on the other; while one is asked the
+// other is stopped.
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>

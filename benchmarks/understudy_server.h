@@ -22,7 +22,7 @@ class UnderstudyServer {
 
   /// Starts axis A on a move that lasts for days, so that every tick has something to do.
   void start_long_move() const;
-  /// Likewise axis Y of an RS-M8194H, for ever.
+  /// The same for axis Y of an RS-M8194H, without end.
   void start_endless_move() const;
 
  private:

@@ -20,13 +20,13 @@ endif()
 # reordering of floating point, and no -march beyond the baseline.
 add_compile_options(-ffp-contract=off -fno-fast-math)
 
-# In release builds, too, a missing key of a JSON object stops the program; otherwise it would read arbitrary memory.
+# In release builds, too, a missing key of a JSON object aborts the program; otherwise it would read arbitrary memory.
 add_compile_options("-DJSON_ASSERT(x)=((x)?void(0):__builtin_trap())")
 
 if(UNDERSTUDY_SANITIZERS)
   add_compile_options(-fsanitize=${UNDERSTUDY_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${UNDERSTUDY_SANITIZERS})
-  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # so an index beyond the end is reported, wherever it points
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # reports an index beyond the end, whatever is there
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # With sanitizers, g++ thinks that variants in the standard library are uninitialized (GCC bug 105562).
     add_compile_options(-Wno-maybe-uninitialized)

@@ -1,10 +1,10 @@
-# understudy_room(FOLDER KNOWS ... SEES ... USES ... SHOWS ... SOURCES ...)
-# One static library a room, named after its folder: emulator/world makes understudy_emulator_world.
+# understudy_room(FOLDER KNOWS ... SEES ... USES ... SHOWS ... SOURCES ...) makes one static library per room, named
+# after its folder: emulator/world makes understudy_emulator_world.
 #   KNOWS  rooms, by their folders, whose headers it may include
 #   SEES   single headers of other rooms that it may include as well
 #   USES   outside libraries; SHOWS those that its headers include too
-# What is not listed cannot be linked. All rooms share one include root, so a forbidden include would compile:
-# the check below refuses it when the build is configured, and names the file.
+# A room cannot link anything that is not listed. All rooms share one include root, so a forbidden include would
+# compile. The check below refuses it when the build is configured, and names the file.
 function(understudy_room folder)
   cmake_parse_arguments(ROOM "" "" "KNOWS;SEES;USES;SHOWS;SOURCES" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
@@ -37,7 +37,7 @@ function(compile_together target)
     UNITY_BUILD "${UNDERSTUDY_UNITY}" UNITY_BUILD_BATCH_SIZE ${UNDERSTUDY_TOGETHER})
 endfunction()
 
-# For rooms without hot code: optimizing them would take longer than it ever saves.
+# For rooms without hot code: optimizing them would take longer than it would ever save.
 function(compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -1,7 +1,7 @@
-# Links tests that another build has compiled with this build's rooms. For sanitizers, which check the product:
+# Links tests that another build has compiled with this build's rooms. This is for sanitizers, which check the product:
 # compiling and running the tests' own code under them as well would take longer than everything else.
 
-# The rooms that a room is linked with, and the room itself.
+# The rooms that a room links, and the room itself.
 function(rooms_of out)
   set(found ${ARGN})
   set(left ${ARGN})
@@ -19,7 +19,7 @@ function(rooms_of out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# UNDERSTUDY_TESTS_OF is the folder of the other build. It is configured if it was not.
+# UNDERSTUDY_TESTS_OF is the folder of the other build. It is configured first if necessary.
 function(configure_other_build)
   if(NOT EXISTS ${UNDERSTUDY_TESTS_OF}/compile_commands.json)
     cmake_path(GET UNDERSTUDY_TESTS_OF FILENAME preset)
@@ -46,13 +46,12 @@ function(link_tests_of_another_build target)
   add_executable(${target} ${objects})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   add_dependencies(${target} ${target}_compiled)
-  # All rooms come before the tests, so code that both have compiled (templates, inline functions) is taken from the
-  # rooms.
+  # All rooms come before the tests, so code that both have compiled (templates, inline functions) comes from the rooms.
   rooms_of(rooms ${ARGN})
   set(files)
   foreach(room IN LISTS rooms)
     get_target_property(type ${room} TYPE)
-    if(NOT type STREQUAL "INTERFACE_LIBRARY")  # a room of headers alone has no file
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")  # a room that only has headers has no file
       list(APPEND files $<TARGET_FILE:${room}>)
     endif()
   endforeach()

@@ -47,7 +47,7 @@ void require_near(const Point& point, std::string_view law, std::string_view qua
   for (const double coordinate : point) require_near(coordinate, law, quantity);
 }
 
-/// Two coordinates in a plane. Arcs are reckoned relative to their beginning or centre, not to zero.
+/// Two coordinates in a plane. Arcs are calculated relative to their beginning or centre, not to zero.
 struct Flat {
   double x = 0;
   double y = 0;
@@ -191,9 +191,9 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
            "three points must not be on one line, are within " +
                text(std::abs(doubled_area) / std::sqrt(longest_square)) + " of one");
   }
-  // The sweep is twice what the angle at `middle` lacks to a straight one, and the centre is off the middle
-  // of the chord by half its length times the cotangent: both from the same two numbers, so that they fit
-  // each other (and the end is met) even where a flat triangle leaves few digits.
+  // The sweep is twice the difference of the angle at `middle` from a straight one, and the centre is off the
+  // middle of the chord by half its length times the cotangent: both from the same two numbers, so that they
+  // fit each other (and the end is met) even if a flat triangle leaves few digits.
   const double along = dot(middle, rest);
   const double sweep = 2 * angle_of(std::abs(doubled_area), along);
   const double side = along / (2 * doubled_area);

@@ -117,7 +117,7 @@ inline double length_by_longest_axis(const Path& path) {
 /// The turn at a place along an arc; counter-clockwise is positive, as in the path.
 struct Turned {
   double sine = 0;
-  double cosine_less_1 = 0;  // keeps the digits of a short way on a large circle
+  double cosine_less_1 = 0;  // keeps the digits of a short path on a large circle
   double share = 0;
 };
 
@@ -139,7 +139,7 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   // The angle itself is needed only for what depends on it: a spiral's radius and a rise.
   const bool angle_counts = path.radius_slope_u_rad != 0 || !path.rise.isZero(0);
   if (sectors == 0) {
-    // Within one sector, compute from the way itself, to keep the digits of short arcs.
+    // Within one sector, calculates from the path itself, to keep the digits of short arcs.
     const double slope = (begin.sine + here.sine) / (begin.cosine + here.cosine);
     turned = {way * (begin.cosine + begin.sine * slope), -0.5 * way * way * (1 + slope * slope)};
     if (angle_counts) angle_in_sectors = angle_of(turned.sine, 1 + turned.cosine_less_1);
@@ -181,7 +181,7 @@ inline Point left_of(const Path& path, const Point& ray) {
   return ray.dot(path.abscissa) * path.ordinate - ray.dot(path.ordinate) * path.abscissa;
 }
 
-/// Computes from the beginning, not from the centre, so a short way on a large circle loses no digits.
+/// Calculates from the beginning, not from the centre, so a short path on a large circle loses no digits.
 inline Point place_on_arc(const Path& path, const Turned& turned) {
   const Point out = path.begin - path.centre;
   Point place = path.begin + turned.cosine_less_1 * out + turned.sine * left_of(path, out);

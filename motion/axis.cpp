@@ -17,7 +17,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// Farther than this a coordinate in double would no longer hold every pulse.
+/// Beyond this a coordinate in double would no longer hold every pulse.
 constexpr std::int64_t kFarthestMove = std::int64_t{1} << 53;
 
 std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
@@ -57,8 +57,8 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   return rest;
 }
 
-/// Makes a stop slow down at least as hard as the motion already does: by a law of time, the same ramp would
-/// begin again from the present speed.
+/// Makes a stop decelerate at least as hard as the motion already does: by a law of time, the same ramp would
+/// start again from the present speed.
 SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
   SpeedLaw stop = law;
   const double left_u_s = here.speed_u_s - law.start_speed_u_s;
@@ -103,7 +103,7 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
                           : what == Task::endless
                               ? plan_endless(speed)
                               : plan(static_cast<double>(size_of(distance_pulses)), speed);
-  // A stop from the greatest speed must be possible as well: a reaction cannot be refused.
+  // A stop from the maximum speed must be possible as well: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
   const std::int64_t untaken = backlash_before(direction);
   if (untaken > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");
@@ -348,7 +348,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::none || (slowing && !comes_back)) return;
   cause = why;
   comes_back = false;
-  if (slowing) return;  // a motion that was to turn round now only stops
+  if (slowing) return;  // a motion that was to reverse now only stops
   if (settling || in_backlash || (task != Task::move && task != Task::endless) || not_begun(drive, at)) {
     end(why, at);
     return;
@@ -363,7 +363,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::move) {
     const auto target = static_cast<double>(target_pulses);
     rest.cut_at(std::max(target, rest.segments[0].position_u));
-    // By the ramp that already ran it ends there, but for roundings.
+    // Along the ramp that already ran it ends there, except for rounding errors.
     constexpr double kRounding_pulses = 1e-5;
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }

@@ -4,8 +4,8 @@
 //                   ^ reactions to limits, alarm, emergency, homing <──────────────────────┘
 //
 // Travel is the sum of the pulses that the user's coordinate counts, in 64 bits, from power-up. Soft limits,
-// comparators and switches all refer to travel, so a window of two numbers says how far the axis may go
-// before anything can happen. A tick inside the window is a cubic and two comparisons.
+// comparators and switches all refer to travel, so a window of two numbers determines how far the axis can
+// move before anything can happen. A tick inside the window is a cubic and two comparisons.
 //
 // Edges are handled at their pulse, within the tick, as a chip handles them: motion/axis_tick.h. If axes act
 // on each other, motion/shared_tick.h brings them to the same moment.
@@ -188,7 +188,7 @@ struct alignas(64) Axis {
   std::int64_t encoder_seen = 0;            // the count up to which comparators have been checked
   std::int64_t backlash_sent = 0;           // all extra pulses so far, signed by direction
   std::int64_t backlash_taken_pulses = 0;   // 0 .. backlash_pulses: taken up towards plus
-  std::array<Instant, kEvents> event_at{};  // when each event with a moment of its own last happened
+  std::array<Instant, kEvents> event_at{};  // when each event with a separate moment last happened
   double constant_pps = 0;  // constant speed at the last pulse; 0: it was not at constant speed
 
   // State of the commanded motion.
@@ -196,7 +196,7 @@ struct alignas(64) Axis {
   bool slowing = false;            // slowing down to a stop, for `cause`
   bool comes_back = false;         // after that, returns to the target it has passed
   bool settling = false;           // all pulses are sent; it waits for in-position
-  bool encoder_is_known = false;   // the environment says what the encoder counts along the travel
+  bool encoder_is_known = false;   // the environment determines what the encoder counts along the travel
   std::int64_t target_pulses = 0;  // whole distance of a move, in the drive's coordinate
   SpeedLaw law;
   Follower follower;
@@ -209,11 +209,11 @@ struct alignas(64) Axis {
   // they are refused; a refused command changes nothing. All throw BadMotion as motion/move.h says, and then
   // nothing has changed.
 
-  /// Moves by `distance_pulses`, signed, from where the axis is; a running motion is dropped. A distance of 0
-  /// ends a running motion and is over at once.
+  /// Moves by `distance_pulses`, signed, from the present position; a running motion is dropped. A distance
+  /// of 0 ends a running motion and ends at once.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
-  /// Like move(), but from a signed speed that the axis already has from another generator. It goes on to the
-  /// target; if that is too near or behind, it stops and comes back.
+  /// Like move(), but from a signed speed that the axis already has from another generator. It continues to
+  /// the target; if that is too near or behind, it stops and comes back.
   Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
   /// Runs without end in `direction` (+1 or -1).
   Cause run(int direction, const SpeedLaw& speed, Tick now);
@@ -243,7 +243,7 @@ struct alignas(64) Axis {
     if (task != Task::none) end(why, at);
   }
   void change_speed(const SpeedLaw& speed, Instant at);
-  /// Cancels a commanded slow_down() while the axis still moves, and goes on to the target or to the top
+  /// Cancels a commanded slow_down() while the axis still moves, and continues to the target or to the top
   /// speed of `speed`. Returns false if there is none to cancel. Homing ends when it is slowed down.
   bool resume(const SpeedLaw& speed, Tick now);
   /// Stops at once: no pulse comes out from now on.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_ended);
 
-/// New plans have the same speed, except for roundings.
+/// New plans have the same speed, except for rounding errors.
 bool same_speed(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(a, b); }
 
 double constant_speed(const Segment& segment) {

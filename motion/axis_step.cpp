@@ -26,7 +26,7 @@ std::int64_t Axis::step_slow_path(Tick tick, const Environment& environment,
   return part.finish();
 }
 
-/// Steps the follower, and moves the axis if nothing lies between.
+/// Steps the follower, and moves the axis if there is nothing in between.
 bool Axis::follow_quietly(const Environment& environment, QuietTick& quiet) {
   if (!is_undisturbed(environment)) return false;
   const std::int64_t pulses = follower.step();
@@ -74,7 +74,7 @@ void Axis::see(Signals now_on, Instant at) {
   if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
 }
 
-/// Computes how far the axis may go before meet() has anything to do.
+/// Calculates how far the axis can move before meet() has anything to do.
 void Axis::watch(const Environment& environment) {
   std::int64_t up = kNoEdge;
   std::int64_t down = kNoEdge;

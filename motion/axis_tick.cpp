@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTick_s = 1 / kTicksPerSecond;
 
-/// No drive is this fast. A state from outside may claim it, and must not keep its tick running for ever.
+/// No drive is this fast. A state from outside may claim it, and must not keep its tick running forever.
 constexpr std::int64_t kMaxInATick = 1'000'000;
 
 Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
@@ -54,7 +54,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   if (carried_ != 0 && !sets_out(carried_ < 0 ? -1 : +1, at_)) carried_ = 0;
 }
 
-/// Returns true if a profile sends pulses of its own in this tick.
+/// Returns true if a profile sends its own pulses in this tick.
 bool AxisTick::drives() const {
   return axis_.drive.drive == Drive::running && !axis_.in_backlash && axis_.drive.elapsed_s(until_) >= 0;
 }
@@ -274,7 +274,7 @@ Cause AxisTick::against(int direction) const {
   return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
 }
 
-/// Begins to go in `direction` by carried pulses. Backlash comes out at once: it has no time of its own.
+/// Starts to move in `direction` by carried pulses. Backlash is sent at once: it has no time of its own.
 bool AxisTick::sets_out(int direction, Instant at) {
   if (const Cause why = against(direction); why != Cause::none) {
     // At a limit, a wheel has no effect; a path cannot continue.
@@ -339,7 +339,7 @@ void AxisTick::leave_start_to_next_tick() {
 std::int64_t AxisTick::finish() {
   take_events();
   axis_.watch(here_);
-  // A path or a wheel may turn towards the limit on which the axis stands, or may not move at first.
+  // A path or a wheel may reverse towards the limit that the axis is on, or may not move at first.
   const bool may_turn = axis_.task == Task::coordinated || axis_.task == Task::following;
   const bool at_a_limit =
       may_turn && (axis_.forbidden(+1) != Cause::none || axis_.forbidden(-1) != Cause::none);

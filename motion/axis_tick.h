@@ -20,7 +20,7 @@ constexpr bool is_before(const Instant& one, const Instant& other) {
   return one.tick < other.tick || (one.tick == other.tick && one.after_s < other.after_s);
 }
 
-/// Where an axis is: its travel, and the pulses beside it.
+/// The position of an axis: its travel, and the pulses besides it.
 struct AxisPlace {
   std::int64_t travel_pulses = 0;
   std::int64_t backlash_sent = 0;
@@ -43,9 +43,10 @@ class AxisTick {
   bool is_over() const { return is_over_; }
   /// Recomputes how far the axis may go from here before anything can happen.
   void watch() { axis_.watch(here_); }
-  /// For an axis that only its path moves: goes by `pulses` and handles what is there.
+  /// For an axis that only its path moves: moves by `pulses` and handles everything there.
   void go_by(std::int64_t pulses, Instant at);
-  /// Makes the axis check everything again where it is. Call it after another object has changed the axis.
+  /// Makes the axis check everything again at its present position. Call it after another object has changed
+  /// the axis.
   void rearm() {
     next_ = What::again;
     is_over_ = false;
@@ -60,7 +61,7 @@ class AxisTick {
   std::int64_t finish();
 
  private:
-  /// What happens next, in the order in which it is looked for.
+  /// The next event, in the order in which they are checked.
   enum class What : std::uint8_t { unknown, again, edge, backlash_ends, drive_ends, carried_edge, nothing };
 
   bool drives() const;

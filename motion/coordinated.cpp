@@ -39,7 +39,7 @@ AnyAxis* axis_at(std::int8_t number, std::span<AnyAxis> axes) {
   return there ? &axes[static_cast<std::size_t>(number)] : nullptr;
 }
 
-/// No path turns round farther away than this within a tick.
+/// No path reverses further away than this within a tick.
 constexpr double kFarthestTurn_pulses = 1'000'000;
 
 /// Returns true if an axis may go beyond its watch window and come back within the tick, at the turn of an

@@ -19,7 +19,7 @@ struct Coordinated {
 
   PathRun run;
   // For each coordinate of the path, 0 .. 3, `axis_of` names the axis that moves with it, as an index into
-  // the span given to the tick, or kNone. An axis that is not in the span is left out.
+  // the span given to the tick, or kNone. An axis that is not in the span is omitted.
   std::array<std::int8_t, kPathAxes> axis_of{kNone, kNone, kNone, kNone};
   std::array<UnitScale, kPathAxes> scale{};
   std::array<std::int64_t, kPathAxes> zero_pulses{};  // travel of the axis where its coordinate is 0
@@ -37,16 +37,16 @@ struct Coordinated {
   Cause begin(const Point& from, std::span<Axis> axes, Tick now);
 
   /// Runs one tick of the axes that took part before it, instead of their own step(). `environment` and
-  /// `pulses` have one element for each of `axes`; `pulses` is added to, signed as the pulses come out. When
-  /// one axis is stopped, for any reason, all axes stop where they are then and the rest of the path is
-  /// abandoned. When the queue has run empty at rest, the axes are released, unless the owner keeps them with
-  /// `stays_engaged`. An axis that is to slow down slows down all of them from there on. If axes act on each
-  /// other within a tick, use motion/shared_tick.h.
+  /// `pulses` have one element for each of `axes`; `pulses` is added to, signed as the pulses are sent. When
+  /// one axis is stopped, for any reason, all axes stop at their present positions and the rest of the path
+  /// is abandoned. When the queue has run empty at rest, the axes are released, unless the owner keeps them
+  /// with `stays_engaged`. An axis that must decelerate slows down all of them from there on. If axes act on
+  /// each other within a tick, use motion/shared_tick.h.
   void step(Tick tick, std::span<Axis> axes, std::span<const Environment> environment,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
-  /// Slows down on the path from now on and ends there for `why`; the rest is abandoned. An axis whose
-  /// reaction is to slow down (for a limit, say) does the same to all axes.
+  /// Decelerates on the path from now on and ends there for `why`; the rest is abandoned. An axis whose
+  /// reaction is to decelerate (for a limit, say) does the same to all axes.
   void slow_down(Tick now, Cause why = Cause::stopped);
   /// Stops all axes: no pulse comes out after this.
   void stop(std::span<Axis> axes, Cause why = Cause::stopped, Instant at = {});

@@ -33,7 +33,7 @@ struct Counter {
   /// if it never will be.
   std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
 
-  /// Return the least and the greatest count, or nothing for linear.
+  /// Return the minimum and the maximum count, or nothing for linear.
   std::optional<std::int64_t> least() const;
   std::optional<std::int64_t> greatest() const;
 };

@@ -45,8 +45,8 @@ static_assert(kFarthestAngle_rad * kQuartersPerRadian < (1 << 20));
 // Adding and subtracting it rounds to a whole number, which the last bits of the sum then hold.
 constexpr double kRounder = 0x1.8p52;
 
-/// Taylor, for |r| <= pi/4; the first term left out is below 1e-19. `low` is the angle's part below r's last
-/// bit. Even and odd terms are summed apart: two short chains are faster than a long one.
+/// Taylor, for |r| <= pi/4; the first omitted term is below 1e-19. `low` is the angle's part below r's last
+/// bit. Even and odd terms are summed separately: two short chains are faster than a long one.
 double sine_near_0(double r, double low) {
   const double z = r * r;
   const double w = z * z;

@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// No axis goes farther, and no count is searched beyond.
+/// No axis moves further, and no count is searched beyond.
 constexpr std::int64_t kFarthestCount = std::int64_t{1} << 56;
 
 Wide floor_quotient(Wide value, std::int64_t by) {
@@ -35,7 +35,7 @@ std::int64_t EncoderLine::at(std::int64_t travel) const {
 
 std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int direction,
                                                      std::int64_t count_steps) const {
-  // Behind one of the machine's stops nothing moves until the axis is at the stop again.
+  // Beyond one of the machine's stops nothing moves until the axis is at the stop again.
   if (direction > 0 ? travel < first : travel > last) {
     const std::int64_t stop = direction > 0 ? first : last;
     const auto steps = steps_until(stop, direction, count_steps);

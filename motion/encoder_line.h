@@ -11,12 +11,12 @@ namespace understudy::motion {
 
 struct EncoderLine {
   // The machine's part: floor(place * counts / pulses). The place is the axis's position, rising in the
-  // machine's own direction, from the point where the encoder reads 0.
-  // Counts for this many `pulses`; 0: the count is not known before the tick is over.
+  // machine's own direction, from the point where the encoder reads 0. Counts for this many `pulses`; 0: the
+  // count is not known before the tick ends.
   std::int64_t counts = 0;
   std::int64_t pulses = 1;         // > 0
   std::int64_t origin = 0;         // travel at which the encoder reads 0
-  std::int64_t first = INT64_MIN;  // travel at the machine's stops; beyond them the encoder stands still
+  std::int64_t first = INT64_MIN;  // travel at the machine's stops; beyond them the encoder does not count
   std::int64_t last = INT64_MAX;
   bool mirrored = false;     // the machine's place rises while travel falls
   bool reversed = false;     // the encoder's counts fall while the machine's place rises

@@ -18,7 +18,7 @@ enum class Signal : std::uint8_t {
   limit_minus,  // -EL, LMT-, lower limit
   near_home,    // IN0
   home,         // ORG, DOG, IN1
-  index,        // EZ, C, Z, IN2: one a revolution
+  index,        // EZ, C, Z, IN2: one per revolution
   mark,         // IN3
   alarm,
   in_position,
@@ -51,7 +51,8 @@ struct Environment {
   std::int64_t index_period = 0;
   std::int64_t index_at = 0;
   std::int64_t index_width = 1;
-  // Beyond these two the index stays as it is at them: the machine goes no farther, however many pulses come.
+  // Beyond these two the index stays as it is at them: the machine moves no further, however many pulses
+  // come.
   std::int64_t index_from = INT64_MIN;
   std::int64_t index_to = INT64_MAX;
   EncoderLine encoder{};  // what the axis's encoder counts along the travel

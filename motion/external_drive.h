@@ -17,7 +17,7 @@ struct ExternalDrive {
 
   Mode mode = Mode::off;
   std::int64_t pulses = 0;
-  // State: the levels last seen, and the direction of the continuous run under way (0: none).
+  // State: the levels last seen, and the direction of the continuous run in progress (0: none).
   bool plus_high = true;
   bool minus_high = true;
   std::int8_t running = 0;
@@ -35,7 +35,7 @@ struct DriveOrder {
   bool operator==(const DriveOrder&) const = default;
 };
 
-/// Returns the order that follows from the inputs as they are now. Call it once a tick.
+/// Returns the order that follows from the present inputs. Call it once per tick.
 DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, bool axis_moving);
 
 }  // namespace understudy::motion

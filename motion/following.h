@@ -1,4 +1,4 @@
-// Following: an axis follows another source of counts (a hand-wheel, an encoder) by a ratio.
+// Following: an axis follows another source of counts (a hand wheel, an encoder) by a ratio.
 //
 // All numbers are whole. The remainder of each division is kept, so nothing is lost however long the axis
 // follows.
@@ -9,7 +9,7 @@
 namespace understudy::motion {
 
 struct Follower {
-  // pulses = counts * numerator / denominator; the numerator's sign is the direction, 0 stands still.
+  // pulses = counts * numerator / denominator; the numerator's sign is the direction, 0 does not move.
   std::int64_t numerator = 1;
   std::int64_t denominator = 1;
   // Counts are gathered for this many ticks; their pulses come out evenly over the next period of the same

@@ -1,5 +1,5 @@
-// Homing as a table of phases: each phase says what the axis looks for, in which direction, how fast, and
-// what it does when it has found it.
+// Homing as a table of phases: each phase defines what the axis searches for, in which direction, how fast,
+// and what it does when it has found it.
 //
 //   phase 0  search +, fast, until home on, slow down      ──────────╮ home
 //   phase 1  search -, creep, until home off, stop            ╭──────╯
@@ -22,11 +22,11 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 /// One row of a homing table.
 struct HomingPhase {
   enum class Does : std::uint8_t {
-    search,   // goes in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
-    go,       // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given;
-              // one that runs on is past them at the speed of the next phase, or goes at that from the start
-              // where they are too few to slow down to it
-    go_back,  // to the travel that a phase before marked
+    search,  // goes in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
+    go,      // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given;
+         // one that runs on is past them at the speed of the next phase, or moves at that from the start if
+         // they are too few to decelerate to it
+    go_back,             // to the travel that a phase before marked
     move_at_zero_speed,  // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
   enum class Then : std::uint8_t {
@@ -38,7 +38,7 @@ struct HomingPhase {
   // Where homing goes: the number of a row, or one of these.
   static constexpr std::int8_t kRowBelow = -1;  // below the last row: home is found
   static constexpr std::int8_t kFail = -2;
-  static constexpr std::int8_t kNext = -3;   // wherever `next` says
+  static constexpr std::int8_t kNext = -3;   // as in `next`
   static constexpr std::int8_t kAwait = -4;  // nowhere: the signal must go away and come again
 
   Does does = Does::search;
@@ -56,9 +56,10 @@ struct HomingPhase {
   Signals ignores = 0;             // signals that the axis does not react to during this phase
 
   // The row that follows:
-  std::int8_t next = kRowBelow;    // after the signal is met and, unless the phase runs on, the axis stands
+  std::int8_t next =
+      kRowBelow;  // after the signal is met and, unless the phase runs on, the axis has stopped
   std::int8_t if_already = kNext;  // if `until` is as sought at the phase's beginning; kNext: that is met
-  std::int8_t if_gone = kNext;     // if the axis stands and `until` is no longer as sought
+  std::int8_t if_gone = kNext;     // if the axis is at rest and `until` is no longer as sought
   // If a limit ahead stops the phase, or keeps it from starting, before the signal is met. Unless this is
   // kFail, a limit after the signal is met does no harm.
   std::int8_t if_limit = kFail;
@@ -72,7 +73,7 @@ struct HomingProgram {
   static constexpr std::size_t kMaxSpeeds = 2;
 
   std::array<HomingPhase, kMaxPhases> phases{};
-  std::int8_t phase_count = 0;  // 0: home is where the axis is
+  std::int8_t phase_count = 0;  // 0: home is the axis's present position
   std::array<SpeedLaw, kMaxSpeeds> speeds{};
   bool soft_limits_lead_on = false;  // true: soft limits lead to `if_limit`; false: homing fails at them
 
@@ -92,7 +93,7 @@ struct Homing {
   std::int8_t phase = -1;     // the row that runs; -1: not homing
   std::int8_t ended_in = -1;  // the row that ran when the last homing ended
   Cause
-      ended_by{};  // arrived: home is found. If the axis slows down to give up, this is set before it stands
+      ended_by{};  // arrived: home is found. If the axis decelerates to give up, this is set before it stops
   bool met = false;               // true: the row has met its signal and comes to a stop
   std::int32_t counted = 0;       // edges of the row's signal so far
   std::int64_t began_pulses = 0;  // travel where the row began
@@ -104,7 +105,7 @@ struct Homing {
   bool active() const { return phase >= 0; }
   const HomingPhase& row() const { return program.phases[static_cast<std::size_t>(phase)]; }
   /// Returns the speed law of the next row if the current row is a distance that passes into it without
-  /// stopping; else null.
+  /// stopping; otherwise null.
   const SpeedLaw* runs_on_by() const;
   /// Returns the profile of such a row.
   Profile plan_to_run_on() const;

@@ -166,7 +166,7 @@ void Axis::mark_reference() {
   homing.reference_pulses = travel_pulses;
 }
 
-/// A stop under way may get a worse cause: a limit, or a stop command while it slows down for home.
+/// A stop in progress may get a worse cause: a limit, or a stop command while it decelerates for home.
 void Axis::homing_slows(Cause why) {
   const bool goes_on =
       why == Cause::arrived || (is_limit(homing.program, why) && homing.row().if_limit != HomingPhase::kFail);

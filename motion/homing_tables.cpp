@@ -104,7 +104,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   }
   const std::int8_t search = program.phase_count;
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
-  // Behind the switch it would look for the index from a wrong place (《X32.》 note); modes 0 and 9 do not.
+  // Beyond the switch it would search for the index from a wrong place (《X32.》 note); modes 0 and 9 do not.
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
   program.add({.direction = on,
                .speed = kFast,

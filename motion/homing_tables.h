@@ -22,7 +22,7 @@ struct Super40ncHoming {
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
   bool leaves_fast = false;          // true: leaves a DOG that is on at the start at `fast`
   bool offset_creeps = false;        // true: returns to the reference and goes the offset at `creep`
-  bool plate_may_be_short = false;   // true: a DOG that is off behind the stop is ignored
+  bool plate_may_be_short = false;   // true: a DOG that is off after the stop is ignored
   bool turns_at_limit = false;  // true: at a limit ahead of the DOG, turns back past the DOG and searches
                                 // again; false: homing fails
 };
@@ -41,9 +41,9 @@ struct Super40ncMark {
   std::int64_t search_pulses = 0;  // X16: how far to look for the mark; above 0 for +EL, below 0 for -EL
   SpeedLaw fast;                   // the speed set by RPM
   SpeedLaw creep;                  // X22
-  bool slows_behind = false;  // true: slows down behind the target, and looks for the mark once it creeps
+  bool slows_behind = false;  // true: decelerates after the target, and searches for the mark once it creeps
   bool looks_all_the_way = false;  // true: a mark before the target ends the move as well
-  bool mark_slows = false;         // true: the mark stops the axis by its ramp
+  bool mark_slows = false;         // true: the mark stops the axis along its ramp
   bool needs_edge = false;         // true: a mark that is on when the search begins does not count
 };
 /// Throws BadMotion(out_of_range) for a search distance of 0.

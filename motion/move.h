@@ -2,7 +2,7 @@
 //
 //   speed    top ______
 //           /          \            start: the speed a stepper is pulled to at once, and stopped from
-//   start  |            |___        creep: what remains at the start speed when slowing down began early
+//   start  |            |___        creep: what remains at the start speed if deceleration began early
 //          |                |___ time
 //
 // Sources: the MCX314 and PCL6045 chips' laws as RS-M8194H and SUPER-40NC use them, Simple2-R3's appendix A,
@@ -23,7 +23,7 @@ enum class Short : std::uint8_t {
               // (PCL6045 with FH correction; MCX314 S-curve; every trapezoid)
   keep_half,  // acceleration ends early enough for both ramps to take half the distance; the other half is
               // run at constant speed (MCX314 with AVTRI)
-  cut_ramp,   // acceleration is broken off where slowing down must begin: of a rounded ramp the acceleration
+  cut_ramp,   // acceleration is broken off where deceleration must begin: of a rounded ramp the acceleration
               // then jumps (PCL6045 without FH correction)
 };
 
@@ -35,9 +35,10 @@ struct SpeedLaw {
   RampLaw down{};
   Short when_short = Short::lower_top;
 
-  // Where slowing down begins: when what remains is the distance of the ramp down, by `down` or, if given, by
-  // the law that the chip calculates with; or at a fixed place; plus the offset. If it begins early, the rest
-  // is crept at the start speed; if late, the move ends abruptly on its target (a declared chip cut-off).
+  // Where deceleration begins: when what remains is the distance of the ramp down, by `down` or, if given, by
+  // the law that the chip calculates with; or at a fixed place; plus the offset. If it begins early, the axis
+  // creeps the rest at the start speed; if late, the move ends abruptly on its target (a declared chip
+  // cut-off).
   std::optional<RampLaw> slow_down_reckoned_by{};  // SUPER-40NC: deceleration longer than 2 x acceleration
   std::optional<double> slow_down_at_u{};          // PCL6045 PRDP: >= 0, instead of calculating
   double slow_down_offset_u = 0;                   // MCX314 AO
@@ -53,17 +54,17 @@ void check(const SpeedLaw& law);
 /// at a start speed of 0.
 Profile plan(double distance_u, const SpeedLaw& law);
 
-/// Plans a run from rest up to the top speed, which is then kept for ever.
+/// Plans a run from rest up to the top speed, which is then kept forever.
 Profile plan_endless(const SpeedLaw& law);
 
 /// Plans a run from rest that passes `distance_u` at `passing_speed_u_s` > 0, by `law.down`, and then keeps
-/// that speed for ever. If the distance is too short to slow down in, or the top speed is not above the
+/// that speed forever. If the distance is too short to slow down in, or the top speed is not above the
 /// passing speed, the whole run is at the passing speed.
 Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw& law);
 
 /// Plans a change from any state (speed >= 0; position counted from the move's beginning) to another speed >=
-/// 0, which is then kept for ever; speed 0 is a stop. Speeds between 0 and the start speed are jumped to.
-/// Throws as check() does.
+/// 0, which is then kept forever; speed 0 is a stop. Speeds between 0 and the start speed are skipped. Throws
+/// as check() does.
 Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);
 
 /// Plans a stop from any state: the speed falls to the start speed and the motion ends there. From below the
@@ -72,7 +73,7 @@ Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
 
 /// Plans a change from any state (speed >= 0) to a target further on, or to one that is already passed or too
 /// near to stop at; the motion then stops and comes back. `law` may differ from the one that the move began
-/// with; its when_short is for moves from rest. With the same law and target as before, the move goes on
+/// with; its when_short is for moves from rest. With the same law and target as before, the move continues
 /// unchanged, with two exceptions: ramps by time begin again, and moves that are cut off come back once they
 /// slow down. Less than about 1e-9 is not a distance.
 Profile change_target(const Sample& state, double target_u, const SpeedLaw& law);

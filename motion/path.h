@@ -34,7 +34,7 @@ enum class Turn : std::uint8_t { counter_clockwise, clockwise };
 /// What to do with an arc whose end point is not on the circle about its centre.
 enum class OffCircle : std::uint8_t {
   refuse,    // BadMotion(no_such_arc) when the radii differ by more than the tolerance, else as blend
-  blend,     // the radius goes evenly from the one to the other: the end point is met exactly
+  blend,     // the radius changes evenly from one to the other: the end point is met exactly
   quadrant,  // as chips draw it: stay on the circle, end in the end point's quadrant where the shorter of the
              // two coordinates (from the centre; the first axis's if equal) is reached; the path then ends
              // there, not at the point given. A shorter one beyond the radius: BadMotion(no_such_arc)
@@ -73,9 +73,10 @@ struct Path {
   bool operator==(const Path&) const = default;
 
   /// Returns the place after `along_u` (clamped to 0..length_u; NaN is 0). It is exactly `begin` at 0 and
-  /// `end` at length_u. In between it is exact but for rounding: within 2e-15 of the largest coordinate, the
-  /// radius and the length (by the longest axis also of the rise for each radian). On a line measured by its
-  /// longest axis, that axis is at a whole unit at each whole unit of length, if it began at one.
+  /// `end` at length_u. In between it is exact except for rounding errors: within 2e-15 of the largest
+  /// coordinate, the radius and the length (by the longest axis also of the rise for each radian). On a line
+  /// measured by its longest axis, that axis is at a whole unit at each whole unit of length, if it began at
+  /// one.
   Point at(double along_u) const;
   /// Returns the unit vector of movement there (true geometry, independent of the measure), or zero for a
   /// path of no length.

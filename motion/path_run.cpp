@@ -30,7 +30,7 @@ bool is_smooth(const Path& first, const Path& next, Joint joint) {
   return false;
 }
 
-/// Returns true for the same place, except for roundings.
+/// Returns true for the same place, except for rounding errors.
 bool meets(const Point& end, const Point& begin) {
   const double size = 1 + end.cwiseAbs().maxCoeff();
   return (end - begin).cwiseAbs().maxCoeff() <= 1e-6 * size;
@@ -183,7 +183,7 @@ Sample PathRun::sample(Tick now) const {
   // It has not begun yet: the start speed is not there yet.
   if (elapsed_s(now) < 0) return {.position_u = profile_.sample(0).position_u};
   Sample here = profile_.sample(elapsed_s(now));
-  // A path has no way back, but the last digits of an S-curve's end may go below 0.
+  // A path cannot go back, but the last digits of an S-curve's end may go below 0.
   here.speed_u_s = std::max(0.0, here.speed_u_s);
   return here;
 }
@@ -254,8 +254,8 @@ void PathRun::replan(Tick now) {
   Tick from = std::max(now, begin_tick_);
   const Sample here = sample(from);
   if (here.position_u >= chain_end_u_) return;
-  // From standstill, a motion has its beginning in the next tick, as everywhere. A motion that is at its
-  // beginning already stays there; else commands in every tick would keep it from ever starting.
+  // From standstill, a motion is at its beginning in the next tick, as everywhere. A motion that is at its
+  // beginning already stays there; otherwise commands in every tick would keep it from ever starting.
   const bool stands = elapsed_s(from) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {

@@ -24,7 +24,7 @@ struct Joint {
   enum class Rule : std::uint8_t {
     stop,        // begins from rest
     join,        // continues without slowing down, whatever the corner: at a sharp one the velocity jumps
-    join_below,  // acts as join if the deflection is at most `corner_deg`, else as stop
+    join_below,  // acts as join if the deflection is at most `corner_deg`, otherwise as stop
   };
   Rule rule = Rule::stop;
   double corner_deg = 0;
@@ -57,7 +57,7 @@ class PathRun {
 
   /// Sets the speed of the current path and of those to come. It may be called before a run begins and at any
   /// time after; it acts from `now` on. Throws as motion/move.h's plan() does, for a law that a chain of some
-  /// length could not be planned with. Acceleration may be changed only at rest; else it throws
+  /// length could not be planned with. Acceleration may be changed only at rest; otherwise it throws
   /// BadMotion(out_of_range).
   void set_speed(const SpeedLaw& speed, Tick now);
   const SpeedLaw& speed() const { return law_; }
@@ -93,7 +93,7 @@ class PathRun {
   void abandon();
 
   bool running() const { return running_ && count_ > 0; }  // true while paths remain, paused or not
-  bool paused() const { return paused_; }                  // pause() is in force
+  bool paused() const { return paused_; }                  // pause() is in effect
   bool at_rest(Tick now) const;                            // true if the speed after tick `now` is 0
   /// Returns length along the current chain, speed and acceleration after tick `now`.
   Sample sample(Tick now) const;
@@ -129,7 +129,7 @@ class PathRun {
   Point place_on(const Stretch& gone, double along_u) const;
   /// Returns true if a coordinate may have reversed, as it can on an arc.
   bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
-  /// Returns the end of the span after `along_u` in which each coordinate keeps its direction, but for one
+  /// Returns the end of the span after `along_u` in which each coordinate keeps its direction, except for one
   /// reversal; at most `to_u`.
   double end_of_span(const Stretch& gone, double along_u) const;
   /// Returns in which direction coordinate `i` moves there; on a corner, that of the path after it.

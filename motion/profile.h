@@ -6,7 +6,7 @@
 //                 /__________\___ time
 //
 // The coordinate's unit u is pulses for an axis, a unit of length for a path. Profiles are counted in the
-// direction of the motion: from where it began upwards; only a return after an overshoot goes down.
+// direction of the motion: from the start upwards; only a return after an overshoot goes down.
 //
 // A profile is pure and in closed form: you can ask for any moment, in any order, at the same cost.
 #pragma once
@@ -67,7 +67,7 @@ struct Profile {
 
   std::array<Segment, kMaxSegments> segments{};
   std::int32_t segment_count = 0;
-  double duration_s = 0;      // infinite: the last segment goes on for ever
+  double duration_s = 0;      // infinite: the last segment continues forever
   double end_position_u = 0;  // the exact target of the move
   double end_speed_u_s = 0;   // speed at the end of the last segment; not 0 if the motion ends abruptly
 
@@ -125,7 +125,7 @@ inline Sample Profile::sample(double t_s) const {
 }
 
 /// Returns the moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last
-/// bit, or to_s if it does not reach it. Moments before 0 count as 0. The profile must not turn round between
+/// bit, or to_s if it does not reach it. Moments before 0 count as 0. The profile must not reverse between
 /// the two. It takes at most 67 samples.
 double time_of(const Profile& profile, double position_u, double from_s, double to_s);
 

@@ -191,7 +191,7 @@ void append_change(Profile& profile, const Sample& now, double to_u_s, const Ram
     const double size = std::abs(acceleration);
     const double faded = speed_without_acceleration(now, up, down, range);
     if (sign * (to_u_s - faded) > rounding_of_change(faded, to_u_s)) {
-      // Further in the same direction: to the greatest acceleration, along it, and out of it.
+      // Further in the same direction: to the maximum acceleration, along it, and out of it.
       const double further = sign * (to_u_s - speed);
       const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
       const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));

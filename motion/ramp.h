@@ -58,7 +58,7 @@ double form_changes_at(const RampLaw& law);
 struct Ramp {
   double ends_s = 0;             // duration of each of the two ends, where acceleration grows and fades
   double middle_s = 0;           // duration at constant acceleration
-  double acceleration_u_s2 = 0;  // the greatest acceleration, >= 0
+  double acceleration_u_s2 = 0;  // the maximum acceleration, >= 0
   double jerk_u_s3 = 0;          // jerk in the ends, >= 0
 
   double duration_s() const { return 2 * ends_s + middle_s; }

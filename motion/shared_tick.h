@@ -1,8 +1,9 @@
-// The one place where a tick is divided. The axes of a device, and the path that carries some of them, go
-// from edge to edge. What an edge reads, sets or stops, on its own axis or on others, is of that moment.
+// The one place where a tick is divided. The axes of a device, and the path that carries some of them, move
+// from edge to edge. Everything that an edge reads, sets or stops, on its own axis or on others, has the
+// value of that moment.
 //
-//   X  ├────────────●─────────────────────┤     ● an edge; its owner is told, and acts
-//   Y  ├────────────┊──────────●──────────┤     ┊ and brings there whom it acts on
+//   X  ├────────────●─────────────────────┤     ● an edge; its owner is notified, and acts
+//   Y  ├────────────┊──────────●──────────┤     ┊ and brings there the axes it acts on
 //   path ├───────────────────┊─────┊──────┤
 //   owner ├────────────────────────●──────┤     ● a moment that the owner has found between the edges
 //
@@ -57,7 +58,7 @@ struct TickOfAxes {
 void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
                    bool stays_engaged = false);
 
-/// What the owner may call while it acts. Bring an axis to this moment before you change it, and change it
+/// What the owner can call while it acts. Bring an axis to this moment before you change it, and change it
 /// for this moment only.
 class SharedTick {
  public:
@@ -70,7 +71,7 @@ class SharedTick {
   std::int64_t pulses(std::size_t axis) const { return all_.pulses[axis]; }
   /// Brings an axis to the present moment; all axes of a path come along.
   void bring(std::size_t axis);
-  /// Returns where a watched axis will be at a moment from now on, as far as no edge comes before.
+  /// Returns where a watched axis will be at a moment from now on, if no edge comes before.
   AxisPlace place_ahead(std::size_t axis, const Instant& at);
   /// Brings the path here and slows it down, by the ramps of `by`.
   void slow_path(Cause why, const SpeedLaw& by);

@@ -1,4 +1,4 @@
-// What each value of motion consists of (base/state/fields.h), in the order of the bytes.
+// The fields of each value of motion (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ namespace understudy::motion {
 struct SyncAction {
   enum class Drive : std::uint8_t {
     none,
-    fixed_plus,  // a move by `distance_pulses`; these four only while the axis stands
+    fixed_plus,  // a move by `distance_pulses`; these four only while the axis is at rest
     fixed_minus,
     endless_plus,
     endless_minus,
@@ -29,7 +29,7 @@ struct SyncAction {
   bool latch_command = false;
   bool latch_encoder = false;
   Preset preset = Preset::none;
-  std::int64_t preset_value = 0;  // a count, pulses, or pulses a second
+  std::int64_t preset_value = 0;  // a count, pulses, or pulses per second
   bool output = false;            // reported to the owner, which has the pin
   bool interrupt = false;         // reported to the owner
 
@@ -74,9 +74,9 @@ struct SyncOutcome {
 };
 
 /// Acts on events of the axis `trigger` at this moment; the activated axes are brought here, in order.
-/// Latches, stops and speeds are of this moment. A drive has its beginning in the next tick, like one
-/// commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes that
-/// do not exist are left out. Counters belong to the owner: latches give travel.
+/// Latches, stops and speeds have the values of this moment. A drive has its beginning in the next tick, like
+/// one commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes
+/// that do not exist are omitted. Counters belong to the owner: latches give travel.
 SyncOutcome act(SyncTable& table, std::size_t trigger, Events events, SharedTick& tick);
 
 }  // namespace understudy::motion

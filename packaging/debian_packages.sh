@@ -35,7 +35,7 @@ missing_of() {
 }
 
 # install_missing PACKAGE...: prints the missing packages and installs them; prints nothing if none is missing. If it
-# cannot install them, it lists them, and the caller goes on with the installed ones.
+# cannot install them, it lists them, and the caller continues with the installed ones.
 install_missing() {
   local missing why  # names of packages do not contain spaces
   missing=($(missing_of "$@"))

@@ -1,8 +1,8 @@
 #!/bin/sh
 # portable.sh [FOLDER [BUILD]]: packs the program and everything it needs into
-# FOLDER/understudy-VERSION-linux-MACHINE.tar.gz (FOLDER: .), which runs from wherever it is unpacked.
-# BUILD: a build folder whose program is taken as it is; without it build/release, brought up to date.
-# Equal sources, compiled on equal systems, make equal bytes. Needs Debian's dpkg, and binutils.
+# FOLDER/understudy-VERSION-linux-MACHINE.tar.gz (FOLDER: .), which runs wherever it is unpacked. BUILD is a build
+# folder whose program is used as it is; without it, build/release is brought up to date and used. Equal sources,
+# compiled on equal systems, produce equal bytes. Needs Debian's dpkg, and binutils.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 project=$(dirname "$here")
@@ -52,7 +52,7 @@ for part in understudy man bash-completion zsh fish; do
   mkdir -p "$tree/share"
   cp -R "$installed/share/$part" "$tree/share/"
 done
-rm -f "$tree/share/understudy/docs"  # leads to the pages, which are not here
+rm -f "$tree/share/understudy/docs"  # links to pages that the archive does not contain
 cp "$documents/LICENSE" "$documents/CHANGELOG.md" "$tree/"
 for licence in "$documents"/third_party/*/LICENSE; do
   cp "$licence" "$tree/licences/$(basename "$(dirname "$licence")")"
@@ -70,13 +70,13 @@ ldd "$build/understudy" | while read -r library arrow place rest; do
   ! is_glibc "$library" || continue
   [ "$arrow" = "=>" ] && [ -f "$place" ] || fail "$library: is not found; expected it where the loader looks"
   cp -L "$place" "$libraries/$library"
-  # The program's path is not its libraries' path: they find nothing but the C library.
+  # The path of the libraries is not relative to the program: they only find the C library.
   for needed in $(objdump -p "$place" | sed -n 's/^ *NEEDED *//p'); do
     is_glibc "$needed" || fail "$library: needs $needed; expected an archive of it, so that it is part of the program"
   done
 done
 
-# --- what it needs of the system ------------------------------------------------------------------
+# --- system requirements ------------------------------------------------------------------------
 glibc=$(for file in "$tree/bin/understudy" "$libraries"/*; do objdump -T "$file"; done |
   sed -n 's/.*[( ]GLIBC_\([0-9.]*\)).*/\1/p' | sort -uV | tail -1)
 newest=$(printf '%s\n' "$glibc" "$newest_glibc" | sort -V | tail -1)

@@ -1,8 +1,8 @@
 #!/bin/sh
-# portable_in_chroot.sh ARCHIVE WHEEL SUITE[=ROOT]...: uses what portable.sh and program_wheel.py made in bare systems:
-# serves the quick start, plays all scenarios, which must have the hashes that they have here, and installs the wheel
-# into a fresh environment. By hand, as root, with debootstrap and a network. A ROOT that debootstrap has made is copied;
-# else one is made. SUITE: bookworm, trixie, jammy (Ubuntu 22.04) and so on.
+# portable_in_chroot.sh ARCHIVE WHEEL SUITE[=ROOT]...: tests the results of portable.sh and program_wheel.py in bare
+# systems: serves the quick start, runs all scenarios, which must have the same hashes as here, and installs the wheel
+# into a fresh environment. Run it by hand, as root, with debootstrap and a network. It copies a ROOT made by
+# debootstrap, or makes one. SUITE is bookworm, trixie, jammy (Ubuntu 22.04) and so on.
 set -eu
 archive=$(readlink -f "$1") wheel=$(readlink -f "$2")
 shift 2

@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 class Wheel:
-    """A zip file, each entry with the same time, and the list of them (RECORD)."""
+    """Writes a zip file whose entries all have the same time, with their list (RECORD)."""
 
     def __init__(self, path, information, when):
         self.zip = zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9)
@@ -46,7 +46,7 @@ def tag_of(archive, parts):
 
 
 def place_of(path, data, information):
-    """Where a file of the portable tree belongs in the wheel; nothing: it stays out."""
+    """Returns the place of a file of the portable tree in the wheel, or nothing if the wheel does not contain it."""
     if path == "bin/understudy":
         return f"{data}/scripts/understudy"
     if path.startswith(("lib/", "share/")):

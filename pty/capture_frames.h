@@ -1,5 +1,5 @@
 // Turns the traffic of one line into packets: requests as a station frames them, replies as stations send
-// them, and characters that were dropped. It has a framer of its own, so that each request is captured once
+// them, and characters that were dropped. It has its own framer, so that each request is captured once
 // however many stations the line has.
 #pragma once
 
@@ -18,7 +18,7 @@ class CaptureFrames final : public LineObserver {
   using Sink = std::function<void(const CapturedPacket&)>;
 
   /// `framing` is that of the line's stations, with the shortest silence if they differ. On a line of text
-  /// each text line is a packet (an LF behind its CR begins the next one); ESC also ends a packet.
+  /// each text line is a packet (an LF after its CR begins the next one); ESC also ends a packet.
   CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 
   void on_start_bit(SimTime at) override;

@@ -5,8 +5,8 @@
 //   Station::run() --transmit()--> [wire] --> output() --> host
 //
 // The two directions do not disturb each other. A station never receives another station's reply as bytes,
-// only the notice that there is one: a reply to "write single register" is the same frame as its request,
-// and slaves that answer every address would take each other's replies for requests without end.
+// only the notice that there is one: a reply to "write single register" is the same frame as its request, and
+// slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
 #include <cstddef>
@@ -74,10 +74,10 @@ class Line {
   /// Sets how the host is connected to the wire from now on.
   void set_adapter(const Adapter& adapter);
   bool is_unplugged() const { return state_.adapter.is_unplugged; }
-  /// Sets the wire's speed from now on. Characters on their way keep their times.
+  /// Sets the wire's speed from now on. Characters in transit keep their times.
   void set_settings(const LineSettings& settings);
-  /// Tells `observer` what goes over the wire, until it is removed. Observers are called in the order of
-  /// adding.
+  /// Notifies `observer` of the traffic on the wire, until it is removed. Observers are called in the order
+  /// of adding.
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
   /// Passes the strike to the observers. It has no other effect.
@@ -96,8 +96,8 @@ class Line {
   /// The host flushes its output: characters that are not on the wire yet are never sent.
   void host_purged();
 
-  /// The clock is stopped, and no byte has arrived for as long as a frame is waited for
-  /// (Station::on_idle). It has no effect while characters are on their way.
+  /// The clock is stopped, and no byte has arrived for as long as a frame is waited for (Station::on_idle).
+  /// It has no effect while characters are in transit.
   void nothing_more(SimTime now);
 
   /// A host opened the line. The previous host's settings are forgotten. A new line counts as opened.
@@ -120,14 +120,14 @@ class Line {
   /// Must be called after the due() of a station or an observer has changed for any other reason than a call
   /// from the line.
   void due_changed() { next_.reset(); }
-  /// Processes everything that is due at `now` or earlier, in the order of time. At equal times the order
+  /// Processes everything that is due at `now` or earlier, in chronological order. At equal times the order
   /// is: characters that arrive, observers, stations in the order of attaching, characters that leave. With
   /// Timing::instant stations come before the next character, so that requests in one lump are served one by
   /// one.
   void run(SimTime now);
 
   const std::string& name() const { return name_; }
-  /// Returns the options in force, including a speed that set_settings() has changed.
+  /// Returns the options in effect, including a speed that set_settings() has changed.
   LineOptions options() const;
   const LineCounters& counters() const { return state_.edge.counters; }
   bool is_host_open() const { return state_.is_host_open; }
@@ -163,14 +163,14 @@ class Line {
     std::vector<Member> members;  // in the order of attaching
     bool is_host_open = true;
     std::optional<HostSettings> host_settings;
-    std::optional<HostSettings> departed_settings;  // of the host before
+    std::optional<HostSettings> departed_settings;  // of the previous host
     std::uint64_t last_departed = 0;                // number of its last character
     std::uint64_t last_received = 0;                // number of the last character of all
     Warned warned;
     Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
-    bool is_heard = true;      // the character that arrives, by a station at least
-    Queue<TimedByte> leaving;  // to the host, on the wire, in the order of time; numbered by their stations
+    bool is_heard = true;      // the character that arrives, at one station or more
+    Queue<TimedByte> leaving;  // to the host, on the wire, in chronological order; numbered by their stations
     Adapter adapter;
     Queue<std::uint8_t> lump;          // held back by the adapter,
     std::optional<SimTime> lump_at{};  // until then
@@ -179,7 +179,7 @@ class Line {
   const State& save() const { return state_; }
   /// Throws std::invalid_argument if this line cannot be in that state.
   void check(const State& state) const;
-  /// Checks the state, then puts it in force. If it throws, nothing has changed.
+  /// Checks the state, then puts it into effect. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:
@@ -222,7 +222,7 @@ class Line {
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 
   std::string name_;
-  LineOptions options_;  // but for the settings
+  LineOptions options_;  // except for the settings
   std::function<void(const std::string&)> warn_;
   std::vector<Station*> stations_;
   std::vector<LineObserver*> observers_;

@@ -1,5 +1,5 @@
-// Watches a line without taking part: an observer is told what goes over the wire and never answers, so the
-// line and its stations behave the same with or without it.
+// Watches a line without taking part: an observer is notified of the traffic on the wire and never answers,
+// so the line and its stations behave the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct Strike {
 /// The effects of faults on one message.
 struct StruckMessage {
   SimTime time{0};
-  bool is_reply = false;  // else a request
+  bool is_reply = false;  // otherwise a request
   bool is_said = false;   // a reply that follows at once, as they have made it
   std::span<const Strike> strikes;
 };
@@ -41,7 +41,7 @@ class LineObserver {
 
   /// A character from the host has begun; on_character() follows. Called only if characters take time.
   virtual void on_start_bit(SimTime at) = 0;
-  /// A character from the host is over. `is_heard` is true if at least one station received it.
+  /// A character from the host has ended. `is_heard` is true if at least one station received it.
   virtual void on_character(const TimedByte& character, bool is_heard) = 0;
   /// No more characters have arrived for a while although the clock is stopped (Station::on_idle).
   virtual void on_nothing_more() = 0;

@@ -25,7 +25,7 @@ constexpr bool is_within(int host_baud, int baud, std::int64_t tolerance_ppm) {
 enum class Parity : std::uint8_t { none, odd, even, mark, space };
 
 struct LineSettings {
-  int baud = 19200;  // bits a second
+  int baud = 19200;  // bits per second
   int data_bits = 8;
   Parity parity = Parity::even;
   int stop_bits = 1;

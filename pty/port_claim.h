@@ -16,7 +16,7 @@ class PortClaim {
   /// Tries to claim the link at an absolute path. Throws std::system_error if it cannot find out whether the
   /// link is in use.
   explicit PortClaim(const std::string& link);
-  ~PortClaim();  // lets go
+  ~PortClaim();  // releases it
   PortClaim(PortClaim&& other) noexcept;
   PortClaim& operator=(PortClaim&& other) noexcept;
 

@@ -14,7 +14,8 @@ struct PortError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Says what an error of the kernel means, and how many files this program may open if that is the trouble.
+/// Returns the meaning of an error of the kernel, and how many files this program may open if that is the
+/// cause.
 std::string port_trouble(int error);
 
 class PortLink {
@@ -36,7 +37,7 @@ class PortLink {
  private:
   std::string absolute_path_;  // the working directory may change before the link is removed
   std::string target_;         // empty: no link
-  PortClaim claim_;            // says that the link is in use
+  PortClaim claim_;            // marks the link as in use
 };
 
 }  // namespace understudy::pty

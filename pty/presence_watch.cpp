@@ -16,7 +16,8 @@
 namespace understudy::pty {
 namespace {
 
-/// A terminal that nobody serves for a while keeps at most this many events. Beyond that, it must look.
+/// A terminal that is not served for a while stores at most this many events. Beyond that, it must check
+/// itself.
 constexpr std::size_t kMaxEvents = 256;
 
 }  // namespace

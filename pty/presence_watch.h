@@ -1,4 +1,4 @@
-// Tells which pseudo-terminals hosts have opened and closed. One inotify instance serves all terminals of a
+// Detects which pseudo-terminals hosts have opened and closed. One inotify instance serves all terminals of a
 // program, because Linux gives a user only 128 (fs.inotify.max_user_instances).
 #pragma once
 

@@ -158,7 +158,8 @@ std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
   return size < 0 ? 0 : static_cast<std::size_t>(size);
 }
 
-/// Waits until the host has so many bytes to read. A kernel thread carries them; a busy machine lets it wait.
+/// Waits until the host has this many bytes to read. A kernel thread carries them; on a busy machine it may
+/// be delayed.
 void PseudoTerminal::settle(std::size_t expected) const {
   if (!slave_) return;
   const auto end = std::chrono::steady_clock::now() + longest_count(slave_.get());
@@ -171,13 +172,13 @@ void PseudoTerminal::settle(std::size_t expected) const {
 
 // --- who is there ------------------------------------------------------------------------------
 //
-// inotify tells about every opening and closing in their order, but merges equal neighbours (two hosts
-// that open at once are one event), so its count is a hint only. What decides is the kernel's own: when
-// something has closed, we close our slave for a moment and see whether the master hangs up. Without inotify,
-// each poll_presence() does.
+// inotify reports every opening and closing in order, but merges equal neighbours (two hosts that open at
+// once are one event), so its count is only a hint. The kernel's own state decides: when something has
+// closed, we close our slave for a moment and see whether the master hangs up. Without inotify, each
+// poll_presence() does so.
 //
-// inotify is also early: a host's closing is told a moment before the kernel lets go of the terminal. So
-// "somebody is there", against the count, is believed at the second look only: until then it is in doubt.
+// inotify is also early: a host's closing is reported a moment before the kernel releases the terminal. So a
+// present host, against the count, is believed only at the second check: until then it is in doubt.
 
 PseudoTerminal::Presence PseudoTerminal::poll_presence() {
   follow_presence(!is_watched());

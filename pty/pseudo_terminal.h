@@ -56,8 +56,8 @@ class PseudoTerminal {
   /// Returns true if the watch has collected something, or read() has noticed something, that
   /// poll_presence() may report.
   bool has_presence_news() const { return news_.opened || news_.closed || place_.has_events(); }
-  /// Returns false if the kernel does not tell who opens and closes the line (it has no inotify instance or
-  /// watch left). Then call poll_presence() now and then. It notices who is there at that moment.
+  /// Returns false if the kernel does not report who opens and closes the line (it has no inotify instance or
+  /// watch left). Then call poll_presence() from time to time. It finds out who is there at that moment.
   bool is_watched() const { return static_cast<bool>(place_); }
   bool host_present() const { return is_present_; }
   /// A host seems to have gone, but the kernel has not released the line yet: call poll_presence() again in
@@ -65,7 +65,8 @@ class PseudoTerminal {
   bool is_in_doubt() const { return is_present_ && opens_ == 0; }
 
   /// Neither a host nor this process has the line open, because the kernel refused to let us reopen it.
-  /// data_descriptor() then reports a hang-up without end: do not watch it, but call recover() now and then.
+  /// data_descriptor() then reports a hang-up without end: do not watch it, but call recover() from time to
+  /// time.
   bool is_lost() const { return !slave_ && !is_present_; }
   /// This process has the slave open. If it does not, a host's descriptor keeps the line up: then call
   /// poll_presence() when data_descriptor() is readable, because the line may have hung up.

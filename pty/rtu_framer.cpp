@@ -19,7 +19,7 @@ namespace {
 struct LengthRule {
   std::uint8_t fixed = 0;          // all bytes or, with a byte count, the bytes that it does not count
   std::uint8_t byte_count_at = 0;  // index of the byte count, 0 if there is none
-  bool may_be_longer = false;      // another length is legal too, and only silence tells it
+  bool may_be_longer = false;      // another length is legal too, and only silence shows it
 };
 
 constexpr LengthRule rule_of(std::uint8_t function) {
@@ -52,7 +52,7 @@ enum class Fit {
 
 struct Verdict {
   Fit fit = Fit::waiting;
-  std::uint16_t size = 0;  // good: size of the frame; waiting: number of bytes at which to judge again
+  std::uint16_t size = 0;  // valid: size of the frame; waiting: number of bytes at which to check again
 };
 
 constexpr std::uint16_t kOnlySilenceTells = kRtuMaxFrame + 1;
@@ -69,8 +69,8 @@ ReceiveError error_in(std::span<const std::uint8_t> noise) {
   return is_cut ? ReceiveError::cut_off : ReceiveError::bad_checksum;
 }
 
-/// Judges a frame that would begin with the first of `bytes` (at least one). A length that only silence can
-/// tell is accepted for a frame that begins after a silence, never in the middle of noise.
+/// Checks a frame that would begin with the first of `bytes` (at least one). A length that only silence can
+/// show is accepted for a frame that begins after a silence, never in the middle of noise.
 Verdict judge(std::span<const std::uint8_t> bytes, bool is_in_noise) {
   if (bytes.size() < 2) return {Fit::waiting, 2};
   const std::uint8_t function = bytes[1];
@@ -220,8 +220,8 @@ void RtuFramer::end_of_silence() {
   state_.search_again_at = judge(bytes(state_.undecided, used()), false).size;
 }
 
-/// Returns where a frame begins that may wait for its rest: right behind a silence, a good frame or a pause;
-/// used() if there is none. `is_clean` tells that the undecided part begins at such a place.
+/// Returns where a frame begins that may wait for its rest: right after a silence, a valid frame or a pause;
+/// used() if there is none. `is_clean` says that the undecided part begins at such a place.
 RtuFramer::Index RtuFramer::beginning(bool is_clean) const {
   const auto may_wait = [this](Index first) {
     return first < used() && judge(bytes(first, used()), true).fit == Fit::waiting;

@@ -44,7 +44,7 @@ struct RtuFrame {
 };
 
 /// Returns the length of a request that begins with these bytes, by its function and byte count, or nothing
-/// if they do not tell.
+/// if they do not determine it.
 std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes);
 
 class RtuFramer {
@@ -54,11 +54,11 @@ class RtuFramer {
   /// A character has begun (Station::hear_start_bit): the silence is over before the character is. Optional:
   /// without it only the times of push() count, and take() may end a frame in the middle of a character.
   void start_bit(SimTime at);
-  /// Adds a character. Characters must be added in the order of time.
+  /// Adds a character. Characters must be added in chronological order.
   void push(const TimedByte& byte);
   /// Forgets all characters (another station used the line).
   void reset();
-  /// Judges an incomplete frame now, without waiting for patience: the first call acts as a pause, the
+  /// Checks an incomplete frame now, without waiting for the timeout: the first call acts as a pause, the
   /// second as if no more characters would come.
   void give_up_waiting();
 
@@ -147,7 +147,7 @@ class RtuFramer {
     Index candidate = 0;
     std::uint16_t search_again_at = 0;
     bool is_paused = false;  // there was a pause after the last character, and its frame waits for the rest
-    Index resumed = 0;       // the first character behind the last pause; 0: there was no pause
+    Index resumed = 0;       // the first character after the last pause; 0: there was no pause
     // The number of characters of this lump that are too many. Strict: those beyond the longest frame, which
     // are not stored. Tolerant: those that were given up before the end of the lump.
     std::uint64_t oversize = 0;
@@ -158,7 +158,7 @@ class RtuFramer {
   const State& save() const { return state_; }
   /// Throws std::invalid_argument if this framer cannot hold the state.
   void check(const State& state) const;
-  /// Checks the state, then puts it in force. If it throws, nothing has changed.
+  /// Checks the state, then puts it into effect. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:
@@ -168,7 +168,7 @@ class RtuFramer {
   bool may_be_over() const;
   RtuFrame frame_at(const Frame& place) const;
   RtuFrame take_ready();
-  SimTime patience() const;  // for the undecided part, under the rule in force
+  SimTime patience() const;  // for the undecided part, under the rule in effect
   SimTime usual_patience() const;
   bool is_silent(SimTime at) const;
   void be_silent_until(SimTime at);

@@ -40,9 +40,9 @@ class Station {
   /// settings.
   virtual LineSettings settings() const = 0;
 
-  /// A character from the host has begun; hear() follows when it is over. Called only if characters take
-  /// time. Without it a silence rule could not tell a short gap from a long one: the character that ends the
-  /// gap is received a whole character time after its start bit.
+  /// A character from the host has started; hear() follows when it has ended. Called only if characters take
+  /// time. Without it a silence rule could not distinguish a short gap from a long one: the character that
+  /// ends the gap is received a whole character time after its start bit.
   virtual void hear_start_bit(SimTime /*at*/) {}
 
   /// A character from the host has wholly arrived.
@@ -56,7 +56,7 @@ class Station {
   /// bytes are not delivered (see Line).
   virtual void hear_other_station() = 0;
 
-  /// No more characters have arrived for a while although the clock is stopped: the station gives up an
+  /// No more characters have arrived for a while although the clock is stopped: the station abandons an
   /// incomplete request.
   virtual void on_idle() {}
 

@@ -22,12 +22,12 @@ namespace understudy::pty {
 struct TextLineRules {
   std::size_t longest = 127;             // characters of a line, its end not counted
   bool echoes = false;                   // each character is sent back, and BS and DEL edit
-  bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is ignored wherever it comes
+  bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is always ignored
   bool has_flow_control = false;         // XOFF and XON
   std::string_view echoed_end = "\r\n";  // sent back at the end of a line
 };
 
-/// What one character has completed.
+/// The effect of one character.
 struct HeardText {
   enum class What : std::uint8_t { line, overlong, escape, hold, go_on } what = What::line;
   std::string text{};                // of a line, without its end
@@ -63,7 +63,7 @@ class TextLines {
   const State& save() const { return state_; }
   /// Throws std::invalid_argument if the state is impossible.
   static void check(const State& state);
-  /// Checks the state, then puts it in force. If it throws, nothing has changed.
+  /// Checks the state, then puts it into effect. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:

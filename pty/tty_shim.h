@@ -4,7 +4,7 @@
 namespace understudy::shim {
 
 /// Returns the number of the pseudo-terminal whose slave `descriptor` is, or -1 if it is not one. The number
-/// does not tell whether the emulator owns it.
+/// does not say whether the emulator owns it.
 int pseudo_terminal_number(int descriptor);
 
 }  // namespace understudy::shim

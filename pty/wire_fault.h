@@ -41,7 +41,7 @@ struct WirePiece {
 /// The largest number of pieces, however often a message is duplicated.
 inline constexpr std::size_t kMaxWirePieces = 16;
 
-/// Returns the pieces in the order of time; at equal times the original precedes its duplicate. Pieces
+/// Returns the pieces in chronological order; at equal times the original precedes its duplicate. Pieces
 /// without bytes are left out.
 std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
                                       std::span<const WireFault> stages);

@@ -1,4 +1,4 @@
-// Some things are forbidden only to ordinary users, so they cannot be tested as the administrator.
+// Some operations are forbidden only to ordinary users, so they cannot be tested as root.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 namespace understudy {
 
-/// While this object exists, the process is an ordinary user (nobody) in all its threads, if it was the
-/// administrator. `folder` and its contents then belong to that user.
+/// While this object exists, the process is an ordinary user (nobody) in all its threads, if it was root.
+/// `folder` and its contents then belong to that user.
 class OrdinaryUser {
  public:
   explicit OrdinaryUser(const std::string& folder) : was_(geteuid()), was_group_(getegid()) {

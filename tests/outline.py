@@ -213,7 +213,7 @@ class Outline:
             token = self.tokens[place]
             if kinds and kinds[-1] and (place == 0 or self.line_of(place) != self.line_of(place - 1)):
                 lines.add(self.line_of(place))
-            if token == '"':  # the lines that it went over have been left as empty ones behind it
+            if token == '"':  # the processed lines remain behind it as empty ones
                 follows = self.line_of(place + 1) if place + 1 < len(self.tokens) else 0
                 first = self.line_of(place)
                 blank = self.text[self.starts[place] + 1:self.starts[place] + 1 + max(0, follows - first)]

@@ -17,7 +17,7 @@ GENERATED = ("docs/fidelity/",)
 
 BEGIN = r"(?:^|(?<=[.!?:;] ))"  # of a sentence
 PLAIN = [(re.compile(pattern, re.MULTILINE), instead) for pattern, instead in (
-    # no German word order, and no relative clause as a subject
+    # German word order, and relative clauses as subjects
     (BEGIN + r"What (?![^.?]*\?)(?:is|was|are|were|has|had|comes|goes|does|it|they|you|nobody|somebody|hosts?) ",
      'a subject: "Dropped frames are reported" for "What was dropped is reported"'),
     (BEGIN + r"Where (?:a|an|the|there|it|they|no|that|nothing|none|several|both) ",
@@ -38,7 +38,7 @@ PLAIN = [(re.compile(pattern, re.MULTILINE), instead) for pattern, instead in (
     (r"\b(?:is|are) to be (?:seen|had|found)\b", '"you can see", "is shown"'),
     (r"\ball that (?:is|are|can|has|have|was|were|it|they|you|each|a|the|goes|comes|moves)\b", '"everything"'),
     (r"\bnothing of (?:it|them|that|this)\b", '"none of it"'),
-    # words that are not the field's
+    # words that are not the field's terms
     (r"\bin free time\b|\bfree time\b", '"virtual time", "as fast as the machine allows"'),
     (r"\bas in life\b|\bin life\b", '"as on the real device"'),
     (r"\bclock on the wall\b", '"wall clock"'),

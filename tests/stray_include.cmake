@@ -1,5 +1,5 @@
-# Tests that cmake/rooms.cmake refuses a file that includes what its room may not know, and accepts the rest.
-# Run as a script: cmake -DPROJECT=... -P stray_include.cmake
+# Tests that cmake/rooms.cmake refuses a file that includes a header that its room may not include, and accepts the
+# rest. Run as a script: cmake -DPROJECT=... -P stray_include.cmake
 string(RANDOM LENGTH 12 name)
 set(house /tmp/understudy-stray-${name})
 file(WRITE ${house}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)

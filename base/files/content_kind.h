@@ -1,4 +1,4 @@
-// Tells what a file holds from its first bytes. An output replaces only a file of its own kind, so a
+// Recognizes the kind of a file from its first bytes. An output replaces only a file of its own kind, so a
 // mistyped path does not destroy another file. A reader that is given the wrong kind of file can name the
 // kind it found.
 #pragma once
@@ -20,7 +20,7 @@ enum class ContentKind : std::uint8_t {
   trace,
   page,
   junit,
-  coverage,  // of programs, as lcov or Cobertura have it
+  coverage,  // of programs, in the format of lcov or Cobertura
   picture,
   // Kinds from here on are files that people write.
   bench,
@@ -32,7 +32,7 @@ enum class ContentKind : std::uint8_t {
   other,  // none of the kinds above
 };
 
-/// The number of first bytes that are enough to tell what a file holds.
+/// The number of first bytes that are enough to recognize a file.
 inline constexpr std::size_t kReplyTaskBytes = std::size_t{64} << 10;
 
 /// Returns the name with an indefinite article: "a recording".
@@ -42,8 +42,8 @@ std::string the(ContentKind kind);
 
 /// Returns the kind of a file. `head` is the whole file, or at least its first kReplyTaskBytes.
 ContentKind content_of(std::string_view head);
-/// Returns true if `head` begins a file of `kind`, or may once more is written: it is empty, or was cut off
-/// within its first words.
+/// Returns true if `head` begins a file of `kind`, or could do so after more is written: it is empty, or was
+/// cut off within its first words.
 bool is_of_kind(ContentKind kind, std::string_view head);
 
 /// Returns why a file of `kind` may not replace a file that begins with `head`: "it is a bench; expected a

@@ -13,8 +13,8 @@ struct FilePlace {
   int column = 0;
 };
 
-/// Reports what is wrong with a file that a user wrote, as one line a mistake: "file:line:column: field:
-/// what is wrong; what was expected".
+/// Reports the errors in a file that a user wrote, one line per error: "file:line:column: field: what is
+/// wrong; what was expected".
 class FileError : public std::runtime_error {
  public:
   struct Diagnostic {

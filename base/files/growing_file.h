@@ -27,7 +27,7 @@ class GrowingFile {
   ~GrowingFile();  // finishes
 
   /// Appends whole lines. The first call writes at once and replaces the old content; it throws
-  /// GrowingFileError if that fails. If a later line cannot be taken (the disk is full, or too slow), the
+  /// GrowingFileError if that fails. If a later line cannot be written (the disk is full, or too slow), the
   /// file ends there and the log says so: a file with a gap would be worthless.
   void take(std::string_view line);
   /// Waits until everything is written. Returns why the file ended early, or an empty string.

@@ -18,7 +18,7 @@ class HelperThread {
   HelperThread(const HelperThread&) = delete;
   HelperThread& operator=(const HelperThread&) = delete;
 
-  /// Queues a piece of work. Pieces run one after the other, in order. They must not throw.
+  /// Queues a piece of work. Pieces run one after another, in order. They must not throw.
   void give(std::function<void()> work);
 
  private:

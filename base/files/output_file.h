@@ -41,7 +41,7 @@ std::string output_target(const std::string& path);
 void require_replaceable(const std::string& target, ContentKind kind);
 
 /// Returns why nothing of that kind can be written to `path`. Empty if it can be, or if only opening it will
-/// tell.
+/// show.
 std::string why_not_writable(const std::string& path, ContentKind kind);
 
 /// The owner, group and permissions of a file.

@@ -120,7 +120,7 @@ FileText read_text_of(int descriptor) {
       return text;
     }
     if (size == 0) break;
-    // The file may grow while it is read, so its size beforehand is no limit.
+    // The file may grow while it is read, so its previous size is not a limit.
     if (bytes.size() + static_cast<std::size_t>(size) > kMaxTextBytes) {
       text.why = "is larger than " + std::to_string(kMaxTextBytes >> 20) + " MiB";
       return text;

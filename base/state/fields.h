@@ -1,4 +1,4 @@
-// Describes what a value consists of. Its fields are listed once, beside its type, and have their members'
+// Describes the parts of a value. Its fields are listed once, next to its type, and have their members'
 // names:
 //
 //   template <>
@@ -164,7 +164,7 @@ constexpr void for_each_field(T& value, auto visit) {
 }
 
 /// Copies only the fields of a value whose class cannot be copied. A restore reads into such a copy first,
-/// and assigns it once all of it is read.
+/// and assigns it once everything has been read.
 template <HasFields T>
 auto copy_fields(const T& value) {
   return fields_of<T>().apply([&](const auto&... named) { return std::tuple(value.*named.at...); });

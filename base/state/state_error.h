@@ -1,4 +1,4 @@
-// Thrown for bytes or values that are no valid state of the object they are given to.
+// Thrown for bytes or values that are not a valid state of the object they are given to.
 #pragma once
 
 #include <cstdint>

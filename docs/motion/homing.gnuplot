@@ -1,4 +1,4 @@
-# The homing modes: travel over time, with the switches' places shaded. Loaded by pictures.gnuplot.
+# The homing modes: distance over time, with the positions of the switches shaded. Loaded by pictures.gnuplot.
 set format y '%.0s%c'
 unset key
 set xlabel 'time, s' offset 0,0.5

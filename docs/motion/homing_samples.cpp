@@ -41,7 +41,7 @@ Environment machine() {
   return environment;
 }
 
-/// time s, travel, phase; every other tick until it stands.
+/// time s, travel, phase; every other tick until it stops.
 void trace(std::ofstream& file, const HomingProgram& program) {
   const Environment environment = machine();
   Axis axis;

@@ -1,5 +1,5 @@
-# Draws the pictures of docs/motion.md from the tables that motion_samples wrote.
-# Given: folder (of the tables), out (where the pictures go).
+# Draws the pictures of docs/motion.md from the tables that motion_samples wrote. Parameters: folder (of the tables),
+# out (the folder for the pictures).
 set style line 1 lc rgb '#1f6fb4' lw 2
 set style line 2 lc rgb '#c8501e' lw 2
 set style line 3 lc rgb '#2e8b57' lw 2
@@ -13,7 +13,7 @@ set format y '%.1s%c'
 
 file(name) = folder . '/' . name . '.dat'
 
-# Position, speed, acceleration and jerk above each other: name, title, and the curves' names ('' ends them).
+# Position, speed, acceleration and jerk, one above the other: name, title, and the curves' names ('' ends them).
 array kinds[4] = ['position, pulses', 'speed, pulses/s', 'accel., pulses/s²', 'jerk, pulses/s³']
 four(name, first, second, third) = sprintf("\
 set terminal svg size 760,820 font 'sans,13' noenhanced background rgb 'white'; \

@@ -2,7 +2,7 @@
 """Makes the pictures of docs/page.md from the running page: make_pictures.py UNDERSTUDY.
 
 Needs chromium, chromium-driver and python3-selenium. Fonts and edges differ from machine to machine, so the pictures are
-kept, and made anew by hand when the page has changed.
+committed, and redrawn by hand when the page has changed.
 """
 import os
 import pathlib
@@ -36,7 +36,7 @@ steps:
 
 
 class Shown:
-    """A command of the program that shows a page, with a browser."""
+    """A command of the program that serves a page, with a browser."""
 
     def __init__(self, program, words, folder, height):
         self.process = subprocess.Popen([program, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -48,7 +48,7 @@ class CoverageObserver final : public play::Observer {
  public:
   CoverageObserver(world::World& world, std::vector<world::ProgramSource> sources, CoverageFile& file)
       : coverage_(world), sources_(std::move(sources)), file_(file) {}
-  void world_restored(std::size_t /*steps*/) override {}  // what has run has run
+  void world_restored(std::size_t /*steps*/) override {}  // lines that have run stay covered
   void finish(play::ScenarioResult& /*result*/) override { file_.add(coverage_.report(sources_)); }
 
  private:

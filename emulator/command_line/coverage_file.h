@@ -21,7 +21,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// What a command is asked for. An empty path: no file; no minimum: any coverage will do.
+/// The options of a command. An empty path: no file; no minimum: any coverage is enough.
 struct CoverageWish {
   std::string path;
   std::optional<double> min_percent;
@@ -30,8 +30,8 @@ struct CoverageWish {
   bool is_wanted() const { return !path.empty() || min_percent; }
 };
 
-/// Claims the file. Throws UsageError for a path that is no kind of coverage, and for a minimum that is no
-/// percentage. `flag` is for messages.
+/// Claims the file. Throws UsageError for a path that is not a kind of coverage, and for a minimum that is
+/// not a percentage. `flag` is for messages.
 void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::string& flag = "--coverage");
 
 class CoverageFile {
@@ -44,7 +44,7 @@ class CoverageFile {
   void empty() { file_.empty(); }
   /// Adds the counts of a run. May be called on any thread.
   void add(const world::CoverageReport& report);
-  /// Returns an onlooker that adds the counts of a scenario's run.
+  /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer(const play::Scenario& scenario);
   /// Writes the file, and beside it the listings of programs that have no file of their own. Prints what has
   /// run. Returns false if that is less than the minimum.
@@ -68,11 +68,11 @@ struct RunCoverage {
 
   bool is_wanted() const { return programs.is_wanted() || devices.is_wanted(); }
   void empty();
-  /// Returns onlookers that add the counts of a scenario's run.
+  /// Returns observers that add the counts of a scenario's run.
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   /// Returns false if there is less than the minimum.
   bool write(std::FILE* told);
-  /// Returns what was written of programs as a section of a page; empty if nobody has asked for it.
+  /// Returns the coverage of programs as a section of a page; empty if it was not requested.
   std::string section() const;
 
   CoverageFile programs;
@@ -94,7 +94,7 @@ class ServedCoverage {
  private:
   CoverageFile file_;
   DeviceCoverageFile devices_file_;
-  std::unique_ptr<world::ProgramCoverage> counts_;  // null: nobody has asked for it
+  std::unique_ptr<world::ProgramCoverage> counts_;  // null: it was not requested
   std::unique_ptr<world::ControllerCoverage> devices_;
 };
 

@@ -216,7 +216,7 @@ struct VerbRow {
   void (*add_operands)(const ControlArguments& arguments, Json& message);
 };
 
-/// The verbs that take operands of their own. The others are looks, or take no operands.
+/// The verbs with their own operands. The others only display something, or take no operands.
 constexpr VerbRow kVerbs[] = {
     {"get", add_names},          {"eval", add_expression},     {"set", add_assignments},
     {"input", add_levels},       {"turn", add_turns},          {"power", add_power},

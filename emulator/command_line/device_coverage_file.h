@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Claims the file. Throws UsageError for a path that is no kind of coverage.
+/// Claims the file. Throws UsageError for a path that is not a kind of coverage.
 void require_device_coverage(FileClaims& claims, const std::string& path);
 
 class DeviceCoverageFile {
@@ -26,7 +26,7 @@ class DeviceCoverageFile {
   void empty() { file_.empty(); }
   /// Adds the counts of a run. May be called on any thread.
   void add(const world::TouchedReport& report);
-  /// Returns an onlooker that adds the counts of a scenario's run.
+  /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer();
   /// Writes the file, and prints what the worst gaps are.
   void write(std::FILE* told);

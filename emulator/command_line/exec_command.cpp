@@ -81,7 +81,7 @@ int tell_of(const CourseEnd& end, const play::Scenario& scenario) {
   return code;
 }
 
-/// Tells why the command's own exit code does not count, if it does not.
+/// Reports why the command's own exit code does not count, if it does not.
 int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   const std::string command = one_line(arguments.host.command[0]);
   if (end.has_timed_out) {

@@ -1,4 +1,5 @@
-// What the program would otherwise need from a newer C library than Ubuntu 22.04 has (glibc 2.35).
+// Functions that the program would otherwise need from a newer C library than that of Ubuntu 22.04
+// (glibc 2.35).
 #include <sys/random.h>
 #include <sys/types.h>
 

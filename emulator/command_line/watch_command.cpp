@@ -61,7 +61,7 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Writes the lines over the old ones in one piece. A screen that is cleared first flickers.
+  /// Writes the lines over the old ones in a single write. A screen that is cleared first flickers.
   void show(const std::vector<std::string>& lines) {
     const winsize size = size_now();
     std::string text = "\x1b[H";

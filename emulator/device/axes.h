@@ -18,7 +18,7 @@ class Axes {
   virtual bool has_axis(int /*axis*/) const { return true; }
   /// Returns the pulses that left the device in this tick, in the motor's direction (after every reversal).
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
-  /// Returns the planned speed in pulses a second: a real number, while the pulses of a tick are whole.
+  /// Returns the planned speed in pulses per second: a real number, while the pulses of a tick are whole.
   virtual double speed_pps(int axis) const = 0;
   /// Returns the pulses until the end of the current move or path, in the motor's direction. 0 at rest, and
   /// if the end is unknown (a move at constant speed, a search for home, following).
@@ -37,15 +37,15 @@ class Axes {
   /// Tells the device that the axis has an encoder with that count. Called when the world is made, before
   /// anything moves.
   virtual void connect_encoder(int /*axis*/, std::int64_t /*counts*/) {}
-  /// Sets the absolute count of the axis's encoder, as the plant has it.
+  /// Sets the absolute count of the axis's encoder, from the plant.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
 
   // --- edges between ticks: of a device that asks for them. Others see levels, once a tick ---------------
   /// Returns true if the device detects the switches of its machines at the exact pulse. The answer never
   /// changes.
   virtual bool meets_edges() const { return false; }
-  /// Returns the position that the device has counted, in the motor's direction. When it jumps, or the
-  /// machine does, the edges are set anew.
+  /// Returns the position that the device has counted, in the motor's direction. When it or the machine
+  /// jumps, the edges are set again.
   virtual std::int64_t place_pulses(int /*axis*/) const { return 0; }
   /// Sets the switch edges along the axis from now on. It is called again at power-on and after a restore;
   /// unchanged edges must have no effect. The edges are not part of the state.

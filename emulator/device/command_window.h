@@ -20,7 +20,7 @@ struct Model;
 /// The settings of a device that decide how a message is encoded.
 struct WindowForm {
   Firmware firmware = 0;
-  bool low_word_first = false;                 // as the device has it at this moment
+  bool low_word_first = false;                 // at this moment, from the device
   std::span<const std::uint8_t> choices = {};  // options by the model's rows; none: the first of each
 };
 

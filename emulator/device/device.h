@@ -119,11 +119,11 @@ class Device {
   std::vector<std::byte> save_state() const;
   /// Like the above, but shared texts are added to `shared`, and the bytes hold only their digests.
   std::vector<std::byte> save_state(std::vector<SharedText>& shared) const;
-  /// Reads a state that save_state() of a device with the same settings has returned. Calling the result
-  /// puts the state in force. Throws StateError for other bytes.
+  /// Reads a state that save_state() of a device with the same settings has returned. Calling the result puts
+  /// the state into effect. Throws StateError for other bytes.
   std::function<void()> read_state(std::span<const std::byte> bytes);
   std::function<void()> read_state(StateReader reader);
-  /// Reads a state and puts it in force at once. If it throws, nothing has changed.
+  /// Reads a state and puts it into effect at once. If it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
   /// Returns true if it equals another device of the same model bit for bit: both would save the same.
@@ -163,7 +163,7 @@ class Device {
   virtual void power_down() {}
   /// Writes the model's part of the state.
   virtual void write_own_state(StateWriter& writer) const = 0;
-  /// Reads the model's part of the state. Calling the result puts it in force, which does not throw.
+  /// Reads the model's part of the state. Calling the result puts it into effect, which does not throw.
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
   /// Reads the model's part of two states, and returns where they differ (base/state/difference.h).
   virtual std::string own_difference(StateReader& a, StateReader& b) const = 0;

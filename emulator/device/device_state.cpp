@@ -25,8 +25,8 @@ struct StateOf<emulator::Device> {
   static constexpr auto fields =
       FieldList{field<&Value::inputs_>(), field<&Value::powered_>(), field<&Value::now_>()};
   static constexpr std::size_t members = 9;
-  /// These members are no part of the state: the device is made from its model, settings and choices, the log
-  /// and its memory of messages belong to the user, and the flag of changed inputs only saves work.
+  /// These members are not part of the state: the device is made from its model, settings and choices, the
+  /// log and its memory of messages belong to the user, and the flag of changed inputs only saves work.
   static constexpr std::size_t apart = 6;
   static void name_all(Value& all) {  // does not compile if the members change
     [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] =

@@ -158,7 +158,7 @@ struct PortRow {
 /// The model's rules for its lines, whatever their protocol.
 struct LineRules {
   const Protocol& protocol;
-  std::span<const PortRow> ports;                   // one at least; a bench that names none means the first
+  std::span<const PortRow> ports;                   // at least one; a bench that names none means the first
   std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
 };
 
@@ -215,7 +215,7 @@ struct Model {
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that best show what the device is doing
-  std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
+  std::span<const std::string_view> gaps;  // what is missing beyond single registers, one sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};            // for a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none

@@ -67,7 +67,7 @@ class ProgramLanguage {
   /// Returns places in a text that loads but probably does not mean what it says, such as a label defined
   /// twice.
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
-  /// Returns the parts of a text that loads, for onlookers of the program; of one that does not, none.
+  /// Returns the parts of a text that loads, for observers of the program; of one that does not, none.
   virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
   /// Returns true if each part is a program that runs beside the others; false if parts call each other.
   virtual bool parts_run_at_once() const { return false; }

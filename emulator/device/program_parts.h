@@ -1,4 +1,4 @@
-// A program as its onlookers count it (base/program_watch.h): its parts, and the instructions of each.
+// A program as its observers count it (base/program_watch.h): its parts, and the instructions of each.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct ProgramLine {
 };
 
 struct ProgramPart {
-  int number = 0;    // as onlookers are told
+  int number = 0;    // as observers are told
   std::string name;  // "PLC", "MP21"; empty if there is only one
   std::vector<ProgramLine> lines = {};
 };

@@ -1,5 +1,5 @@
-// The base of a device whose whole state is one value: how the state is saved, told apart and restored, said
-// once. `State` has its fields (base/state/fields.h).
+// The base of a device whose whole state is one value. It defines once how the state is saved, compared and
+// restored. `State` has its fields (base/state/fields.h).
 //
 // What is declared here is defined in stateful_device_bytes.h. Only the source that lists the fields includes
 // that, and instantiates it for its device:
@@ -21,15 +21,15 @@ class StatefulDevice : public DeviceOf<Itself> {
   using DeviceOf<Itself>::DeviceOf;
 
   const State& state() const { return state_; }
-  /// Returns the state as if all ticks up to now had been run one by one. A device that leaves something of
-  /// skipped ticks for later hides this with a function of its own.
+  /// Returns the state as if all ticks up to now had been run one by one. A device that leaves part of
+  /// skipped ticks for later hides this with its own function.
   const State& settled() const { return state_; }
 
  protected:
   /// Throws StateError for a state that no device made like this one can be in, and completes one with what
   /// does not stand in its bytes.
   virtual void check_restored(State& restored) const = 0;
-  /// Puts a checked state in force. A device that keeps more than its state makes that fit here.
+  /// Puts a checked state into effect. A device that stores more than its state adjusts that here.
   virtual void take_over(const State& restored) { state_ = restored; }
 
   void write_own_state(StateWriter& writer) const final;

@@ -1,4 +1,5 @@
-// What stateful_device.h declares; it needs the fields of the state. One source of a model includes this.
+// Defines the members declared in stateful_device.h; it needs the fields of the state. One source of a model
+// includes this.
 #pragma once
 
 #include <functional>

@@ -22,9 +22,9 @@ struct ProgramLocation {
   int line = 0;                    // in program_text(), from 1; 0: unknown
   std::string text;                // the program's text at that line
   std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
-  std::string why;                 // why it has stopped or failed, or what went wrong on its way, if known
-  std::optional<SimTime> until{};  // of one that waits for a time: when it is over
-  std::vector<int> callers{};      // the lines at which its callers go on, the innermost first
+  std::string why;                 // why it has stopped or failed, or what went wrong, if known
+  std::optional<SimTime> until{};  // for one that waits for a time: when the wait ends
+  std::vector<int> callers{};      // the lines at which its callers continue, the innermost first
 };
 
 class UserProgram {
@@ -36,8 +36,8 @@ class UserProgram {
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
-  /// Onlookers are not state. Each is told everything from the next lines on; before lines run, it is told a
-  /// mark of the program.
+  /// Observers are not part of the state. Each is notified of everything from the next lines on; before lines
+  /// run, it gets a mark of the program.
   void add_watch(ProgramWatch& watch) {
     watches_.add(watch);
     watch_program(watches_.watch());
@@ -51,7 +51,7 @@ class UserProgram {
   ~UserProgram() = default;
 
  private:
-  /// Sets what is told of the lines, or nothing (null).
+  /// Sets the observer of the lines, or none (null).
   virtual void watch_program(ProgramWatch* /*watch*/) {}
 
   ProgramWatches watches_;

@@ -76,7 +76,7 @@ int read_input(const YamlFields& field, const Description& description) {
              suggestion(field.text(), names, "`inputs` of the model has none"));
 }
 
-/// A key that another key needs beside it.
+/// A key that another key requires.
 struct Need {
   std::string_view key;
   std::string_view needed;

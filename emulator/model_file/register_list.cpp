@@ -170,7 +170,7 @@ std::vector<ListedRegister> read_register_list(const std::string& text, const Li
       fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
     const std::size_t before = diagnostics.count();
     const std::vector<Column> columns = read_headings(rows.front(), place, diagnostics);
-    if (diagnostics.count() != before) return;  // what columns mean is not known
+    if (diagnostics.count() != before) return;  // the meaning of the columns is not known
     Taken taken;
     for (std::size_t i = 1; i < rows.size(); ++i) {
       diagnostics.attempt([&] {

@@ -119,7 +119,7 @@ void PageBench::send_asks() {
   for (std::size_t i = 0; i < kAsksATurn && !asks_.empty(); ++i) {
     Ask ask = std::move(asks_.front());
     asks_.pop_front();
-    // Each message has a wire of its own, because some are answered only at a later simulated time.
+    // Each message has a separate connection, because some are answered only at a later simulated time.
     const std::uint64_t number = ++last_ask_;
     auto& wire = ask_wires_[number] = web_.wire(socket_);
     wire->ask(std::move(ask.message),

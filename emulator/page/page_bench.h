@@ -139,7 +139,7 @@ class PageBench {
   std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;
   std::uint64_t last_ask_ = 0;
   std::shared_ptr<bool> alive_ =
-      std::make_shared<bool>(true);    // tells later callbacks whether this object still exists
+      std::make_shared<bool>(true);    // lets later callbacks find out whether this object still exists
   std::unique_ptr<ControlWire> wire_;  // for looks
 };
 

@@ -230,7 +230,7 @@ FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
       strikes.push_back(strike_of(number, fault, true));
       continue;
     }
-    // A fault of a machine or device does not strike again while it is in force.
+    // A fault of a machine or device does not strike again while it is in effect.
     if (is_of_frames(fault.kind) || !is_about_frames(fault.trigger) || course.in_force) continue;
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, fault, true));

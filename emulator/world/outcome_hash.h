@@ -37,7 +37,7 @@ class OutcomeHash final : public TickWatcher {
   void add_outputs(const Device& device, const std::vector<Outputs>& outputs);
 
   World& world_;
-  std::vector<std::unique_ptr<LineHasher>> line_hashers_;  // one a line
+  std::vector<std::unique_ptr<LineHasher>> line_hashers_;  // one per line
   std::vector<std::vector<Outputs>> outputs_;              // by device
   std::uint64_t hash_;
 };

@@ -46,7 +46,7 @@ WorldState save(const World& world);
 /// listener stay. The world must outlive the result.
 std::function<void()> read_state(World& world, const WorldState& state);
 
-/// Reads a state and puts it in force at once. If it throws, nothing has changed.
+/// Reads a state and puts it into effect at once. If it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
 /// Returns the first field in which two states of such a world differ, by path and name:
@@ -55,7 +55,7 @@ void restore(World& world, const WorldState& state);
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
 /// Returns a hash of everything that affects the model and of nothing else: not of bytes that a host has not
-/// taken yet, nor of whether quiet ticks were skipped in bulk, nor of counts of that.
+/// read yet, nor of whether quiet ticks were skipped in bulk, nor of counts of that.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

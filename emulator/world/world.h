@@ -47,7 +47,8 @@ class World final : public WorldView {
   SimTime now() const override { return now_; }
   /// Processes everything that is due up to and including `time`. A time in the past has no effect.
   void advance_to(SimTime time);
-  /// Returns when something happens next by itself, or nothing if only outside events can change anything.
+  /// Returns when something happens next without outside events, or nothing if only those can change
+  /// anything.
   std::optional<SimTime> next_due() const;
   std::uint64_t ticks_run() const { return ticks_.run; }          // one by one
   std::uint64_t ticks_skipped() const { return ticks_.crossed; }  // in bulk
@@ -136,7 +137,7 @@ class World final : public WorldView {
   void load_program(std::size_t device, std::string_view text);
   /// Gives a device a command by its name without using the line: as one message to its window
   /// (emulator/device/command_window.h), or as a line of text whose answer is not sent. Throws ProgramError
-  /// for a text that is no command. Returns why the device refused it.
+  /// for a text that is not a command. Returns why the device refused it.
   Objection command(std::size_t device, std::string_view text);
   /// Switches power between two ticks. A device without power stops sending at once. During a power-cut
   /// fault the device stays off; it comes back afterwards only if it is switched on.
@@ -145,12 +146,12 @@ class World final : public WorldView {
   const std::vector<WireSetup>& wires() const { return wires_; }
 
   // --- faults --------------------------------------------------------------------------------
-  /// Adds a fault, in force from the next tick on or when its trigger says so. Returns its number for
+  /// Adds a fault, in effect from the next tick on or when its trigger says so. Returns its number for
   /// clear_fault(). Throws NameError if this world cannot have it; then nothing has changed.
   std::size_t inject(const Fault& fault);
-  /// Returns false if there is no fault of that number.
+  /// Returns false if there is no fault with that number.
   bool clear_fault(std::size_t number);
-  /// Clears all faults, in force or waiting, in the order of their numbers.
+  /// Clears all faults, in effect or waiting, in the order of their numbers.
   void clear_faults();
   const std::map<std::size_t, ArmedFault>& faults() const { return faults_; }
 

@@ -26,7 +26,7 @@ void World::connect_drive(const MachineSetup& machine) {
 }
 
 /// Returns the inputs that a controller gives to the drive of an axis. Without an output for it, the axis
-/// itself says whether the servo is on.
+/// itself reports whether the servo is on.
 DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
   const Device& device = *devices_[number];
   const AxisRow& row = device.model().axes[axis];

@@ -1,6 +1,6 @@
-// Tells devices that handle edges between ticks where along an axis its machine's switches change the levels
-// of inputs. They are told whenever that changes: when the machine loses pulses or gets them back, or is
-// pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
+// Informs devices that handle edges between ticks where along an axis its machine's switches change the
+// levels of inputs. They are informed whenever that changes: when the machine loses pulses or gets them back,
+// or is pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -84,7 +84,7 @@ void World::tell_edges_anew(std::size_t device) {
   tell_edges(device);
 }
 
-/// Tells the edges anew if the machine has lost or gained pulses. Runs after ticks in which no switch has
+/// Sends the edges again if the machine has lost or gained pulses. Runs after ticks in which no switch has
 /// changed.
 void World::look_at_places(std::size_t device) {
   for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {

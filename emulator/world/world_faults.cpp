@@ -92,7 +92,7 @@ void World::arm_faults() {
 
 Tick World::next_fault_tick() const { return fault_watch_ ? fault_watch_->next_tick(done_) : kNever; }
 
-/// Looks at the faults at the end of a tick that was run.
+/// Checks the faults at the end of a tick that was run.
 void World::look_at_faults() {
   now_ = std::max(now_, time_of(done_));
   fault_watch_->look(now_, true);

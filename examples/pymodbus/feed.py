@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A host with pymodbus: it moves axis A one revolution forth and back, and checks that it arrived.
+"""A host with pymodbus: it moves axis A one revolution out and back, and checks that it arrived.
 
 Written for pymodbus 3.0 of Debian 12. The port is that of `understudy exec`.
 """
@@ -56,4 +56,4 @@ for pulses, target in ((3200, 3200), (-3200, 0)):
     if at != target:
         sys.exit(f"feed.py: axis A is at {at}; expected {target}")
     print(f"feed.py: axis A is at {at}")
-    client.close()  # and opened again for the way back
+    client.close()  # and opened again for the return move

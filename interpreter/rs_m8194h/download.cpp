@@ -95,7 +95,7 @@ void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line,
   download.line = static_cast<std::uint16_t>(line);
 }
 
-/// Returns a GOTO whose label did not come, or null.
+/// Returns a GOTO whose label is missing, or null.
 const Command* lost_jump(const std::vector<Command>& lines) {
   const auto lost = std::ranges::find_if(lines, [&lines](const Command& jump) {
     return jump.verb() == Verb::goto_ && std::ranges::none_of(lines, [&jump](const Command& command) {

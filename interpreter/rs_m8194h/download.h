@@ -30,8 +30,8 @@ struct DownloadOptions {
   bool faults_show_at_close = false;
   /// True: of several errors the last one is shown; false: the first.
   bool last_error_counts = false;
-  /// Whether a line that is refused for its class, its registers or a parameter is left out, or spoils the
-  /// download.
+  /// Whether a line that is refused for its class, its registers or a parameter is omitted, or invalidates
+  /// the download.
   enum class RefusedLine : std::uint8_t { is_left_out, spoils } refused_line = RefusedLine::is_left_out;
 
   bool operator==(const DownloadOptions&) const = default;
@@ -64,7 +64,7 @@ struct Download {
 /// Returns the lines for which there is still room.
 int room_of(const Download& download, const DownloadOptions& options);
 
-/// Adds a line that decode() accepts in this state. Returns the reason if it is refused, else none.
+/// Adds a line that decode() accepts in this state. Returns the reason if it is refused, otherwise none.
 Fault add(Download& download, const Command& command, const DownloadOptions& options = {});
 /// Records a line that decode() has refused: undefined commands are download errors.
 void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadOptions& options = {});

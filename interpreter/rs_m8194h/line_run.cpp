@@ -44,7 +44,7 @@ class LineRun {
 
  private:
   Level& level() { return run_.levels.back(); }
-  /// Tells an onlooker that the line begins, unless the machine has already made it wait.
+  /// Tells an observer that the line begins, unless the machine has already made it wait.
   void begin() {
     watched_part_ = part_of(name_of_level(run_, level()));
     watched_line_ = level().line;
@@ -217,7 +217,7 @@ class LineRun {
 
   Ran exit_macro(const Command&) {
     level().loops.clear();
-    level().line = UINT16_MAX;  // behind its end, whatever its length
+    level().line = UINT16_MAX;  // after its end, whatever its length
     return Ran::on;
   }
 
@@ -310,7 +310,7 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& 
       if (is_there && (run.saw_other_level || !options.frnet_wait_needs_edge)) return true;
       if (run.until_ms == kNever || now_ms < run.until_ms) return false;
       if (options.frnet_wait_timeout_is_error) {
-        const Level& level = run.levels.back();  // it stands behind the line already
+        const Level& level = run.levels.back();  // it is already after the line
         machine.report({name_of_level(run, level), macro_code(Verb::frnet_wait),
                         static_cast<std::uint16_t>(level.line - 1), Fault::operand});
       }

@@ -26,7 +26,7 @@ enum class Ran : std::uint8_t {
   all_ended,  // the run has ended
 };
 
-/// Runs the next line of a run that is alive and waits for nothing else.
+/// Runs the next line of a run that is active and waits for nothing else.
 Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
                   Machine& machine);
 

@@ -54,7 +54,7 @@ class ListingReader {
  public:
   ListingReader(const CommandOptions& command_options, const DownloadOptions& download_options)
       : command_options_(command_options), download_options_(download_options) {
-    download_options_.faults_show_at_close = false;  // a text is told of each in its place
+    download_options_.faults_show_at_close = false;  // each error is reported to a text in its place
   }
 
   ParsedListing run(std::string_view text) {

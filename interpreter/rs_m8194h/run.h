@@ -135,7 +135,7 @@ void replaced(Execution& execution, const MacroName& name, Machine& machine);
 /// FIFO: none while a macro is alive. While paused, no MP continues.
 int run_tick(Execution& execution, std::int64_t now_ms, int budget, bool is_paused, const RunOptions& options,
              Machine& machine);
-/// Runs one line of the macro whose turn it is. Returns false if none is alive, or if it waits.
+/// Runs one line of the macro whose turn it is. Returns false if none is active, or if it waits.
 bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const RunOptions& options,
               Machine& machine);
 

@@ -71,7 +71,7 @@ class Assembler {
   struct Marks {
     std::vector<Token> names;         // labels that get a flag of their own
     std::optional<Token> mark;        // the first of them
-    std::optional<Token> flag_token;  // who gave the JMP cell, if it is given
+    std::optional<Token> flag_token;  // the author of the JMP cell, if it is given
     std::optional<std::uint8_t> flag;
     bool promises_flag = false;  // by "JMP7:", which must then lead here
   };
@@ -301,7 +301,7 @@ class Assembler {
     check_that_flags_lead_to_labels();
   }
 
-  /// The last of several lines with a flag has it, so a label on another line would mislead.
+  /// The last of several lines with a flag counts, so a label on another line would mislead.
   void check_that_flags_lead_to_labels() {
     std::array<std::size_t, 256> last{};
     for (std::size_t place = 0; place < lines_.size(); ++place) last[lines_[place].flag] = place;

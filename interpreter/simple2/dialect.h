@@ -90,8 +90,8 @@ struct Dialect {
     with_sign
   } timer_compare = TimerCompare::without_sign;
 
-  /// What a waiting line does if its move is cut short: it is over, or it waits until a later move is
-  /// complete, or the program ends.
+  /// What a waiting line does if its move is cut short: it ends, or it waits until a later move completes, or
+  /// the program ends.
   enum class WaitCutShort : std::uint8_t {
     line_is_over,
     waits_on,

@@ -15,7 +15,7 @@ struct Line {
   std::uint8_t command = 0;
   std::uint8_t data1 = 0;
   std::uint8_t data2 = 0;
-  // the manual's JMP: the flag that marks this line, 1 to 64; other values are no flag
+  // the manual's JMP: the flag that marks this line, 1 to 64; other values are not flags
   std::uint8_t flag = 0;
 
   bool operator==(const Line&) const = default;

@@ -111,7 +111,7 @@ enum class Verb : std::uint8_t {
   continuous_path,  // variant: mode 0 to 2
 };
 
-/// What may stand at one place after a command's name.
+/// What may stand in one place after a command's name.
 enum class Slot : std::uint8_t {
   none,
   real,           // a constant

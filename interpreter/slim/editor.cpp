@@ -30,7 +30,7 @@ bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& opti
   return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
 }
 
-/// What an editing command starts with.
+/// The first word of an editing command.
 struct Desk {
   Editor& editor;
   Program& program;

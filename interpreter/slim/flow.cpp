@@ -80,7 +80,7 @@ class LineRun {
   Error go_on() { return go_to(execution_.line + 1); }
 
  private:
-  /// Tells an onlooker that the line begins. One that waits has begun already.
+  /// Tells an observer that the line begins. One that waits has begun already.
   void begin() {
     begins_ = execution_.hold == Hold::nothing;
     if (begins_) machine_.watch()->runs(0, execution_.line, 1);

@@ -28,7 +28,7 @@ struct FlowOptions {
   enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
   /// True: events need a running program; false: they also call their routine without one.
   bool events_need_program = true;
-  /// What WT and JTI do after an interruption by an event: they begin again, or their time has continued.
+  /// What WT and JTI do after an interruption by an event: they start again, or their time has continued.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
     goes_on

@@ -11,10 +11,9 @@ namespace understudy::interpreter::slim {
 
 /// The result of a command.
 struct Outcome {
-  bool waits =
-      false;  // not carried out yet: nothing has changed, and the program asks again at the next tick
+  bool waits = false;  // not executed yet: nothing has changed, and the program asks again at the next tick
   Error error = Error::none;
-  /// What happens to the program that gave the command.
+  /// The effect on the program that gave the command.
   enum class Program : std::uint8_t {
     goes_on,
     forgets_what_it_interrupted,  // the program ends at the RET of the event's routine

@@ -37,7 +37,7 @@ struct RowKey {
   enum class Schema : std::uint8_t { plain, assignment, query };
   Schema form = Schema::plain;
   bool takes_module = false;
-  std::string_view head;  // of a query all behind the "?"
+  std::string_view head;  // for a query everything after the "?"
 
   constexpr explicit RowKey(const CommandRow& row)
       : form(row.is_query()        ? Schema::query
@@ -137,7 +137,7 @@ ParseResult assign(const Prefixed& name, int row_number, std::string_view data, 
   return understood(std::move(command));
 }
 
-/// Returns the row of a variable. Anything else is taken for R#: its error is found elsewhere.
+/// Returns the row of a variable. Anything else is treated as R#: its error is found elsewhere.
 int row_of_variable(Kind kind, bool is_query) {
   if (is_query) return holds_integer(kind) ? row_of("?N#") : row_of("?R#");
   if (is_array(kind)) return holds_integer(kind) ? row_of("NS(i)=data") : row_of("RS(i)=data");

@@ -104,7 +104,7 @@ void add_error(Error& sum, Error error) {
   if (sum == Error::none || error == Error::syntax) sum = error;
 }
 
-/// Matches items with slots one after the other, until a syntax error.
+/// Matches items with slots one after another, until a syntax error.
 class Matching {
  public:
   Matching(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,

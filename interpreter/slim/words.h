@@ -15,7 +15,7 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 constexpr bool is_letter(char c) { return capital(c) >= 'A' && capital(c) <= 'Z'; }
 
-std::string_view without_blanks(std::string_view text);  // in front and behind
+std::string_view without_blanks(std::string_view text);  // in front and after
 std::string in_capitals(std::string_view text);
 /// Takes the leading letters and digits of the text, in capitals. So JG0 is another word than JG, and HON
 /// another than H.

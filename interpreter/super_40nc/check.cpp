@@ -93,7 +93,7 @@ class Checker {
     const auto row =
         std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaRow& r) { return r.name == name; });
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
-    is_lost_ = true;  // nothing more is said of its lines
+    is_lost_ = true;  // its lines are not checked further
     if (row == kAreas.end()) {
       return fail(at, Code::unknown, name.empty() ? "AREA has no name" : quoted(at.text) + " is not an area",
                   "C, X, Y, Z, U or PLC");

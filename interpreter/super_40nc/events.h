@@ -56,7 +56,7 @@ enum class Reaction : std::uint8_t {
   stop,          // stops its motors at once, and forgets
   broken,        // forgets; the machine has stopped the motors
   motions_wait,  // the next motion line waits
-  rest_waits,    // what was frozen continues only afterwards
+  rest_waits,    // frozen motion continues only afterwards
   same_step,     // continues at the same step of the new file
 };
 

@@ -37,7 +37,7 @@ enum class Begun : std::uint8_t {
 
 /// The interface to the device. Any call may start, stop and replace programs, even the one whose line makes
 /// the call (D8000, D8020, D9001). Therefore the current line is a copy, and the caller of a scan keeps its
-/// ladder until the scan is over.
+/// ladder until the scan has ended.
 class Machine : public Watched {
  public:
   virtual ~Machine() = default;
@@ -55,7 +55,7 @@ class Machine : public Watched {
   /// The same for D8000 to D8599 and D9000 to D9499.
   virtual std::int32_t special_register(int number) const = 0;
   virtual bool set_special_register(int number, std::int32_t value) = 0;
-  /// Returns the parameter value in force; a written value may act later.
+  /// Returns the parameter value in effect; a written value may act later.
   virtual std::int32_t parameter_in_force(int number) const { return special_register(number); }
   /// Returns X14 as at power-up: the speed of an axis until the first RPM.
   virtual std::int32_t rpm_at_power_up(int axis) const = 0;
@@ -82,10 +82,10 @@ class Machine : public Watched {
   /// Returns `runs` if an axis has to come to rest first.
   virtual Begun begin(Area by, const Rotation& rotation) = 0;
   virtual Begun begin(Area by, const WheelRatios& ratios) = 0;
-  /// Returns true while the motion that a program waits for is under way: from a begin() that returned `runs`
-  /// until it has arrived, or was abandoned without resetting the program. A held motion is running.
+  /// Returns true while the motion that a program waits for is in progress: from a begin() that returned
+  /// `runs` until it has arrived, or was abandoned without resetting the program. A held motion is running.
   virtual bool is_running(Area by) const = 0;
-  /// M8006, PAUSE: the program's motion stops by its ramp and remains the program's; axes that follow the
+  /// M8006, PAUSE: the program's motion stops along its ramp and remains the program's; axes that follow the
   /// wheel continue.
   virtual void hold(Area by) = 0;
   /// Continues held motion; a home search begins again.

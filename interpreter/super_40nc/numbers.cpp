@@ -55,7 +55,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   return result;
 }
 
-/// FMV: writes registers in ascending order, so each write takes effect in its turn.
+/// FMV: writes registers in ascending order, so each write takes effect in turn.
 Calculated fill(const Instruction& line, Access& access, const Options& options) {
   const std::int64_t count = access.value(line.fields[2]);
   const Block* const block = block_of(line.fields[1]);
@@ -128,7 +128,7 @@ constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
                  const auto&) { return gives(line, 0, value(line, 0, access) - 1, access); }},
     {Op::abs,
      [](const auto& line, auto& access, const auto&) {
-       return gives(line, 0, std::abs(value(line, 0, access)), access);  // the least one stays
+       return gives(line, 0, std::abs(value(line, 0, access)), access);  // the minimum stays
      }},
 };
 constexpr std::array kCalculationOps{Op::mov, Op::zrst, Op::fmv, Op::add, Op::sub,

@@ -1,5 +1,5 @@
-// What may stand in a field of an instruction: a constant, a contact or a register, and which of them exist.
-// (Manual, 接點元件編號一覽表, 暫存器元件編號一覽表.) All numbers are decimal; registers have 32 bits.
+// The possible contents of a field of an instruction: a constant, a contact or a register, and which of them
+// exist. (Manual, 接點元件編號一覽表, 暫存器元件編號一覽表.) All numbers are decimal; registers have 32 bits.
 #pragma once
 
 #include <array>

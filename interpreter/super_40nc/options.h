@@ -57,7 +57,7 @@ struct Options {
   bool remainder_needs_room = false;
   /// In which direction a quotient is rounded; the remainder follows from it.
   enum class Quotient : std::uint8_t { towards_0, downwards } quotient = Quotient::towards_0;
-  /// True: RPM of 0 or less keeps an axis's speed; false: it means the least speed.
+  /// True: RPM of 0 or less keeps an axis's speed; false: it means the minimum speed.
   bool rpm_0_keeps_speed = false;
 
   // --- the PLC --------------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ struct Options {
   } loose_return = LooseReturn::stops_program;
   /// What CAL does with a count below 1.
   enum class NoPasses : std::uint8_t { are_skipped, mean_endless } no_passes = NoPasses::are_skipped;
-  /// What motion does of an axis that the program does not own (C21).
+  /// What motion does for an axis that the program does not own (C21).
   enum class NotOwned : std::uint8_t { is_void, stops_program } not_owned = NotOwned::is_void;
   /// What START of an empty area does.
   enum class EmptyProgram : std::uint8_t {

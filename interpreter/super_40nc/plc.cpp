@@ -38,8 +38,8 @@ class Scan {
         a_unit_is_over_(plc.unit_ms + options.scan_ms >= options.timer_unit_ms),
         growth_(options.timer_unit_ms <= 1 ? options.scan_ms : 1) {}
 
-  /// `is_watched`: an onlooker is told of each step. Whatever costs a call is inlined in both: with two
-  /// callers, the compiler would call it, which makes a scan slower by a fifth.
+  /// `is_watched`: an observer is notified of each step. Anything that costs a call is inlined in both: with
+  /// two callers, the compiler would call it, which makes a scan slower by a fifth.
   template <bool is_watched>
   void steps(const LadderStep* step) {
     for (;; ++step) {

@@ -37,14 +37,14 @@ class StepControl {
 
 struct Scanned {
   /// True if the scan has changed anything except timers whose value is not read. If false, all further scans
-  /// would do the same until something in Ladder::reads() changes, or `quiet_scans` scans are over.
+  /// would do the same until something in Ladder::reads() changes, or `quiet_scans` scans have passed.
   bool has_changed = false;
   std::int64_t quiet_scans = INT64_MAX;
 };
 
 /// Goes to RUN, also at power-up and after another program is loaded; X must be up to date.
 void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& options = {});
-/// Goes to STOP: jogs of the PLC stop by a ramp; everything else continues, and stays as it is.
+/// Goes to STOP: jogs of the PLC stop along a ramp; everything else continues, and stays unchanged.
 void stop(PlcState& plc, Machine& machine);
 
 /// Runs one scan, of 1 ms. Does nothing in STOP.

@@ -22,7 +22,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Tells an onlooker that the line begins. One that waits has begun already.
+/// Tells an observer that the line begins. One that waits has begun already.
 void StepPrograms::begin_line(Area area) {
   const StepState& program = state(area);
   const bool waits = program.phase == Phase::waiting || program.left_ms > 0;

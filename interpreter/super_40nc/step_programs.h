@@ -17,7 +17,7 @@
 namespace understudy::interpreter::super_40nc {
 
 struct Call {
-  int back = 0;             // step behind CAL
+  int back = 0;             // step after CAL
   int label = 0;            // step
   std::int64_t passes = 0;  // passes left, including the running one
 
@@ -37,7 +37,7 @@ struct StepState {
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // result of the last contacts
   bool owns_pointer =
-      false;  // not state: a line is at work, and nothing else has moved its program's pointer
+      false;  // not state: a line is running, and nothing else has moved its program's pointer
   // Modal values: loaded at a fresh start, kept at any other start. F and the plane are D8006 and D8007.
   bool has_modes = false;
   Targets targets = Targets::absolute;
@@ -161,7 +161,7 @@ class StepPrograms : public StepControl {
   Access access_;
   Machine& machine_;
   const Options& options_;
-  int watched_line_ = -1;  // by an onlooker; -1: none, or the line has begun before
+  int watched_line_ = -1;  // by an observer; -1: none, or the line has begun before
 };
 
 }  // namespace understudy::interpreter::super_40nc

@@ -183,7 +183,7 @@ class Structure {
   const Options& options_;
   std::vector<Fault> faults_;
   int line_ = 0;
-  Op before_ = Op::end;  // the last line but for NOP
+  Op before_ = Op::end;  // the last line except for NOP
   int blocks_ = 0;       // begun in the area so far
   int pending_ = 0;      // begun since something has read the result
   int branches_ = 0;

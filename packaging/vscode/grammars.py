@@ -61,7 +61,7 @@ def simple2(tables):
     jumps = [row["mnemonic"] for row in rows if row["data1"].startswith("flag ")]
     ends = [row["mnemonic"] for row in rows if row["mnemonic"] == "END"]
     others = [row["mnemonic"] for row in rows if row["mnemonic"] not in jumps + ends]
-    # Parameters whose register has no number of its own have its name in a listing; the others are MEM0, VAR32, DAT64.
+    # Parameters whose register has no number are written by name in a listing; the others are MEM0, VAR32, DAT64.
     registers = [row["name"] for row in tables.describe("simple2-r3", "parameters")
                  if not re.match(r"(?:PROG|Parms)_", row["name"])]
     registers += [re.sub(r"^Axis_", "Aaxis_", name) for name in registers]

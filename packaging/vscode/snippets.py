@@ -53,7 +53,7 @@ def rs_m8194h(tables):
     for row in tables.describe("rs-m8194h", "instructions"):
         if "MP" not in row["areas"].split() and "ISR" not in row["areas"].split() or "_CLOSE" in row["mnemonic"]:
             continue
-        # "axis (axes, X to XYZU); data (0 to 10)": only the names.
+        # Returns only the names of "axis (axes, X to XYZU); data (0 to 10)".
         operands = re.findall(r"(?:^|; )(\w+) \(", row["operands"])
         yield snippet(row["mnemonic"], f"{row['mnemonic']} {places(operands)}".rstrip(), row["meaning"])
     for kind, meaning in (("MP", "A macro"), ("ISR", "A macro for interrupts")):

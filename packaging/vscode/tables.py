@@ -35,7 +35,7 @@ class Tables:
         refused = set()
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "program")
-            for first in range(0, len(lines), 50):  # reading stops at the hundredth mistake
+            for first in range(0, len(lines), 50):  # check stops at the hundredth error
                 some = lines[first:first + 50]
                 with open(path, "w", encoding="utf-8") as file:
                     file.write("\n".join(some) + "\n")

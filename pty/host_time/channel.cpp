@@ -24,7 +24,7 @@ namespace {
 const Page* page = nullptr;
 sockaddr_un bench_address = {};
 
-/// A thread's side of its connection. `inode` tells whether the descriptor is still ours: some programs close
+/// A thread's side of its connection. `inode` shows whether the descriptor is still ours: some programs close
 /// all descriptors that they do not know.
 struct Connection {
   int descriptor;
@@ -204,7 +204,7 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
   for (nfds_t i = 0; i < wait.other_count; ++i) entries[i + 1] = wait.others[i];
   Woken woken = Woken::by_bench;
   while (true) {
-    // A plain recv: as the signal's handler wishes, the kernel goes on with it or not.
+    // A plain recv: the kernel continues it or not, as the signal's handler wishes.
     const bool is_plain = wait.is_restartable;
     const long result =
         is_plain ? 1 : UNDERSTUDY_REAL(ppoll)(entries, wait.other_count + 1, nullptr, wait.mask);
@@ -271,7 +271,7 @@ long wait_for_either(uint32_t* word, uint32_t value, bool is_shared, const uint3
   words[1].flags = FUTEX_32;
   const long result = UNDERSTUDY_REAL(syscall)(SYS_futex_waitv, words, 2U, 0U, nullptr, CLOCK_MONOTONIC);
   if (result >= 0 || errno != ENOSYS) return result;
-  const timespec soon = {0, 1'000'000};  // a kernel before 5.16: it looks at both now and then
+  const timespec soon = {0, 1'000'000};  // a kernel before 5.16: it looks at both from time to time
   return UNDERSTUDY_REAL(syscall)(SYS_futex, word, is_shared ? FUTEX_WAIT : FUTEX_WAIT_PRIVATE, value, &soon,
                                   nullptr, 0);
 }

@@ -1,4 +1,4 @@
-// Clocks of a host in simulated time: they show what the page says, and stand while the host computes.
+// Clocks of a host in simulated time: they show the page's time, and stop while the host computes.
 #include <errno.h>
 #include <sys/time.h>
 

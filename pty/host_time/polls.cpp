@@ -1,7 +1,7 @@
 // poll, select and epoll of a host in simulated time.
 //
-// Each looks first, and then waits as the bench decides and looks again. What waits for sockets to other
-// machines alone waits in real time, while simulated time stands.
+// Each checks first, and then waits as the bench decides and checks again. A wait only for sockets to other
+// machines happens in real time, while simulated time is stopped.
 #include <errno.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -61,7 +61,7 @@ class Sorted {
     others_[wait.other_count++] = {descriptor, events, 0};
     wait.others = others_;
   }
-  /// Nothing but sockets to somewhere else.
+  /// Nothing but sockets to other machines.
   bool is_all_outside() const { return is_all_outside_ && !is_empty_; }
 
  private:
@@ -72,7 +72,7 @@ class Sorted {
   bool is_empty_ = true;
 };
 
-/// Waits in real time while simulated time stands; then simulated time has its turn.
+/// Waits in real time while simulated time is stopped; then simulated time has its turn.
 template <class Look>
 int look_outside(int64_t length_ns, Look look) {
   begin_outside();
@@ -158,7 +158,7 @@ int64_t length_of_ms(int milliseconds) {
   return milliseconds < 0 ? kNever : int64_t{milliseconds} * 1'000'000;
 }
 
-/// Returns false, with the error, if it is no length.
+/// Returns false, with the error, if it is not a length.
 bool take_length(const timespec* time, int64_t& length_ns) {
   length_ns = time == nullptr ? kNever : ns_of(*time);
   if (length_ns >= 0) return true;
@@ -199,7 +199,7 @@ UNDERSTUDY_EXPORT int select(int count, fd_set* reads, fd_set* writes, fd_set* e
   }
   const int64_t until = after(length);
   const int result = select_for(count, reads, writes, excepts, length, nullptr);
-  if (timeout != nullptr && length != kNever) {  // Linux tells how much is left
+  if (timeout != nullptr && length != kNever) {  // Linux returns the remaining time
     const int64_t now = now_ns();
     const timespec rest = time_of(until > now ? until - now : 0);
     *timeout = {rest.tv_sec, rest.tv_nsec / 1'000};

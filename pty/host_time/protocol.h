@@ -1,6 +1,6 @@
-// What the bench and the preloaded library say to each other, when a host lives in simulated time
-// (docs/host-time.md). Each thread of the host that waits has a connection of its own: a packet for each
-// message. A page of shared memory holds the present time, so that a look at the clock costs no message.
+// The messages between the bench and the preloaded library, when a host runs in simulated time
+// (docs/host-time.md). Each waiting thread of the host has its own connection, with a packet for each
+// message. A page of shared memory holds the present time, so that reading the clock costs no message.
 //
 // The library runs in other programs, so this header needs nothing but the kernel's types.
 #pragma once
@@ -12,22 +12,22 @@ namespace understudy::host_time {
 /// The library and the bench must be of one version: the library's greeting has this number.
 inline constexpr uint32_t kVersion = 1;
 
-/// The environment's variable with the path of the socket. The page is beside it.
+/// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
 inline constexpr const char* kPageEnding = ".page";
 
-/// What a host sees at simulated time 0. The dates are always the same, so that a host that writes dates
+/// The dates that a host sees at simulated time 0. They are always the same, so that a host that writes dates
 /// does the same in each run: 2026-01-01 00:00:00 UTC, and an hour after the machine was started.
 inline constexpr int64_t kDateAtBegin_s = 1'767'225'600;
 inline constexpr int64_t kUptimeAtBegin_s = 3'600;
 
 inline constexpr int64_t kNever = INT64_MAX;
 
-inline constexpr uint32_t kMaxLines = 256;  // of a bench that a host can tell from other terminals
+inline constexpr uint32_t kMaxLines = 256;  // of a bench, which a host can distinguish from other terminals
 inline constexpr uint32_t kLinesInMessage = 6;
 inline constexpr uint32_t kAnyLine = UINT32_MAX;
 
-/// Threads that wait for each other cannot look at their connection. The bench counts such a word up, and
+/// Threads that wait for each other cannot watch their connection. The bench increments such a word, and
 /// wakes it, when it ends the wait of a thread whose number has it.
 inline constexpr uint32_t kWords = 1024;
 
@@ -45,13 +45,13 @@ enum class Said : uint32_t {
   hello = 1,  // the first message; `sequence` is the version
   child,      // `process` is a new child of this process
   wait,       // until `until_ns`, or until something comes on one of the lines
-  cancel,     // it waits no longer: something else has woken it
+  cancel,     // it no longer waits: something else has woken it
   outside,    // it waits for something that is not simulated: time must stand; no answer
   inside,     // it does so no longer; no answer
   timer,  // the timer `sequence` of this process: first at `until_ns`, then every `interval_ns`; no answer
   // the bench
   go,         // the wait `sequence` is over
-  cancelled,  // nothing more will be said about the wait `sequence`
+  cancelled,  // no further message about the wait `sequence` will follow
 };
 
 struct Message {
@@ -59,15 +59,15 @@ struct Message {
   uint32_t sequence;  // the number of the thread's wait, of the timer, or the version
   int64_t until_ns;   // simulated time; kNever: without end
   int64_t interval_ns;
-  int64_t value;  // of a timer: what comes with its signal
+  int64_t value;  // of a timer: the value that comes with its signal
   int32_t process;
   int32_t thread;
-  int32_t target;         // of a timer: the thread that gets its signal; 0: any of the process
-  int32_t signal;         // of a timer: what it sends; 0: it counts in the descriptor beside the message
-  uint32_t is_for_drain;  // the wait ends when what was written to the line has left the wire
-  uint32_t is_on_word;    // it looks at its word of the page, not at its connection
-  uint32_t has_others;    // the thread also waits for descriptors that are not lines
-  uint32_t line_count;    // how many of `lines` it waits for, or kAnyLine
+  int32_t target;  // of a timer: the thread that gets its signal; 0: any of the process
+  int32_t signal;  // of a timer: the signal that it sends; 0: it counts in the descriptor of the message
+  uint32_t is_for_drain;           // the wait ends when what was written to the line has left the wire
+  uint32_t is_on_word;             // it watches its word of the page, not its connection
+  uint32_t has_others;             // the thread also waits for descriptors that are not lines
+  uint32_t line_count;             // how many of `lines` it waits for, or kAnyLine
   int32_t lines[kLinesInMessage];  // numbers of pseudo-terminals
 };
 

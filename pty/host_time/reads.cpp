@@ -20,7 +20,7 @@ struct Patience {
   bool is_canonical = false;
   size_t least = 1;  // bytes
   int64_t length_ns = kNever;
-  bool is_between_bytes = false;  // the length begins anew with each byte
+  bool is_between_bytes = false;  // the length starts again with each byte
 };
 
 /// Returns false if the read does not wait, or not for a line.

@@ -37,7 +37,7 @@ constexpr int64_t kBillion = 1'000'000'000;
 /// Returns what the clock shows at simulated time 0, or -1 if it is not a clock of time that passes.
 int64_t clock_begin_ns(clockid_t clock);
 timespec time_of(int64_t ns);
-/// Returns -1 if it is no time.
+/// Returns -1 if it is not a time.
 int64_t ns_of(const timespec& time);
 int64_t ns_of(const timeval& time);
 /// now + length, or kNever.
@@ -78,18 +78,18 @@ bool sleep_until(int64_t until_ns);
 /// another thread. It may wake for nothing.
 Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until_ns);
 
-/// This thread waits for something outside of the bench, while time stands.
+/// This thread waits for something outside the bench, while simulated time is stopped.
 void begin_outside();
 void end_outside();
 
-/// Tells the bench how a timer is set. It counts expirations in the descriptor, unless that is -1.
+/// Informs the bench how a timer is set. It counts expirations in the descriptor, unless that is -1.
 void tell_timer(Message message, int descriptor);
 /// Returns true if the descriptor is one of timers.cpp's.
 bool is_timer(int descriptor);
 /// A child has none of its parent's.
 void forget_timers();
 
-/// Tells the bench of a new child process.
+/// Informs the bench of a new child process.
 void tell_child(int process);
 
 }  // namespace understudy::host_time

@@ -1,8 +1,8 @@
 // Waits of threads for each other that have an end: conditions, semaphores, mutexes.
 //
-// libc waits for these inside, where nothing can be put in between. So conditions are wholly ours: a number
+// libc waits for these internally, where nothing can be inserted. So conditions are entirely ours: a number
 // that counts signals, and the kernel's wait for its change. Semaphores keep libc's form, which no release
-// may change, as programs have them in their memory.
+// may change, because programs have them in their memory.
 #include <errno.h>
 #include <linux/futex.h>
 #include <pthread.h>
@@ -19,7 +19,7 @@ using namespace understudy::host_time;
 
 namespace {
 
-/// What we make of a pthread_cond_t. All zero is how a static one begins.
+/// Our form of a pthread_cond_t. A static one is all zero at first.
 struct Condition {
   uint32_t signals;
   uint32_t waiters;
@@ -56,7 +56,7 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
   return !is_signalled && now_ns() >= until_ns ? ETIMEDOUT : 0;
 }
 
-/// The simulated time of an absolute time of a clock; false: it is none.
+/// Returns the simulated time of an absolute time of a clock; false if it is not valid.
 bool take_end(clockid_t clock, const timespec* time, int64_t& until_ns) {
   const int64_t begin = clock_begin_ns(clock);
   if (begin < 0 || time->tv_nsec < 0 || time->tv_nsec >= kBillion) return false;

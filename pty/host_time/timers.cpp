@@ -193,7 +193,7 @@ UNDERSTUDY_EXPORT unsigned alarm(unsigned seconds) noexcept {
 namespace {
 
 constexpr uint32_t kMaxTimers = 128;
-constexpr uintptr_t kMark = 0x5a000000;  // tells our timers from libc's
+constexpr uintptr_t kMark = 0x5a000000;  // distinguishes our timers from libc's
 
 struct SignalTimer {
   bool is_used;

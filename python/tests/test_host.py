@@ -1,4 +1,4 @@
-"""A host program in simulated time, by the client's exec."""
+"""Tests host programs in simulated time, run by the client's exec."""
 import sys
 import time
 

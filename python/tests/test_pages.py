@@ -52,7 +52,7 @@ def test_pytest_page(pytester):
 
 
 def test_a_snippet_that_is_wrong_fails(pytester):
-    """The blocks are really run: a wrong number in one is noticed."""
+    """Checks that the blocks really run: a wrong number in one is detected."""
     right = snippets("python.md")[0]
     wrong = right.replace('bench["Cord_A"] == 1000', 'bench["Cord_A"] == 1001')
     assert wrong != right

@@ -1,4 +1,4 @@
-"""The archive that runs anywhere, and the wheel and the image that have the program."""
+"""Tests the archive that runs anywhere, and the wheel and the image that contain the program."""
 import fcntl
 import gzip
 import hashlib

@@ -126,7 +126,7 @@ class Bench:
 
     def step_program(self, what: str = "line", device: Optional[str] = None, program: Optional[str] = None,
                      within: Optional[str] = None) -> Optional[Dict[str, Any]]:
-        """Steps by instruction, line, over, out or stand; returns the stop, or None if time was over."""
+        """Steps by instruction, line, over, out or stand; returns the stop, or None if time ran out."""
         asked = {"what": what, "device": device, "program": program, "within": within}
         return cast(Optional[Dict[str, Any]], self.ask("step", **_given(asked)).get("stop"))
 
@@ -151,7 +151,7 @@ class Bench:
         return cast(Dict[str, Any], self.ask("status")["status"])
 
     def turn(self, values: Dict[str, int], within: Optional[str] = None) -> None:
-        """Turns handwheels by these counts, at once or evenly within a time."""
+        """Turns hand wheels by these counts, at once or evenly within a time."""
         self.ask("turn", values=values, **({} if within is None else {"in": within}))
 
     def events(self, last: int = 100) -> List[Dict[str, Any]]:
@@ -186,7 +186,7 @@ class Bench:
         return cast(List[Dict[str, Any]], self.ask("where", **_of(device))["programs"])
 
     def coverage(self, device: Optional[str] = None, again: bool = False) -> Dict[str, Any]:
-        """How often each line of each program has run since the count began: with the first call, or with `again`."""
+        """Returns how often each line of each program has run since the first call, or since a call with `again`."""
         reply = self.ask("coverage", **_of(device), **({"again": True} if again else {}))
         return {key: reply[key] for key in ("since_ns", "totals", "covered")}
 

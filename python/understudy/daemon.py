@@ -45,8 +45,8 @@ BAD_SETUP = 2  # the program's exit code for flags and files that it rejects
 
 
 def program_path() -> str:
-    """What UNDERSTUDY_PROGRAM names; else the program that was installed together with this client, as by the wheel that
-    has it; else the first one on PATH."""
+    """Returns the program that UNDERSTUDY_PROGRAM names, or the one that was installed with this client (by the wheel
+    that contains it), or the first one on PATH."""
     beside = os.path.join(sysconfig.get_path("scripts"), "understudy")
     return os.environ.get("UNDERSTUDY_PROGRAM") or (beside if os.access(beside, os.X_OK) else "understudy")
 

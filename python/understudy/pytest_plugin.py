@@ -37,7 +37,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def part_of_coverage(config: pytest.Config, number: str) -> Optional[Path]:
-    """The file of one bench, beside the sum; None where nobody asked for one."""
+    """Returns the file of one bench, next to the sum, or None if no file was requested."""
     wanted = config.getoption("--understudy-coverage")
     if not wanted:
         return None
@@ -85,7 +85,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
 
 
 def draw(folder: Path) -> List[str]:
-    """Makes the report and the frames from the recording. Returns which files exist then, and what went wrong."""
+    """Creates the report and the frames from the recording. Returns the files that exist, and the errors."""
     recording, page, frames = folder / "understudy.rec", folder / "report.html", folder / "frames.txt"
     program = program_path()
     said = []

@@ -1,7 +1,5 @@
 """A library for Robot Framework: `Library understudy.robot.Understudy`. Its public methods are the keywords. It imports
 nothing from Robot. Robot passes text, or values that it has converted according to the annotations.
-
-It needs nothing of Robot itself: what Robot hands over may be text, or what Robot made of it by the annotations.
 """
 import os
 from typing import Any, Dict, List, Optional, Union
@@ -91,7 +89,7 @@ class Understudy:
         self._bench.ask("clear", number=_level(number))
 
     def clear_all_faults(self) -> None:
-        """Mends all faults."""
+        """Clears all faults."""
         self._bench.clear()
 
     def advance_time(self, by: str) -> int:

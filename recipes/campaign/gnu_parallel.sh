@@ -1,8 +1,8 @@
 #!/bin/bash
-# A campaign by GNU parallel, on this machine or (with its --sshloginfile) on several that share a folder:
+# Runs a campaign with GNU parallel, on this machine or (with its --sshloginfile) on several that share a folder:
 #   SHARDS=64 gnu_parallel.sh SCENARIO...
-# Called again it goes on where it was interrupted. Exit code: that of GNU parallel, the number of shards with failures.
-# When it is over: merge_results.py all.sqlite results/*.sqlite
+# When it is called again, it continues where it was interrupted. Exit code: that of GNU parallel, the number of shards
+# with failures. When it is finished: merge_results.py all.sqlite results/*.sqlite
 set -eu
 results=${RESULTS:-results}
 shards=${SHARDS:-$(nproc)}

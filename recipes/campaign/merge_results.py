@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Merges the results of shards, and prints how the campaign went.
+"""Merges the results of shards, and prints a summary of the campaign.
 
 merge_results.py ALL.sqlite SHARD.sqlite...
 
-ALL.sqlite is made anew. Exit code: 1 if a case failed, 2 if one could not be read or a file is not one of results.
+ALL.sqlite is replaced. Exit code: 1 if a case failed, 2 if a case could not be read, or if a file is not a database of
+results.
 """
 import os
 import sqlite3
 import sys
 
-ID = 0x55535459  # of databases that `understudy run --results` makes
+ID = 0x55535459  # in databases from `understudy run --results`
 
 
 def require_own(path):

@@ -1,8 +1,8 @@
 #!/bin/bash
-# A campaign as an array of Slurm, each task a shard with its own file of results:
+# Runs a campaign as a Slurm array, in which each task is a shard with its own file of results:
 #   sbatch --array=1-20 --cpus-per-task=4 slurm_array.sh SCENARIO...
-# Array and processors are sbatch's to say; RESULTS is a folder that all nodes see. A task that is requeued goes on where it
-# was killed. When all are over: merge_results.py all.sqlite results/*.sqlite
+# Array and processors are flags of sbatch. RESULTS is a folder that all nodes see. A requeued task continues where it
+# was killed. When all tasks are finished: merge_results.py all.sqlite results/*.sqlite
 #SBATCH --job-name=understudy
 #SBATCH --requeue
 #SBATCH --open-mode=append

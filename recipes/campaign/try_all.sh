@@ -1,10 +1,10 @@
 #!/bin/bash
-# Tries the recipes of this folder with a campaign of a hundred cases, as far as one machine goes:
+# Tests the recipes of this folder with a campaign of a hundred cases, as far as one machine allows:
 #   try_all.sh UNDERSTUDY [slurm|parallel|gitlab|github]...
-# Slurm is started for it on the loopback interface, one node, and ended again; it needs root, slurm-wlm and munge. The jobs
-# of GitLab and GitHub are read from their files, and their commands carried out with the variables that a runner sets, one
-# shard after the other; only installing is left out. Each recipe must come to the same results as one run without shards.
-# Exit code: 77 if something that was asked for is not installed.
+# For Slurm, it starts a cluster of one node on the loopback interface, and ends it; this needs root, slurm-wlm and
+# munge. The jobs of GitLab and GitHub are read from their files, and their commands run with the variables that a
+# runner sets, one shard after another; only the installation is skipped. Each recipe must produce the same results as
+# one run without shards. Exit code: 77 if something that was requested is not installed.
 set -eu
 understudy=$(realpath "$1")
 shift
@@ -13,7 +13,7 @@ recipes=("$@")
 here=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 started=()
-cluster=  # not empty if a Slurm was started here
+cluster=  # not empty if this script started Slurm
 finish() {
   local pid
   if [ -n "$cluster" ]; then  # if this ends early, jobs still run, and the daemons would wait for them

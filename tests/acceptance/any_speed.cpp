@@ -1,6 +1,6 @@
 #include "tests/acceptance/any_speed.h"
 
-// The kernel's structure has any speed as a number; it cannot be included beside <termios.h>.
+// The kernel's structure can hold any speed as a number, but <termios.h> cannot be included in the same file.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 

@@ -20,7 +20,7 @@
 namespace understudy::acceptance {
 namespace bad_frames_test {
 
-constexpr int kSilence = 0;  // in place of an exception
+constexpr int kSilence = 0;  // instead of an exception
 
 struct Case {
   std::string what;
@@ -95,7 +95,7 @@ std::vector<Case> cases_of(const Subject& subject) {
   return cases;
 }
 
-/// A window that takes at least 16 words; a move of four words, and its first word alone.
+/// A window that accepts at least 16 words; a move of four words, and its first word alone.
 std::vector<Case> cases_of_window(const std::string& move, int beyond_it) {
   const std::string more = " 00 00";
   return {{"a window in part", "10 1F 40 00 03 06 " + move.substr(0, 17), 3},
@@ -164,7 +164,7 @@ class BadFrames : public testing::TestWithParam<Subject> {
 TEST_P(BadFrames, GetTheirExceptionAndTheNextIsServed) {
   const Bytes before = asked();
   ASSERT_EQ(before.size(), 32U);
-  ASSERT_EQ(before[1], 0x03) << "good frames are served";
+  ASSERT_EQ(before[1], 0x03) << "valid frames are served";
   for (const Case& c : cases_of(GetParam())) {
     const std::string told = c.what + ": " + c.request.substr(0, 40);
     send(c.request);

@@ -188,7 +188,7 @@ TEST_F(Campaign, OneThatIsKilledGoesOn) {
       process.send(SIGKILL);
       if (process.wait(kPatience) == 128 + SIGKILL) ++killed;
     }
-    EXPECT_GT(killed, 0) << "it was always over before it was killed";
+    EXPECT_GT(killed, 0) << "it always ended before it was killed";
     const Finished last = understudy(command);
     EXPECT_EQ(last.exit_code, 1) << last.errors;
     const std::regex left_out("([0-9]+) skipped, since they ran before; ([0-9]+) of them failed");
@@ -274,8 +274,8 @@ TEST_F(Campaign, MemoryDoesNotGrowWithTheNumberOfCases) {
   const long few = memory(10'000);
   const long many = memory(40'000);
   ASSERT_GT(few, 0);
-  // A result alone, with its steps and names, takes more than 1 KiB. What the allocator keeps differs by 5
-  // MiB from run to run, however many cases there are.
+  // A result, with its steps and names, takes more than 1 KiB. What the allocator keeps differs by 5 MiB from
+  // run to run, however many cases there are.
   EXPECT_LT(many - few, 8000) << few << " KiB for 10000, " << many << " KiB for 40000";
 }
 
@@ -310,8 +310,8 @@ TEST_F(Campaign, RecipesComeToTheSameAsOneRun) {
   const std::string script = std::string(PROJECT_FOLDER) + "/recipes/campaign/try_all.sh";
   for (const char* recipe : {"gitlab", "github", "parallel"}) {
     Process process({script, UNDERSTUDY_BINARY, recipe});
-    const auto exit_code = process.wait(4 * kPatience);  // eight shards, one after the other
-    if (exit_code == 77) continue;                       // what it needs is not installed
+    const auto exit_code = process.wait(4 * kPatience);  // eight shards, one after another
+    if (exit_code == 77) continue;                       // a required program is not installed
     EXPECT_EQ(exit_code, 0) << recipe << process.output() << process.errors();
     EXPECT_NE(process.output().find(": as one run without shards"), std::string::npos) << process.output();
   }

@@ -63,7 +63,7 @@ TEST(CiPage, ThePlainShellRecipeRunsAsItStands) {
   const Finished failed = bad.sh(scripts[0]);
   EXPECT_EQ(failed.exit_code, 1) << failed.output << failed.errors;
   EXPECT_TRUE(bad.has("report.html"));
-  EXPECT_FALSE(bad.has("recordings/host.jsonl")) << "the script ends where something failed";
+  EXPECT_FALSE(bad.has("recordings/host.jsonl")) << "the script ends at the first failure";
 }
 
 TEST(CiPage, TheGithubRecipeRunsInItsContainer) {

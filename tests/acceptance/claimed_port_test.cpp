@@ -61,7 +61,7 @@ class ClaimedPort : public testing::Test {
  protected:
   void SetUp() override {
     chmod(folder_.path().c_str(), 0777);
-    const std::string binary = folder_ / "understudy";  // the build folder may be out of that user's reach
+    const std::string binary = folder_ / "understudy";  // that user may not have access to the build folder
     std::filesystem::copy_file(UNDERSTUDY_BINARY, binary);
     chmod(binary.c_str(), 0755);
     Words command{binary,   "serve", "--model",   "simple2-r3",
@@ -127,7 +127,7 @@ TEST_F(ClaimedPort, StaysClaimedWhileItsHostIsThere) {
               Host other(port());
               Host host(port());
               if (ioctl(host.descriptor(), TIOCEXCL) != 0) return 1;
-              other.close();  // has the daemon look who is there
+              other.close();  // makes the daemon check whether a host is present
               if (exchange(host, kReadHardwareCode, kHardwareCodeReply.size()) != kHardwareCodeReply)
                 return 2;
               usleep(50'000);
@@ -139,8 +139,8 @@ TEST_F(ClaimedPort, StaysClaimedWhileItsHostIsThere) {
   expect_idle();
 }
 
-// The daemon must release the line for a moment to see who is there; here it finds it claimed when it takes
-// it back.
+// The daemon must release the line for a moment to find out who is present; here it finds the line claimed
+// when it takes it back.
 TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
   const std::filesystem::path first = std::filesystem::read_symlink(port());
   ASSERT_EQ(chmod(first.c_str(), 0666), 0);
@@ -172,10 +172,10 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
     ASSERT_EQ(as_ordinary_user(claim_all_the_time), 128 + SIGKILL);
     EXPECT_EQ(as_ordinary_user([&] { return ask_for_hardware_code(port()); }), 0) << attempt;
   }
-  if (!is_anew()) GTEST_SKIP() << "the daemon was never kept out";
+  if (!is_anew()) GTEST_SKIP() << "the daemon was never locked out";
   struct stat access {};
   EXPECT_EQ(stat(port().c_str(), &access), 0);
-  EXPECT_EQ(access.st_mode & 0777U, 0666U) << "who was let in before is still let in";
+  EXPECT_EQ(access.st_mode & 0777U, 0666U) << "an earlier client is still admitted";
   EXPECT_TRUE(eventually([&] {
     return daemon().errors().find("left " + first.string() + " claimed (TIOCEXCL)") != std::string::npos;
   })) << daemon().errors();

@@ -14,7 +14,7 @@ namespace command_line_test {
 struct BadUsage {
   const char* name;
   Words words;
-  const char* told;  // part of the line that is printed: what is wrong, or what was expected
+  const char* told;  // part of the printed line: the error, or what was expected
   int exit_code = 2;
 
   friend void PrintTo(const BadUsage& usage, std::ostream* out) { *out << usage.name; }
@@ -153,7 +153,7 @@ TEST_P(BadUsageOf, GetsOneClearLine) {
 INSTANTIATE_TEST_SUITE_P(Of, BadUsageOf, testing::ValuesIn(kBadUsages),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// --- what ends well --------------------------------------------------------------------------------
+// --- successful commands ---------------------------------------------------------------------------
 
 TEST(Help, OfEachCommandEndsWell) {
   for (const Words& command : std::vector<Words>{{},

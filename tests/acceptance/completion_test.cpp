@@ -12,7 +12,7 @@ bool is_here(const std::string& program) { return run({"which", program}).exit_c
 
 class Completion : public testing::Test {
  protected:
-  /// Writes the script of that shell to a file.
+  /// Writes the completion script of that shell to a file.
   std::string script(const std::string& shell) const {
     const Finished made = understudy({"completion", shell});
     EXPECT_EQ(made.exit_code, 0) << made.errors;
@@ -59,7 +59,7 @@ TEST_F(Completion, OfBashKnowsEveryCommandAndFlag) {
   EXPECT_EQ(completed("understudy describe ''", 2), (Words{"rs-m8194h", "simple2-r3", "slim", "super-40nc"}));
   EXPECT_EQ(completed("understudy describe --format csv slim pa", 5), Words{"parameters"});
   EXPECT_EQ(completed("understudy ctl --port inject inject st", 5), (Words{"stall", "stuck"}));
-  EXPECT_EQ(completed("understudy ctl inject stall ''", 4), Words{""}) << "an axis of a bench that runs";
+  EXPECT_EQ(completed("understudy ctl inject stall ''", 4), Words{""}) << "an axis of a running bench";
   EXPECT_EQ(completed("understudy ctl power feeder o", 4), (Words{"on", "off"}));
   EXPECT_EQ(completed("understudy schema ''", 2), (Words{"bench", "scenario"}));
   EXPECT_EQ(completed("understudy exec b.yaml -- --mo", 4), Words{""}) << "the command's own words";
@@ -76,7 +76,7 @@ TEST_F(Completion, OfZshIsAScriptWithEveryCommandAndFlag) {
     EXPECT_NE(text.find("'" + flag + ":"), std::string::npos) << flag;
   }
   if (!is_here("zsh")) GTEST_SKIP() << "zsh is not installed";
-  // Returns what it would offer, without a terminal.
+  // Returns the completions that it would offer, without a terminal.
   const Finished offered = run({"zsh", "-fc",
                                 "compdef() { : }; source " + script("zsh") +
                                     "; _describe() { print -rl -- ${(P)@[-1]%%:*} }; "

@@ -46,8 +46,7 @@ class Client {
   bool is_connected_ = false;
 };
 
-/// This many clients that request the status repeatedly, as often as their sockets accept, during its
-/// lifetime.
+/// This many clients request the status repeatedly during its lifetime, as often as their sockets accept.
 class Askers {
  public:
   Askers(const std::string& path, std::size_t count) {
@@ -173,8 +172,7 @@ TEST(ControlLoad, WithoutDescriptorsTheDaemonRestsAndServesItsHosts) {
   ASSERT_TRUE(eventually([&] { return clients.front()->hear() > 0; }));
   const auto before = processor_time(daemon->process().pid());
   std::this_thread::sleep_for(Wait(2'000));
-  // A client that sends repeatedly takes everything that it gets, which is more than this even on a very busy
-  // machine.
+  // A client that sends repeatedly receives all replies, which is more than this even on a very busy machine.
   EXPECT_LT(processor_time(daemon->process().pid()) - before, Wait(50));
   EXPECT_EQ(lost(host, 20), 0);
   // Waiting clients are served when the others have gone.

@@ -158,7 +158,7 @@ const Words kManualsExample{
 TEST(ManualSpeed, MovesNothingUntilTimeIsAdvanced) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   expect_done(daemon, kManualsExample);
-  EXPECT_EQ(value(daemon, "STATUS.4"), 1) << "moving, from the moment of acceptance";
+  EXPECT_EQ(value(daemon, "STATUS.4"), 1) << "moving, from the moment it is accepted";
   std::this_thread::sleep_for(Wait(100));
   EXPECT_EQ(value(daemon, "Cord_A"), 0);
   EXPECT_EQ(simulated_ns(daemon), 0);
@@ -175,7 +175,7 @@ TEST(ManualSpeed, TheManualsExampleTakesExactly3050Milliseconds) {
   EXPECT_EQ(position_after("25ms"), 66);   // 66.667
   EXPECT_EQ(position_after("25ms"), 266);  // 266.667, full speed
   EXPECT_EQ(position_after("950ms"), 10400);
-  EXPECT_EQ(position_after("2s"), 31733);    // 31733.33, begins to slow down
+  EXPECT_EQ(position_after("2s"), 31733);    // 31733.33, begins to decelerate
   EXPECT_EQ(position_after("49ms"), 31999);  // 31999.89; 3050 ms in all
   EXPECT_EQ(value(daemon, "STATUS.4"), 1);
   EXPECT_EQ(position_after("1ms"), 32000);
@@ -205,12 +205,12 @@ TEST(ManualSpeed, KeepsARequestThatIsStillOnTheWire) {
   ASSERT_TRUE(
       eventually([&] { return daemon.ctl({"status"}).output.find(" 8 bytes in") != std::string::npos; }));
   expect_done(daemon, {"advance", "2ms"});                     // three of eight characters
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than any patience
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than any timeout
   expect_done(daemon, {"advance", "20ms"});
   EXPECT_EQ(host.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-// Only silence shows the length of 0x41, and by the simulated clock there is no silence.
+// Only silence shows the length of 0x41, and in simulated time there is no silence.
 TEST(ManualSpeed, ServesWhatOnlySilenceEnds) {
   const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
   Host host(daemon.port());
@@ -244,7 +244,7 @@ TEST(ControlPause, StopsTimeAndResumeLetsItRunAgain) {
   EXPECT_EQ(value(daemon, "Cord_A"), 320);
   expect_done(daemon, {"resume"});
   EXPECT_TRUE(eventually([&] { return simulated_ns(daemon) > paused_at + 300'000'000; }));
-  EXPECT_LT(simulated_ns(daemon), paused_at + 5'000'000'000) << "what was paused is not caught up with";
+  EXPECT_LT(simulated_ns(daemon), paused_at + 5'000'000'000) << "paused time is not made up for";
   EXPECT_EQ(ModbusHost(daemon.port()).read(kHardwareCode), Registers{0xC001});
 }
 

@@ -55,7 +55,7 @@ TEST(CtlWatch, ShowsJustWhatIsNamed) {
             "'HW_Code'\n");
 }
 
-// At a terminal, keys scroll to what does not fit the window, and a wide window is used.
+// At a terminal, keys scroll to the lines that do not fit into the window, and a wide window is used.
 TEST(CtlWatch, ScrollsInASmallWindow) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   AtTerminal screen({UNDERSTUDY_BINARY, "ctl", "--control", daemon.control(), "watch", "--every", "50ms"},
@@ -147,7 +147,7 @@ TEST(StandardInput, IsAFileWhereAListingIsExpected) {
   EXPECT_NE(daemon.ctl({"program"}).output.find("Out DOUT_0"), std::string::npos);
 }
 
-/// As much as a device holds, which is more than a line of 64 KiB.
+/// As much as a device can hold, which is more than a line of 64 KiB.
 TEST(CtlProgram, TellsWhatIsOddAboutWhatItLoads) {
   const PrivateFolder folder;
   const auto daemon = RunningUnderstudy::of_model("super-40nc", {"--speed", "manual"});

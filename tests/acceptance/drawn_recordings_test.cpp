@@ -80,7 +80,7 @@ TEST(DrawnRecording, OfAFailedExecShowsTheMove) {
   fs::remove_all(fs::path(recording).parent_path());
 }
 
-// --- of everything that is played ------------------------------------------------------------------
+// --- traces and captures of whole runs ---------------------------------------------------------------
 
 constexpr const char* kTwoCases =
     "understudy: 1\nname: \"move ${n}\"\n"
@@ -103,7 +103,8 @@ Words names_in(const std::string& folder) {
   return {names.begin(), names.end()};
 }
 
-/// If time goes back, or a branch begins, files start again, as recordings do, which have the same contents.
+/// If time goes back, or a branch begins, the files start again, like recordings, which have the same
+/// contents.
 TEST(RunFiles, AreWhatTheRecordingsOfThePlaysWrite) {
   const PrivateFolder folder;
   const std::string cases = folder.write("cases.yaml", kTwoCases);

@@ -24,7 +24,7 @@ constexpr const char* kBad =
     "  - write: { feeder.Aaxis_Sped: 1 }\n"
     "  - advance: 5 parsecs\n";
 
-/// A folder with a good bench, a scenario with two mistakes, and a file of neither kind.
+/// A folder with a valid bench, a scenario with two errors, and a file of neither kind.
 struct Files {
   PrivateFolder folder;
   std::string bench = folder.write("bench.yaml", kBench);
@@ -174,7 +174,7 @@ TEST(SchemaOfABench, ListsItsNames) {
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   const json names = json::parse(finished.output)["definitions"]["registers"]["anyOf"][0]["enum"];
   EXPECT_EQ(std::count(names.begin(), names.end(), "feeder.Aaxis_Speed"), 1);
-  EXPECT_EQ(std::count(names.begin(), names.end(), "Aaxis_Speed"), 1);  // there is one device alone
+  EXPECT_EQ(std::count(names.begin(), names.end(), "Aaxis_Speed"), 1);  // there is only one device
   const Finished wrong = understudy({"schema", "bench", "--bench", files.bench});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.errors.find("--bench needs the format `scenario`"), std::string::npos) << wrong.errors;

@@ -56,7 +56,7 @@ class Exec : public testing::Test {
   const std::string bench_ = folder_.write("bench.yaml", kOne);
 };
 
-// --- what the command is given -------------------------------------------------------------------
+// --- the command's environment ---------------------------------------------------------------------
 
 TEST_F(Exec, GivesThePortsAndTheControlSocket) {
   const std::string two = folder().write("two.yaml", kTwo);
@@ -221,7 +221,7 @@ TEST_F(Exec, KillsWhatDoesNotWantToEnd) {
   const auto took = std::chrono::steady_clock::now() - began;
   EXPECT_EQ(finished.exit_code, 124);
   EXPECT_FALSE(is_there(lines_of(finished.output).at(0)));
-  EXPECT_GE(took, std::chrono::milliseconds(5'000));  // the grace that it has
+  EXPECT_GE(took, std::chrono::milliseconds(5'000));  // its grace period
 }
 
 TEST_F(Exec, TakesTheCommandAlongWhenItIsKilled) {
@@ -231,7 +231,7 @@ TEST_F(Exec, TakesTheCommandAlongWhenItIsKilled) {
   process.send(SIGKILL);
   process.wait(kPatience);
   EXPECT_TRUE(eventually([&] {
-    std::ifstream status("/proc/" + pid + "/stat");  // nobody may be there to reap it
+    std::ifstream status("/proc/" + pid + "/stat");  // there may be no process to reap it
     std::string word;
     return !(status >> word >> word >> word) || word == "Z";
   }));
@@ -270,7 +270,7 @@ TEST_F(Exec, RefusesBadUsageBeforeAnythingRuns) {
 
 class ExecWith : public Exec {
  protected:
-  /// The scenario's steps, one a line.
+  /// The scenario's steps, one per line.
   Finished with(const std::string& steps, const std::string& text, Words flags = {}) const {
     const std::string path =
         folder().write("beside.yaml", "understudy: 1\nname: beside\nbench: bench.yaml\nsteps:\n" + steps);
@@ -284,8 +284,8 @@ constexpr const char* kMove =
     "eval $P Aaxis_Speed=200 && eval $P Aaxis_Move_INC=1";
 
 TEST_F(ExecWith, LooksAtWhatTheCommandDoes) {
-  // 200 RPM: one revolution of 3200 pulses in 300 ms. AccTime and DecTime of 0 count as 1 (10 ms), which adds
-  // half of both.
+  // At 200 RPM, one revolution of 3200 pulses takes 300 ms. AccTime and DecTime of 0 count as 1 (10 ms),
+  // which adds half of both.
   const Finished finished = with(
       "- never: feeder.A.pulses > 3200\n"
       "- wait: { until: feeder.Aaxis_SVON == 1, within: 60s }\n"

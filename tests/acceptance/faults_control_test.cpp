@@ -120,7 +120,7 @@ TEST(ControlPower, OffSilencesAStationOnTheWireAndOnBringsItBack) {
   EXPECT_EQ(host.error(), ETIMEDOUT);
   host.set_station(2);
   host.set_patience(kPatience);
-  EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001}) << "the other station on the line goes on";
+  EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001}) << "the other station on the line continues";
 
   const std::string why = "feeder has no power; expected it to be on";
   expect_refused(*daemon, {"get", "feeder.Cord_A"}, "get: " + why);
@@ -140,7 +140,7 @@ TEST(ControlPower, OffSilencesAStationOnTheWireAndOnBringsItBack) {
   EXPECT_EQ(obeyed(*daemon, {"power", "feeder", "on"}), "");
   host.set_station(1);
   EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001});
-  EXPECT_EQ(host.read(kAaxisSpeed), Registers{0}) << "not kept over power-off";
+  EXPECT_EQ(host.read(kAaxisSpeed), Registers{0}) << "lost at power-off";
 
   EXPECT_TRUE(host.write(kAaxisSpeed, 200));
   EXPECT_EQ(json(*daemon, {"power", "feeder", "cycle"}), (Json{{"ok", true}}));

@@ -25,7 +25,7 @@ struct LineCase {
   int baud;
   const char* timing;
   int rounds;         // of one request to each station
-  Wait silence{100};  // no reply takes so long on this line
+  Wait silence{100};  // no reply takes this long on this line
 
   friend std::ostream& operator<<(std::ostream& out, const LineCase& one) { return out << one.name; }
 };
@@ -59,7 +59,8 @@ class Traffic {
     for (int station = 1; station <= kStations; ++station) expect_known(station);
   }
 
-  /// The daemon must have counted what was sent and what must have been answered, and not a byte more.
+  /// The daemon must have counted the bytes that were sent and the replies that were due, and not a byte
+  /// more.
   void expect_counted(const Json& line) const {
     EXPECT_EQ(line["bytes_in"], bytes_in_);
     EXPECT_EQ(line["bytes_out"], bytes_out_);
@@ -161,7 +162,7 @@ class Traffic {
   void broadcast(int number) {
     ++broadcasts_;
     bytes_in_ += 8;
-    const auto value = static_cast<std::uint16_t>(number);  // less than 2000: no station's own
+    const auto value = static_cast<std::uint16_t>(number);  // below 2000: no station has it
     expect_silence(0, [&] { return host_->write(kAaxisSpeed, value); });
     for (int station = 1; station <= kStations; ++station) known(station)[2] = value;
   }
@@ -219,7 +220,7 @@ class FifteenMoves : public testing::Test {
     EXPECT_EQ(host_.error(), ETIMEDOUT);
     host_.set_patience(kPatience);
   }
-  /// 300 RPM are 16,000 pulses a second; 10 ms of acceleration and deceleration.
+  /// 300 RPM is 16,000 pulses per second, with 10 ms of acceleration and deceleration.
   void prepare(int station, int pulses) {
     host_.set_station(station);
     const auto low = static_cast<std::uint16_t>(pulses);
@@ -247,7 +248,7 @@ TEST_F(FifteenMoves, StartTogetherAndEndEachAtItsOwn) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
   for (int still = 0; still < kStations && !HasFailure();) {
     ASSERT_LT(std::chrono::steady_clock::now(), until) << still << " have arrived";
-    // They run at one speed, so the nearest end comes first: when one stops, all below it have stopped.
+    // All run at one speed, so the nearest end comes first: when one stops, all below it have stopped.
     for (int station = kStations; station > still; --station) {
       const std::int32_t at = position(station);
       EXPECT_GE(at, last[static_cast<std::size_t>(station)]) << "station " << station;
@@ -274,7 +275,7 @@ TEST_F(FifteenMoves, StopAtOnePlaceWhenTheyAreToldTogether) {
   for (int station = 1; station <= kStations; ++station)
     EXPECT_TRUE(eventually([&] { return !is_moving(station); })) << station;
   const std::int32_t first = position(1);
-  EXPECT_GT(first, 160);  // more than the acceleration and deceleration take: 2 times 80 pulses
+  EXPECT_GT(first, 160);  // more than the acceleration and deceleration need: 2 times 80 pulses
   EXPECT_LT(first, 1'000'000);
   for (int station = 2; station <= kStations; ++station)
     EXPECT_EQ(position(station), first) << "station " << station;

@@ -9,7 +9,7 @@
 namespace understudy::acceptance {
 namespace framing_test {
 
-/// Sends the request in two parts, 5 ms apart, several times. Returns how many were answered. A busy machine
+/// Sends the request in two parts, 5 ms apart, several times. Returns how many got a reply. A busy machine
 /// may lengthen or hide a pause, so the tests require the greater part.
 constexpr int kTimes = 7;
 int answers_to_paused_requests(const RunningUnderstudy& daemon) {

@@ -1,5 +1,5 @@
 // A host that sends without pause: requests back to back, no reads for a long time, noise. The daemon
-// survives, answers good requests, keeps its time and its size.
+// survives, answers valid requests, keeps its time, and does not grow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,8 +41,8 @@ Bytes speed_reply(int speed) { return frame({1, 0x03, 2, high(speed), low(speed)
 /// Reads until the line has been silent for a while.
 Bytes read_all(Host& host) { return host.read(SIZE_MAX, kSilenceMs); }
 
-/// Writes `lump` repeatedly for some time, as much as the pty accepts, and ends with a whole one. Returns how
-/// many there were.
+/// Writes `lump` repeatedly for some time, as often as the pty accepts it, and ends with a whole one. Returns
+/// how many were written.
 std::size_t flood(Host& host, const Bytes& lump, Wait duration) {
   std::size_t sent = 0;
   const auto until = Clock::now() + duration;
@@ -64,7 +64,7 @@ Json status(const RunningUnderstudy& daemon) {
   return Json::parse(finished.output)["status"];
 }
 
-/// Waits until the first line has taken this many bytes from its host, and the wire has carried them.
+/// Waits until the first line has received this many bytes from its host, and the wire has carried them.
 void expect_taken(const RunningUnderstudy& daemon, std::size_t bytes) {
   EXPECT_TRUE(eventually([&] { return status(daemon)["lines"].at(0)["bytes_in"] == bytes; })) << bytes;
   std::this_thread::sleep_for(Wait(120));  // 1,024 bytes at 115200 baud take 98 ms
@@ -94,7 +94,7 @@ class KeepsTime {
     return std::chrono::nanoseconds(status["simulated_time_ns"].get<std::int64_t>());
   }
   const RunningUnderstudy& daemon_;
-  Clock::time_point earliest_;  // when its time was looked at first: between these two
+  Clock::time_point earliest_;  // when its time was first read: between these two
   Clock::time_point latest_;
   std::chrono::nanoseconds first_{0};
 };
@@ -125,7 +125,7 @@ TEST_P(Hammering, RequestsBackToBackAreAnsweredInOrder) {
     append(replies, speed % 2 == 0 ? set_speed(speed) : speed_reply(speed - 1));
   }
   host.write(requests);
-  // Reads nothing until everything is served, plus some time: the last replies are still on the wire.
+  // Reads nothing until everything is served, and a little longer: the last replies are still on the wire.
   EXPECT_TRUE(eventually([&] { return daemon_.requests() == kRequests; }));
   EXPECT_EQ(host.read(replies.size()), replies);
   EXPECT_TRUE(is_silent(host));
@@ -145,11 +145,11 @@ TEST_P(Hammering, RepliesThatNobodyReadsAreDroppedAndCounted) {
   const int requests = line["stations"].at(0)["requests"];
   const int given_up = line["stations"].at(0)["bytes_dropped"];
   EXPECT_EQ(8 * requests + given_up, sent);
-  EXPECT_LT(given_up, 800) << "a frame that a busy machine cuts for 10 ms is given up, now and then";
+  EXPECT_LT(given_up, 800) << "a busy machine sometimes cuts a frame for 10 ms, and then it is dropped";
   EXPECT_EQ(line["bytes_out"], read.size());
   EXPECT_GT(line["bytes_discarded"], 0);
   EXPECT_EQ(line["bytes_out"].get<int>() + line["bytes_discarded"].get<int>(), 7 * requests);
-  constexpr std::size_t kWaited = 4000;  // bytes that wait before any is dropped
+  constexpr std::size_t kWaited = 4000;  // bytes that can wait before any is dropped
   ASSERT_GT(read.size(), kWaited);
   for (std::size_t i = 0; i < kWaited; ++i)
     ASSERT_EQ(read[i], kHardwareCodeReply[i % kHardwareCodeReply.size()]) << "byte " << i;
@@ -168,7 +168,7 @@ TEST_P(Hammering, NoiseGetsNoReplyAndAGoodRequestAfterItDoes) {
   for (int time = 1; time <= kTimes && !HasFailure(); ++time) {
     Bytes noise;
     for (int size = pick(600); size > 0; --size) noise.push_back(low(pick(256)));
-    // Beginnings of good requests, and whole ones with one bit wrong.
+    // Beginnings of valid requests, and whole ones with one wrong bit.
     for (int count = pick(5); count > 0; --count) {
       Bytes wrong = set_speed(pick(1000));
       if (pick(2) == 0) {
@@ -181,7 +181,7 @@ TEST_P(Hammering, NoiseGetsNoReplyAndAGoodRequestAfterItDoes) {
     host.write(noise);
     host.write(set_speed(time));
     Bytes reply = host.read(8, 1000);
-    if (reply.empty()) {  // cut by a busy machine: a host asks again
+    if (reply.empty()) {  // cut by a busy machine: a host repeats it
       ++asked_again;
       reply = exchange(host, set_speed(time), 8);
     }
@@ -195,7 +195,7 @@ TEST_P(Hammering, NoiseGetsNoReplyAndAGoodRequestAfterItDoes) {
 
 TEST_P(Hammering, AFloodOfNoiseHarmsNobody) {
   std::mt19937 random(20240608);
-  // It is not an address of the line, so a request that is correct by chance gets no reply either.
+  // The address does not exist on the line, so a request that is valid by chance gets no reply either.
   Bytes noise(20'000);
   for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(2 + random() % 254);
   Host host(daemon_.port());
@@ -243,14 +243,15 @@ TEST_P(Hammering, HostsThatWriteAndGoDoNotPileUp) {
     std::this_thread::sleep_for(Wait(2));
   }
   EXPECT_LT(memory(daemon_, "VmRSS") - before, 1024);
-  // Only the contents of the pty are left, 2 s of the wire.
+  // Only the contents of the pty are left, 2 s on the wire.
   ModbusHost host(daemon_.port(), {.baud = 115200, .patience = kPatience});
-  // While the pty is full, a write is refused (EAGAIN), because the daemon has not yet read what was left.
+  // While the pty is full, a write is refused (EAGAIN), because the daemon has not yet read the remaining
+  // bytes.
   EXPECT_TRUE(eventually([&] { return host.read(kHardwareCode) == Registers{0xC001}; }))
       << modbus_strerror(host.error());
 }
 
-// 32,000 pulses at 600 RPM take 1 s, and half of the 20 ms of acceleration and deceleration more.
+// 32,000 pulses at 600 RPM take 1 s, plus half of the 20 ms of acceleration and deceleration.
 TEST_P(Hammering, AMoveTakesItsTimeUnderRequestsWithoutAPause) {
   ModbusHost host(daemon_.port(), {.baud = 115200, .patience = kPatience});
   ASSERT_TRUE(host.write(kAaxisSvon, 1));
@@ -275,7 +276,7 @@ TEST_P(Hammering, AMoveTakesItsTimeUnderRequestsWithoutAPause) {
 INSTANTIATE_TEST_SUITE_P(With, Hammering, testing::Values("wire", "instant"),
                          [](const auto& parameter) { return std::string(parameter.param) + "Timing"; });
 
-// A host that addresses the next station before the last one has replied causes a collision; the line
+// A host that addresses the next station before the previous one has replied causes a collision; the line
 // recovers.
 TEST(HammeringFifteenStations, LeavesAllOfThemAlive) {
   for (const char* timing : {"wire", "instant"}) {
@@ -293,8 +294,8 @@ TEST(HammeringFifteenStations, LeavesAllOfThemAlive) {
       expect_taken(*daemon, lumps * lump.size());
       read_all(host);
       for (const Json& station : status(*daemon)["lines"].at(0)["stations"]) {
-        // Two of its own, and two broadcasts. On the wire, the reply to the previous request damages a
-        // request.
+        // Two of its own, and two broadcasts. On the wire, the reply to the previous request damages the next
+        // one.
         EXPECT_GT(station["requests"], 0) << station;
         EXPECT_LE(station["requests"], 4 * lumps) << station;
         if (std::string(timing) == "wire") continue;

@@ -1,4 +1,4 @@
-// Which hosts a device receives: a host with its own line settings, and one that set none.
+// Which hosts a device receives: one with its own line settings, and one that set none.
 #include <gtest/gtest.h>
 
 #include "tests/acceptance/any_speed.h"

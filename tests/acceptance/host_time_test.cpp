@@ -36,7 +36,7 @@ class HostTime : public testing::Test {
   Finished python(const std::string& script, const Words& flags = {}) const {
     return exec({kPython, "-c", script}, flags);
   }
-  /// Runs it twice beside a load. What it prints and the recording must be the same.
+  /// Runs it twice while the machine is loaded. Its output and the recording must be the same.
   Finished python_twice(const std::string& script) const {
     const std::string spin = "while :; do :; done";
     const Process first_load({"sh", "-c", spin});
@@ -75,7 +75,8 @@ print(time.time() - began, time.monotonic() - up, time.strftime("%Y-%m-%d"))
 }
 
 TEST_F(HostTime, WaitsForALineAsLongAsItTakes) {
-  // Eight characters there, seven back, each of 11 bits at 19,200 baud, and the silence before the reply.
+  // Eight characters to the device, seven back, each of 11 bits at 19,200 baud, and the silence before the
+  // reply.
   const Finished host = python_twice(R"(
 import os, select, termios, time, tty
 port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
@@ -353,7 +354,7 @@ TEST_F(HostTime, TellsOfAThreadThatDoesNotWait) {
   EXPECT_NE(host.errors.find("does not wait, so the clock is stopped"), std::string::npos) << host.errors;
 }
 
-/// The beginning of a program: all that is looked at.
+/// The beginning of a program is enough to recognize it.
 std::string program(unsigned char bits, bool is_dynamic) {
   Elf64_Ehdr own;
   std::ifstream("/proc/self/exe", std::ios::binary).read(reinterpret_cast<char*>(&own), sizeof own);

@@ -31,7 +31,7 @@ class LargeMessages : public testing::Test {
     Json reply;
     std::size_t bytes = 0;
     Clock::duration took{};          // until the reply was there
-    Clock::duration longest_wait{};  // of a host meanwhile, for its reply
+    Clock::duration longest_wait{};  // a host's waiting time for its reply meanwhile
     int polls = 0;
   };
   Exchange ask(const Json& message) {
@@ -53,8 +53,8 @@ class LargeMessages : public testing::Test {
     }
     return exchange;
   }
-  /// If the message took long, a host has waited for a part of it at most. A busy machine may itself make it
-  /// wait for a part of a second.
+  /// If the message took long, a host has waited for a part of that time at most. A busy machine may itself
+  /// make it wait for a part of a second.
   static void expect_served(const Exchange& exchange, const std::string& what) {
     if (exchange.took < std::chrono::seconds(1)) return;
     EXPECT_LT(exchange.longest_wait, exchange.took / 2) << what;
@@ -114,8 +114,7 @@ TEST_F(LargeMessages, OfAProgramThatIsTooLongLetHostsBeServed) {
 }
 
 TEST_F(LargeMessages, ThatNameTooMuchAreRefused) {
-  nlohmann::json values =
-      nlohmann::json::object();  // an ordered object looks through all keys for each new one
+  nlohmann::json values = nlohmann::json::object();  // an ordered object searches all keys for each new one
   Json names = Json::array();
   for (int i = 0; i < 60'000; ++i) {
     values["feeder.0x" + std::to_string(10'000 + i)] = i;

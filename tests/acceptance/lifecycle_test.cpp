@@ -51,7 +51,7 @@ TEST(Link, OfAKilledDaemonIsReplacedByTheNext) {
   EXPECT_EQ(killed.stop(SIGKILL), 128 + SIGKILL);
   ASSERT_TRUE(fs::is_symlink(killed.port())) << "left behind";
   ASSERT_TRUE(fs::exists(killed.control())) << "left behind";
-  const RunningUnderstudy next({"--baud", "115200"});  // takes the number of the killed one's pty, maybe
+  const RunningUnderstudy next({"--baud", "115200"});  // may get the number of the killed one's pty
   Process daemon({UNDERSTUDY_BINARY, "serve", "--model", "simple2-r3", "--link", killed.port(), "--control",
                   killed.control()});
   ASSERT_TRUE(eventually([&] { return daemon.output().ends_with('\n'); })) << daemon.errors();

@@ -65,7 +65,7 @@ TEST(UserWithoutInotifyInstances, IsServedAsWell) {
     if (!instance) break;
     instances.push_back(std::move(instance));
   }
-  if (instances.size() == kLimit) GTEST_SKIP() << "this machine has no limit to meet";
+  if (instances.size() == kLimit) GTEST_SKIP() << "this machine has no such limit";
   const auto daemon = RunningUnderstudy::of_bench(lines(2));
   EXPECT_NE(daemon->errors().find("2 ports are checked for hosts every 50 ms"), std::string::npos)
       << daemon->errors();

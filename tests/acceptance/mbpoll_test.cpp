@@ -1,4 +1,4 @@
-// mbpoll, as a user calls it: 8E1, and a process for each request, so each one reopens the port.
+// mbpoll as a user calls it: at 8E1, with one process per request, so each one reopens the port.
 #include <gtest/gtest.h>
 #include <signal.h>
 

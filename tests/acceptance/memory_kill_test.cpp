@@ -44,7 +44,7 @@ std::vector<std::int64_t> counts(const NvImage& image) {
   return found;
 }
 
-/// Returns true if the writes up to some one of them, and no others, lead to this state.
+/// Returns whether the state results from the first so many writes, and no others.
 bool is_some_moment(const std::vector<std::int64_t>& counts) {
   for (std::size_t i = 1; i < counts.size(); ++i) {
     if (counts[i] > counts[i - 1]) return false;
@@ -75,7 +75,7 @@ class KilledDaemon {
                                         folder_.path(), "--speed", "5x", "--control", folder_ / "control"});
   }
 
-  /// Checks what it left, and returns how far it has counted.
+  /// Checks the image that it left, and returns its count.
   std::int64_t kill_and_look(int number) {
     process_->send(SIGKILL);
     EXPECT_EQ(process_->wait(kPatience), 128 + SIGKILL) << process_->errors();
@@ -86,7 +86,7 @@ class KilledDaemon {
     if (!image) return last_;
     const std::vector<std::int64_t> found = counts(*image);
     EXPECT_TRUE(is_some_moment(found)) << testing::PrintToString(found) << " after kill " << number;
-    EXPECT_GE(found.front(), last_) << "nothing that was kept is forgotten, kill " << number;
+    EXPECT_GE(found.front(), last_) << "no stored value is lost, kill " << number;
     last_ = found.front();
     return last_;
   }

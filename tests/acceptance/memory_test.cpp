@@ -87,7 +87,7 @@ TEST(Memory, OutlivesTheDaemonHoweverItIsAskedToEnd) {
       EXPECT_EQ(host.read(kParmsSpeed1), Registers{static_cast<std::uint16_t>(number - 1)});
       EXPECT_EQ(host.read_long(kMem0), -1000 * (number - 1));
       EXPECT_EQ(host.read(kLine0), Registers{static_cast<std::uint16_t>(number - 1)});
-      EXPECT_EQ(host.read(kAaxisSpeed), Registers{0}) << "not one that is kept";
+      EXPECT_EQ(host.read(kAaxisSpeed), Registers{0}) << "not a persistent one";
       EXPECT_TRUE(host.write(kAaxisSpeed, 200));
       EXPECT_TRUE(host.write(kParmsSpeed1, number));
       const auto bits = static_cast<std::uint32_t>(-1000 * number);
@@ -176,7 +176,7 @@ TEST(Memory, OfAnotherKindIsRefusedAndLeftAlone) {
     const std::string link = folder / "port";
     expect_refused(serve({"--model", "simple2-r3", "--link", link, "--nv", folder.path()}), why);
     EXPECT_EQ(text_of(path), text);
-    EXPECT_FALSE(fs::exists(fs::symlink_status(link))) << "nothing was begun";
+    EXPECT_FALSE(fs::exists(fs::symlink_status(link))) << "nothing was started";
     EXPECT_FALSE(fs::exists(path + ".new"));
   }
 }
@@ -323,7 +323,7 @@ TEST(Program, OfABenchStartsByItselfAtEachPowerUp) {
   expect_done(*daemon, {"power", "cycle"});
   EXPECT_TRUE(eventually([&] { return host.read(kOutputs) == Registers{1 << 3}; }));
   const std::int32_t counted = host.read_long(kMem0);
-  EXPECT_GE(counted, 3) << "MEM outlives the power";
+  EXPECT_GE(counted, 3) << "MEM survives power-off";
   EXPECT_TRUE(eventually([&] { return host.read_long(kMem0) > counted; }));
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 struct Mistake {
   Words words;  // names of files begin with @
   int exit_code;
-  std::string says;  // the whole line, with files likewise
+  std::string says;  // the whole line, in which files also begin with @
 };
 
 class Mistakes : public testing::Test {
@@ -201,7 +201,7 @@ TEST_F(Mistakes, OfProgramsAreToldWithTheirFile) {
   EXPECT_NE(finished.errors.find(" more)\n"), std::string::npos) << finished.errors;
 }
 
-// A command that fails before a pipe leaves an empty text, which must not remove the program.
+// A command that fails before a pipe passes on an empty text, which must not remove the program.
 TEST_F(Mistakes, AnEmptyProgramIsRefused) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   folder_.write("some.lst", "Out 4 1\nEND\n");

@@ -31,8 +31,7 @@ struct HostSetup {
   int baud = 19200;
   char parity = 'E';
   int station = 1;
-  std::chrono::milliseconds patience{
-      10'000};  // a reply that comes is not waited for, however busy the machine is
+  std::chrono::milliseconds patience{10'000};  // any reply arrives before this, however busy the machine is
 
   friend std::ostream& operator<<(std::ostream& out, const HostSetup& setup) {
     return out << setup.baud << " 8" << setup.parity << "1";

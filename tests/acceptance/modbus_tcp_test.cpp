@@ -196,7 +196,7 @@ TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
   const std::string told =
       "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
   EXPECT_TRUE(eventually([&] { return served.errors().find(told) != std::string::npos; })) << served.errors();
-  EXPECT_EQ(served.errors().find("unit 9"), std::string::npos) << "it is told once: " << served.errors();
+  EXPECT_EQ(served.errors().find("unit 9"), std::string::npos) << "it is reported once: " << served.errors();
 }
 
 TEST(ModbusTcpLine, IsRefusedWhereLinesOfTextAreSpoken) {

@@ -33,7 +33,7 @@ std::string contents(const std::string& path) {
 
 bool is_here(const std::string& program) { return run({"which", program}).exit_code == 0; }
 
-/// Every command's words, from `understudy` itself ({}) down to `ctl resume`.
+/// The words of every command, from `understudy` itself ({}) down to `ctl resume`.
 void collect_commands(const Words& command, std::vector<Words>& all) {
   all.push_back(command);
   Words asking = command;
@@ -236,7 +236,7 @@ TEST_F(Installation, HasAManPageForEachCommand) {
   }
 }
 
-/// A relative link, and none: a user may not be able to write to the bench's folder.
+/// A relative link, and none at all: a user may not be able to write to the bench's folder.
 TEST_F(Installation, ServesAShippedBenchWithItsLinksElsewhere) {
   fs::create_directory(folder() / "links");
   Process daemon({program(), "serve", prefix() + "/share/understudy/scenarios/quickstart.yaml", "--links",
@@ -385,19 +385,19 @@ std::string judged(const std::string& latenesses) {
 TEST(ReferenceTimer, TellsABusyMachineFromAQuietOne) {
   std::string quiet;
   for (int i = 0; i < 1000; ++i) quiet += i % 200 == 0 ? "60\\n" : "0.1\\n";
-  EXPECT_EQ(judged(quiet), "") << "now and then it is late everywhere";
+  EXPECT_EQ(judged(quiet), "") << "sometimes every wake-up is late";
   EXPECT_NE(judged(quiet + "700\\n").find("came up to 700 ms late"), std::string::npos);
   std::string busy;
   for (int i = 0; i < 1000; ++i) busy += i % 50 == 0 ? "60\\n" : "0.1\\n";
   EXPECT_NE(judged(busy).find("in 2.0 % of its rounds more than 50 ms"), std::string::npos) << judged(busy);
 }
 
-/// Simulates a machine that stands still for a second: its process is stopped.
+/// Simulates a machine that stands still for a second, by stopping its process.
 TEST(ReferenceTimer, NoticesThatItStoodStill) {
   Process timer({"/usr/bin/python3", std::string(PROJECT_FOLDER) + "/tests/reference_timer.py"});
   ASSERT_TRUE(eventually([&] { return timer.errors() == "begins\n"; })) << timer.errors();
   timer.send(SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // this is the time that it misses
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // the time that it misses
   timer.send(SIGTERM);
   timer.send(SIGCONT);
   EXPECT_EQ(timer.wait(kPatience), 0) << timer.errors();
@@ -450,7 +450,7 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   for (const char* library : {"libc6", "libmodbus5"})
     EXPECT_NE(needed.find(library), std::string::npos) << needed;
   EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
-  // The pages name them all, if the package was built for the Debian release that they describe.
+  // The pages name all of them, if the package was built for the Debian release that they describe.
   if (needed.find("libmodbus5 (") != std::string::npos) {
     const std::regex name("([a-z][-a-z0-9.+]*) \\(");
     for (std::sregex_iterator it(needed.begin(), needed.end(), name), end; it != end; ++it) {

@@ -125,7 +125,7 @@ TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
   EXPECT_EQ(told("events"), events);
 }
 
-/// It shows what happened; if someone could change that, everyone would see something else.
+/// The page shows what happened; if someone could change that, everyone would see something else.
 TEST_F(PageOfAFailure, RefusesWhateverActs) {
   const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
   position_at(end / 2);

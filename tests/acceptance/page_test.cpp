@@ -17,7 +17,7 @@ namespace page_test {
 using emulator::page::TestBrowser;
 using emulator::page::TestJson;
 
-/// Of "page http://127.0.0.1:1234/#TOKEN".
+/// The token in "page http://127.0.0.1:1234/#TOKEN".
 struct Address {
   std::uint16_t port = 0;
   std::string token;
@@ -161,7 +161,7 @@ TEST(Page, ARecordingShowsWhereItsScenarioFailed) {
   EXPECT_EQ(timeline["marks"][1]["time_ns"], timeline["end_ns"]);
   EXPECT_FALSE(timeline.contains("marks_left_out"));
   EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", timeline["end_ns"]}})["simulated_time_ns"], timeline["end_ns"]);
-  // What led to this moment is sent again, once: the request 1.7 s before, and its answer.
+  // The past of this moment is sent again, once: the request 1.7 s before, and its reply.
   browser->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
   const TestJson look = browser->hear_one("look");
   EXPECT_EQ(look.value("frames", TestJson::array()).size(), 2U) << look;

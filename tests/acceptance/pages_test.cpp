@@ -1,7 +1,8 @@
-// README and the pages of docs/: what a reader pastes does what the page says. The `sh` blocks of a page are
-// played in order, in one shell, in a folder that has what the project's has. A comment `# -> a, b; why`
-// holds texts that its command must print, in that order (`...` stands for anything); a block `output` behind
-// one is what it prints; a block `dialogue PORT` is what is typed there (behind `> `) and answered.
+// Runs the commands of README and docs/ as a reader pastes them, and compares the results with the pages. The
+// `sh` blocks of a page run in order, in one shell, in a folder with the project's files. A comment `# -> a,
+// b; why` lists texts that its command must print, in that order (`...` stands for anything). A block
+// `output` after a command is its output. A block `dialogue PORT` is typed at the port (lines after `> `),
+// with the replies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,8 +110,8 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Texts in this order; `...` stands for anything within a line, and a time for any time where `times` says
-/// so.
+/// Finds texts in this order; `...` stands for anything within a line, and a time for any time if `times` is
+/// set.
 std::regex pattern_of(const std::string& text, bool any_time) {
   std::string escaped = std::regex_replace(text, std::regex(R"([.^$|()\[\]{}*+?\\])"), "\\$&");
   escaped = std::regex_replace(escaped, std::regex(R"((\\\.){3})"), ".*");

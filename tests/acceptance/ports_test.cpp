@@ -78,7 +78,7 @@ class ServedOnTwoPorts : public testing::Test {
     bool is_connected = false;
   };
 
-  /// Returns what it printed for the address; a write prints nothing.
+  /// Returns the output for the address; a write prints nothing.
   std::string mbpoll(const Port& port, const std::string& type, int address, const Words& written) const {
     Words words{"mbpoll",
                 "-m",
@@ -150,7 +150,7 @@ TEST_F(ServedOnTwoPorts, ServesTwoHostsAtOnce) {
   constexpr int kWords = 16;
   std::atomic<int> torn{0};
   std::atomic<int> failed{0};
-  // Each writes its own block as a whole and reads the other's, of another length.
+  // Each writes its own block as a whole and reads the other's, which has a different length.
   const auto talk = [&](const Port& port, int own, int others) {
     const Master master(path_of(port), port);
     if (!master.is_connected) ++failed;

@@ -52,7 +52,7 @@ TEST(ProgramTexts, WarningsDoNotCountAsMistakes) {
   const Finished refused = understudy({"check", "--model", "super-40nc", odd});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors, odd + ":3:1: CJN K2 has no condition; expected contacts before it\n");
-  // By choice, it is a mistake.
+  // With this option, it is an error.
   EXPECT_EQ(
       understudy({"check", "--model", "super-40nc", "--choice", "duplicate_label=refused_at_load", loads})
           .exit_code,
@@ -130,7 +130,7 @@ TEST(ProgramTexts, AreDescribed) {
 }
 
 /// However a program is loaded, `check` reports its warnings for each file, and `run` and `serve` report each
-/// once.
+/// one once.
 TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
   const PrivateFolder folder;
   const std::string listing = folder.write("lab.lst", "AREA C\nLAB K1\nLAB K1\nJMP K2\nEND\n");

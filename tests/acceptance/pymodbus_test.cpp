@@ -45,7 +45,7 @@ TEST_P(Pymodbus, ReadsAndWritesEveryType) {
 TEST_P(Pymodbus, SeesEachRefusalAsAnException) {
   const RunningUnderstudy daemon({"--baud", baud()});
   expect_well(daemon, "exceptions");
-  // 2 reads of 0x1000 to 0x101D, and for each of 19 cases one that is refused and one read of HW_Code.
+  // 2 reads of 0x1000 to 0x101D, and for each of 19 cases one refused request and one read of HW_Code.
   EXPECT_EQ(daemon.requests(), 2 + 2 * 19);
 }
 

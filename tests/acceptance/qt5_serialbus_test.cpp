@@ -78,10 +78,10 @@ TEST_P(Qt5SerialBus, ExchangesAndIsToldWhatIsRefused) {
                     {"1/write/0x1000/0xFE0C,0xFFFF", "written"},  // -500, low word first
                     {"1/read/0x1000/3", "65036 65535 200"},
                     {"1/raw/0x05/0000FF00", "exception 1"},    // write a coil
-                    {"1/raw/0x41/0102", "exception 1"},        // a function that nobody knows
+                    {"1/raw/0x41/0102", "exception 1"},        // an unknown function
                     {"1/read/0x0003/1", "exception 2"},        // a hole
                     {"1/write/0x0001/1", "exception 2"},       // HW_Code is read-only
-                    {"1/write/0x1003/3001", "exception 3"},    // AccTime ends at 3000
+                    {"1/write/0x1003/3001", "exception 3"},    // the maximum of AccTime is 3000
                     {"1/raw/0x03/4000007E", "exception 3"},    // 126 registers
                     {"1/raw/0x03/00010001", "02c001"},         // byte count, HW_Code
                     {"1/read/0x1000/3", "65036 65535 200"}});  // as before
@@ -101,7 +101,7 @@ TEST_P(Qt5SerialBus, BroadcastsToEveryStationWithoutAReply) {
                      {"1/read/0x1002/1", "321"},
                      {"7/read/0x1002/1", "321"},
                      {"0/write/0x1000/0xFE0C,0xFFFF,1000", "broadcast"},
-                     {"0/write/0x1003/3001", "broadcast"},  // refused by each, and nobody says so
+                     {"0/write/0x1003/3001", "broadcast"},  // each refuses it, and none replies
                      {"0/write/0x1004/9", "broadcast"},
                      {"7/write/0x1002/8", "written"},
                      {"1/read/0x1000/5", "65036 65535 1000 0 9"},

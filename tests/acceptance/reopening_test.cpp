@@ -43,7 +43,7 @@ TEST(HostThatClosesAtOnce, LeavesNoReplyToTheNext) {
       ASSERT_TRUE(hasty.set_even_parity(B19200));
       hasty.write(kReadHardwareCode);
     }
-    EXPECT_TRUE(eventually([&] { return daemon.requests() == 2 * time - 1; }));  // served and replied
+    EXPECT_TRUE(eventually([&] { return daemon.requests() == 2 * time - 1; }));  // executed and answered
     std::this_thread::sleep_for(Wait(20));
     Host next(daemon.port());
     ASSERT_TRUE(next.set_even_parity(B19200));

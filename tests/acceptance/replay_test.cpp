@@ -51,8 +51,8 @@ TEST_F(RecordedDay, RunsAgainInFreeTime) {
 
 TEST_F(RecordedDay, TellsTheFirstByteThatDiffers) {
   std::string day = text();
-  // The host requests 3201 pulses: 0C81 hex instead of 0C80. The request's checksum is then wrong, so nobody
-  // answers.
+  // The host requests 3201 pulses: 0C81 hex instead of 0C80. The request's checksum is then wrong, so no
+  // station replies.
   const std::size_t at = day.find("0c80");
   ASSERT_NE(at, std::string::npos) << day.substr(0, 2000);
   day.replace(at, 4, "0c81");
@@ -63,7 +63,7 @@ TEST_F(RecordedDay, TellsTheFirstByteThatDiffers) {
 }
 
 TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
-  // Somewhere in the middle of the move, which begins with the reply to its start at the latest.
+  // Somewhere in the middle of the move, which starts with the reply to its start at the latest.
   const std::string control = folder_ / "control";
   Process replay({UNDERSTUDY_BINARY, "replay", recording_, "--until", "200ms", "--control", control});
   ASSERT_TRUE(eventually([&] { return replay.output().find("the clock is at 200ms") != std::string::npos; }))
@@ -77,7 +77,7 @@ TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
   const Finished there = ctl({"run-until", "device.STATUS.4 == 0", "--within", "1s"});
   EXPECT_EQ(there.exit_code, 0) << there.errors;
   EXPECT_EQ(ctl({"get", "Cord_A"}).output, "Cord_A 3200\n");
-  // Its port is a new one, and serves.
+  // It gets a new port, and serves.
   const auto lines = lines_of(replay.output());
   const auto ready = std::find_if(lines.begin(), lines.end(),
                                   [](const std::string& line) { return line.starts_with("ready "); });
@@ -98,7 +98,7 @@ TEST_F(RecordedDay, StopsAtItsEndIfThatComesFirst) {
   EXPECT_EQ(replay.wait(kPatience), 0);
 }
 
-/// Its time is the bench's, also where nothing happens.
+/// It uses the time of the bench, even while nothing happens.
 TEST(QuietRecording, LastsAsLongAsTheDaemonDid) {
   const PrivateFolder folder;
   const std::string recording = folder / "quiet.jsonl";

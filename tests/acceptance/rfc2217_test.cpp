@@ -71,7 +71,7 @@ TEST_F(Rfc2217ByPyserial, ReplaysWhatItsHostSetAndTookBack) {
   }
 }
 
-// ser2net opens the line by RFC 2217, and passes on what its own client sets.
+// ser2net opens the line with RFC 2217, and passes on the settings of its own client.
 TEST_F(Rfc2217ByPyserial, PassesThroughSer2netAsAGateway) {
   if (!std::filesystem::exists(kSer2net)) GTEST_SKIP() << "ser2net is not installed";
   const RunningUnderstudy served(kListens);
@@ -84,7 +84,7 @@ TEST_F(Rfc2217ByPyserial, PassesThroughSer2netAsAGateway) {
                                           gate + "\n  connector: telnet(rfc2217),tcp,127.0.0.1," +
                                           std::to_string(listened_port(served)) + "\n")});
   ASSERT_TRUE(eventually([&] { return TcpClient(std::stoi(gate)).is_connected; })) << ser2net.errors();
-  // The client that tested whether it listens must be gone at both ends.
+  // The client that checked whether it listens must be gone at both ends.
   ASSERT_TRUE(
       eventually([&] { return served.ctl({"status"}).output.find("host closed") != std::string::npos; }));
   expect_case("rfc2217://127.0.0.1:" + gate, "settings");

@@ -151,7 +151,7 @@ class RsM8194hMbpoll : public testing::Test {
     words.push_back(daemon_->port());
     return words;
   }
-  /// Returns what it prints, value by value.
+  /// Returns its output, value by value.
   std::string values(const std::string& type, int address, int count = 1, const Words& order = {}) const {
     Words rest{"-1", "-c", std::to_string(count)};
     rest.insert(rest.end(), order.begin(), order.end());

@@ -1,5 +1,5 @@
-// The memory of an RS-M8194H under a daemon with --nv: macros that came through the window and settings of
-// the Initial Table outlive the daemon, and an interrupted download leaves the previous macro.
+// The memory of an RS-M8194H under a daemon with --nv: macros that arrived through the window and settings of
+// the Initial Table survive the daemon, and an interrupted download leaves the previous macro.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -23,7 +23,7 @@ constexpr HostSetup kAsItComes{.baud = 115200, .parity = 'N'};
 const Registers kCreateMp7 = {0x0AC9, 7};
 const Registers kClose = {0x0CCA};
 
-/// SET_VAR VAR1: the frame of the manual's 7.5, with a number of 16 bits.
+/// SET_VAR VAR1: the frame of the manual's 7.5, with a 16-bit number.
 Registers set_var1(std::uint16_t number) { return {0x0CD2, 0x7FFF, 1, 0, number}; }
 
 class RsM8194hKept : public testing::Test {
@@ -82,7 +82,7 @@ TEST_F(RsM8194hKept, WhatCameThroughTheWindowOutlivesTheDaemon) {
 }
 
 TEST_F(RsM8194hKept, AKillInADownloadLeavesTheMacroThatWas) {
-  // After OPEN, after a line, and after CLOSE, when the new one is present as soon as it is in the file.
+  // After OPEN, after a line, and after CLOSE, when the new macro is present as soon as it is in the file.
   struct Case {
     const char* when;
     std::vector<Registers> sent;
@@ -128,7 +128,7 @@ TEST_F(RsM8194hKept, APowerCutInADownloadLeavesTheMacroThatWas) {
   EXPECT_TRUE(host.write(kWindow, set_var1(43)));
   EXPECT_EQ(daemon->ctl({"power", "cell", "off"}).exit_code, 0);
   EXPECT_TRUE(host.in_vain([](ModbusHost& asked) { return asked.read_input(kRsmState); }).empty())
-      << "a box without power is silent";
+      << "a controller without power is silent";
   EXPECT_EQ(daemon->ctl({"power", "cell", "on"}).exit_code, 0);
   EXPECT_TRUE(eventually([&] { return host.read_input(kRsmState) == Registers{0}; }));
   // It has left the download: a macro line is refused, a command is accepted.

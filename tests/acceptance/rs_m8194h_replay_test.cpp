@@ -66,7 +66,7 @@ class RsM8194hReplay : public testing::Test {
       EXPECT_TRUE(host.write(kWindow, words))
           << std::hex << words[0] << ": " << modbus_strerror(host.error());
     };
-    // Speeds, homing of Z, a stream of X and Y, an ISR at the end of U's move, and MP 41 by an input.
+    // Speeds, homing of Z, a stream of X and Y, an ISR at the end of U's move, and MP 41 through an input.
     const auto begin = [&] {
       send({0x0A48, 15, 0, 8000});          // V
       send({0x0A47, 15, 0, 1000});          // SV

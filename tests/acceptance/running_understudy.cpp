@@ -20,9 +20,9 @@ namespace understudy::acceptance {
 
 namespace {
 
-constexpr Wait kGrace{2'000};  // between asking to end and making it end
+constexpr Wait kGrace{2'000};  // between SIGTERM and SIGKILL
 
-/// A file without a name: a process may print what it likes and never waits for a reader.
+/// A file without a name: a process can print any amount and never waits for a reader.
 Descriptor nameless_file() {
   Descriptor file(memfd_create("printed", MFD_CLOEXEC));
   if (!file) throw std::runtime_error("memfd_create failed");
@@ -43,7 +43,7 @@ std::string text_of(const Descriptor& file) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-  close_range(STDERR_FILENO + 1, ~0U, 0);  // a port that the test holds open is not the child's
+  close_range(STDERR_FILENO + 1, ~0U, 0);  // the child does not inherit a port that the test holds open
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
@@ -89,7 +89,7 @@ Process::Process(const Words& command, const Environment& environment)
 
 Process::~Process() {
   if (exit_code_) return;
-  send(SIGTERM);  // so that it can tidy up
+  send(SIGTERM);  // so that it can clean up
   if (wait(kGrace)) return;
   send(SIGKILL);
   wait(kPatience);

@@ -1,5 +1,5 @@
 // Real processes: a running `understudy serve`, and programs that run to their end. Every wait is bounded.
-// Processes end with their owner, also if the test crashes.
+// Processes end with their owner, even if the test crashes.
 #pragma once
 
 #include <sys/types.h>
@@ -46,7 +46,7 @@ class PrivateFolder {
 class Process {
  public:
   explicit Process(const Words& command, const Environment& environment = {});
-  ~Process();  // ends it if it is still there
+  ~Process();  // ends it if it is still running
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 

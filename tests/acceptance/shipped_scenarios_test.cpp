@@ -110,7 +110,7 @@ TEST(ShippedScenarios, EachAsksAQuestionAndThePageKnowsIt) {
 
 // --- in free time ------------------------------------------------------------------------------------------
 
-/// Returns everything that a run prints, with the hashes of everything that the devices sent and did.
+/// Returns the complete output of a run, with the hashes of everything that the devices sent and did.
 std::string printed(const Words& flags = {}, const Environment& environment = {},
                     const std::string& program = UNDERSTUDY_BINARY) {
   // More than a thousand scenarios: with sanitizers and another test beside them they took 12 s.
@@ -208,7 +208,7 @@ steps:
   - advance: 300ms
 )";
 
-/// Freed memory is filled with a different value in each run, and none of it is held back.
+/// Freed memory is filled with a different value in each run, and none of it is kept for reuse.
 TEST(ShippedScenarios, DoTheSameWhateverFreedMemoryHolds) {
   const PrivateFolder folder;
   const std::string path = folder.write("files.yaml", kChangesItsFiles);
@@ -273,7 +273,7 @@ constexpr Wait kBound{150'000};     // all of them, in parallel
 constexpr double kSimulated = 120;  // seconds in all
 constexpr int kAttempts = 4;
 
-/// "ok    alarm.yaml: an alarm, and clearing it", by the scenario; without how long it took.
+/// "ok    alarm.yaml: an alarm, and clearing it", by scenario; without the time it took.
 std::map<std::string, std::string> verdicts_of(const std::string& output) {
   std::map<std::string, std::string> verdicts;
   const std::regex verdict("^(ok|FAIL|-) +(.*) \\([^)]*\\)$");
@@ -284,7 +284,7 @@ std::map<std::string, std::string> verdicts_of(const std::string& output) {
   return verdicts;
 }
 
-/// Of "46 passed, 0 failed; 37.3s simulated".
+/// The simulated time in "46 passed, 0 failed; 37.3s simulated".
 double simulated_seconds(const std::string& output) {
   const std::string line = last_line_of(output);
   const std::size_t at = line.find("; ");
@@ -340,7 +340,7 @@ TEST(ShippedScenariosInRealTime, HaveTheSameVerdicts) {
   }
   EXPECT_EQ(verdicts, expected) << output;
 
-  // Each of these plays, over a pty and in real time, replays in virtual time to the byte.
+  // Each of these runs, over a pty and in real time, replays in virtual time to the byte.
   std::size_t recordings = 0;
   for (const auto& entry : fs::directory_iterator(folder / "recordings")) {
     const Finished again = understudy({"replay", entry.path().string()});

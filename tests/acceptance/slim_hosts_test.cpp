@@ -71,7 +71,7 @@ TEST(SlimByExpect, TypesAProgramWithAnEventAndAnswersIt) {
   EXPECT_EQ(daemon->ctl({"get", "PE", "N5"}).output, "PE 0\nN5 0\n");
 }
 
-// --- the command line of a model that speaks text --------------------------------------------------
+// --- the command line of a text-protocol model -----------------------------------------------------
 
 TEST_F(SlimByPyserial, IsCapturedAsWhatItIs) {
   const PrivateFolder folder;

@@ -7,7 +7,7 @@
 namespace understudy::acceptance {
 namespace stations_test {
 
-constexpr std::chrono::milliseconds kSilence{150};  // no reply takes so long on these lines
+constexpr std::chrono::milliseconds kSilence{150};  // no reply takes this long on these lines
 
 TEST(Broadcast, IsAppliedWithoutAReply) {
   const RunningUnderstudy daemon;

@@ -32,7 +32,7 @@ constexpr int kHole = 2128;
 constexpr const char* kProgram =
     "AREA X\nINC D0\nRPM K3000\nDRV K100\nDRV K0\nEND\nAREA PLC\nLD X3\nOUT Y0\nEND\n";
 
-/// A bench with one on both its ports, at a station and with a program of X.
+/// A bench with one on both its ports, with a station address and a program for X.
 std::unique_ptr<RunningUnderstudy> serve(int station, const Words& flags = {},
                                          const std::string& timing = "wire") {
   std::string program;
@@ -126,7 +126,7 @@ TEST(Super40ncHosts, UnderstudyPollReadsAndWritesAtStation0) {
   const Finished read = poll({"D53", "M5", "D9000"});
   EXPECT_EQ(read.exit_code, 0) << read.errors;
   EXPECT_EQ(read.output, "D53 -7\nM5 1\nD9000 0\n");
-  // Nobody answers there while the number is different.
+  // Nothing replies there while the number is different.
   EXPECT_EQ(poll({"D9000=3"}).exit_code, 0);
   EXPECT_EQ(poll({"--timeout", "200ms", "D53"}).exit_code, 1);
 }
@@ -144,7 +144,7 @@ class Super40ncMbpoll : public testing::Test {
     words.push_back(panel_port(*daemon_));
     return words;
   }
-  /// What it prints, value by value.
+  /// Its output, value by value.
   std::string values(const std::string& type, int address, int count = 1) const {
     const Finished finished = run(command(type, address, {"-1", "-c", std::to_string(count)}));
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
@@ -307,17 +307,17 @@ TEST(Super40ncHosts, TsharkNamesTheFunctions) {
   EXPECT_EQ(decoded.output, expected) << decoded.errors;
 }
 
-/// A panel reads without pause on RS232 what a PC writes on RS485: whole blocks of equal words and equal
+/// A panel on RS232 reads without pause what a PC writes over RS485: whole blocks of equal words and equal
 /// bits, and a parameter whose halves are equal. Neither sees half of anything, nor the other's replies.
 TEST(Super40ncHosts, APanelPollsWhileAPcWrites) {
   constexpr int kRounds = 1000;
   constexpr int kStarts = 12;
   constexpr int kWords = 80;    // D100 to D139
   constexpr int kCoils = 40;    // M100 to M139
-  constexpr int kD9185 = 9370;  // the soft limit of X, which is in force at once
+  constexpr int kD9185 = 9370;  // the soft limit of X, which takes effect at once
   const auto daemon = serve(0, {}, "instant");
   ModbusHost pc(pc_port(*daemon), {.station = 0, .patience = std::chrono::seconds(5)});
-  // The limit is 6,553,700 and more. It is set before the panel reads, because its factory halves differ.
+  // The limit is at least 6,553,700. It is set before the panel reads, because its factory halves differ.
   const std::uint16_t first = 100;
   EXPECT_TRUE(pc.write(kD9185, Registers{first, first}));
   int requests = 1;

@@ -79,7 +79,7 @@ class Super40ncReplay : public testing::Test {
     ModbusHost pc(daemon->ports().at(1).link, {.station = 0});
     const auto poll = [&](int times) {
       for (int i = 0; i < times; ++i) {
-        EXPECT_EQ(panel.read(7234, 120).size(), 120U);  // positions and what the chip shows
+        EXPECT_EQ(panel.read(7234, 120).size(), 120U);  // positions, and the registers of the chip
         EXPECT_EQ(panel.read_coils(kM8000, 400).size(), 400U);
       }
     };

@@ -16,7 +16,7 @@
 
 namespace understudy::acceptance {
 
-/// Returns the port where it listens, from its log; 0 if there is none.
+/// Returns the port on which it listens, from its log; 0 if there is none.
 inline int listened_port(const RunningUnderstudy& served) {
   std::smatch found;
   const std::string errors = served.errors();
@@ -25,7 +25,7 @@ inline int listened_port(const RunningUnderstudy& served) {
              : 0;
 }
 
-/// Returns a port of this machine on which nobody listens now.
+/// Returns a port of this machine on which nothing listens now.
 inline int free_port() {
   const Descriptor held(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in where{};

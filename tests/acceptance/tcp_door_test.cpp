@@ -57,7 +57,7 @@ TEST(TcpDoor, IsOpenToPythonSerial) {
   EXPECT_EQ(host.output, "010302c0012984\n") << host.errors;
 }
 
-// socat makes a port of the address on the host's side.
+// socat turns the address into a port on the host's side.
 TEST(TcpDoor, IsAPortElsewhereBySocat) {
   if (access("/usr/bin/socat", X_OK) != 0) GTEST_SKIP() << "socat is not installed";
   const RunningUnderstudy served({"--listen", "rtu://:0"});
@@ -72,8 +72,8 @@ TEST(TcpDoor, IsAPortElsewhereBySocat) {
   }
 }
 
-/// A host that disappears without a final message, behind a removed link: in network namespaces, if they are
-/// allowed. It waits for half a minute, so it runs only with UNDERSTUDY_HEAVY_HOSTS=1.
+/// A host that disappears without a final message, after its link is removed: in network namespaces, if they
+/// are allowed. It waits for half a minute, so it runs only with UNDERSTUDY_HEAVY_HOSTS=1.
 TEST(TcpDoor, NoticesThatAHostHasVanished) {
   const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
   if (wanted == nullptr || std::string(wanted) != "1") GTEST_SKIP() << "UNDERSTUDY_HEAVY_HOSTS=1 is not set";
@@ -170,7 +170,7 @@ TEST(TcpDoor, UnderstandsFramesWithAPauseInside) {
   }
 }
 
-// As people try a port from a shell: `printf ... | socat -t 1 - TCP:...`.
+// As users try a port from a shell: `printf ... | socat -t 1 - TCP:...`.
 TEST(TcpDoor, AnswersOneShotClientsOfTextAsWell) {
   const auto served = RunningUnderstudy::of_model("slim", {"--listen", "rtu://:0"});
   const std::string script = "import socket; s = socket.create_connection(('127.0.0.1', " +

@@ -43,7 +43,7 @@ TEST_F(Terminal, ALongRunTellsHowFarItHasCome) {
   AtTerminal at_terminal(command, {{"TERM", "xterm"}, {"CI", ""}});
   EXPECT_TRUE(at_terminal.shows("0 of 2 played, ")) << at_terminal.screen();
   EXPECT_TRUE(at_terminal.shows("1 of 2 played, ")) << at_terminal.screen();
-  EXPECT_TRUE(at_terminal.shows("\r\x1b[K")) << "it is wiped away";
+  EXPECT_TRUE(at_terminal.shows("\r\x1b[K")) << "it is cleared";
   EXPECT_TRUE(at_terminal.shows("2 passed, 0 failed")) << at_terminal.screen();
   EXPECT_EQ(understudy(run).output.find("played"), std::string::npos) << "no terminal";
 }

@@ -54,7 +54,7 @@ class TtyShim : public testing::Test {
     errno = 0;
     return through_shim_(descriptor, TCSANOW, &asked) == 0 ? 0 : errno;
   }
-  /// The same for an ioctl.
+  /// Like the above, for an ioctl.
   int control(int descriptor, unsigned long request, void* argument) const {
     errno = 0;
     return ioctl_(descriptor, request, argument) == 0 ? 0 : errno;
@@ -77,7 +77,7 @@ class TtyShim : public testing::Test {
 
 TEST_F(TtyShim, TurnsTheErrorAboutParityIntoSuccess) {
   for (const tcflag_t parity : {PARENB, PARENB | PARODD}) {
-    ASSERT_EQ(libc(slave(), with(PARENB)), EINVAL) << "this libc has no such error";
+    ASSERT_EQ(libc(slave(), with(PARENB)), EINVAL) << "this libc does not have this error";
     EXPECT_EQ(shim(slave(), with(parity)), 0);
     EXPECT_EQ(shim(slave(), with(parity)), 0) << "again";
   }
@@ -116,7 +116,7 @@ TEST_F(TtyShim, AnswersForModemLinesAsIfWiredThrough) {
     return answered;
   };
   EXPECT_EQ(now(), kAll);
-  lines = TIOCM_RTS | TIOCM_CTS;  // CTS is not the host's to set
+  lines = TIOCM_RTS | TIOCM_CTS;  // the host cannot set CTS
   EXPECT_EQ(control(slave(), TIOCMBIC, &lines), 0);
   EXPECT_EQ(now(), kAll & ~TIOCM_RTS);
   lines = TIOCM_DTR;
@@ -142,7 +142,7 @@ TEST_F(TtyShim, RemembersRs485ModeAndLowLatency) {
   EXPECT_EQ(again.delay_rts_after_send, 3U);
   serial_struct serial{};
   EXPECT_EQ(control(slave(), TIOCGSERIAL, &serial), 0);
-  EXPECT_EQ(serial.type, PORT_16550A) << "a UART that is there";
+  EXPECT_EQ(serial.type, PORT_16550A) << "an existing UART";
   EXPECT_EQ(serial.flags & ASYNC_LOW_LATENCY, 0);
   serial.flags |= ASYNC_LOW_LATENCY;
   EXPECT_EQ(control(slave(), TIOCSSERIAL, &serial), 0);
@@ -274,7 +274,7 @@ TEST(TtyShimHint, IsToldToPersonsWhoseLineHasParity) {
                       "--link",          folder / "port", "--control", folder / "c"};
     std::string command;
     for (const std::string& word : serve) command += word + " ";
-    // `script` gives it its own terminal.
+    // `script` gives it a terminal of its own.
     const Process on_terminal({"script", "-qfec", command, "/dev/null"});
     EXPECT_TRUE(eventually([&] { return on_terminal.output().find("ready ") != std::string::npos; }));
     const bool is_told = on_terminal.output().find("LD_PRELOAD=$(understudy tty-shim)") != std::string::npos;

@@ -19,7 +19,7 @@ double milliseconds_of_exchange(Host& host) {
   return Milliseconds(Clock::now() - started).count();
 }
 
-/// The fastest of at least 50 exchanges, and of at most 600 until one is good enough.
+/// Returns the fastest of at least 50 exchanges, and of at most 600 until one is fast enough.
 double fastest_exchange(Host& host, double good_enough_ms) {
   constexpr int kMin = 50;
   constexpr int kMax = 600;
@@ -43,7 +43,7 @@ TEST_P(WireTime, OfAnExchangeIsWhatTheLineTakes) {
   const RunningUnderstudy daemon({"--timing", "wire", "--baud", std::to_string(GetParam().baud)});
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(GetParam().constant));
-  // 8 characters there and 7 back, of 11 bits; between them the END time of 0.75 ms.
+  // 8 characters to the device and 7 back, of 11 bits; between them the END time of 0.75 ms.
   const double expected_ms = (8 + 7) * 11 * 1000.0 / GetParam().baud + 0.75;
   const double tolerance_ms = std::max(0.2, expected_ms / 100);
   EXPECT_NEAR(fastest_exchange(host, expected_ms + tolerance_ms), expected_ms, tolerance_ms);

@@ -219,7 +219,7 @@ TEST_F(ServedWorkbench, AnswersPollByTableAndType) {
   EXPECT_EQ(poll({"--function", "1", "0x0009=1", "0x0008:3"}), "0x0008 0\n0x0009 1\n0x000A 0\n");
   EXPECT_EQ(poll({"--function", "2", "17"}), "17 1\n");
   EXPECT_EQ(poll({"--function", "4", "20"}), "20 68\n");
-  // It takes the low word first, so this controller is set to do the same.
+  // It expects the low word first, so this controller is set to do the same.
   EXPECT_EQ(poll({"0x0031=1"}), "");
   EXPECT_EQ(poll({"--type", "f32", "0x0020=2.25", "0x0020:2"}), "0x0020 2.25\n0x0022 1.5\n");
   const Finished refused =
@@ -275,12 +275,12 @@ TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
   EXPECT_EQ(polled({"--type", "s32", "0x10"}), "0x10 70000\n");
   EXPECT_EQ(polled({"--command", "MOVE Z 65538", "Run=1"}), "");
   EXPECT_TRUE(eventually([&] { return polled({"holding.Position_Z"}) == "holding.Position_Z 65538\n"; }));
-  // What it writes itself is used from then on.
+  // From then on, it uses the value that it writes itself.
   EXPECT_EQ(polled({"Word_Order=0", "holding.Position_Y=7", "holding.Position_Y", "Word_Order=1",
                     "holding.Position_Y"}),
             "holding.Position_Y 7\nholding.Position_Y 7\n");
   EXPECT_EQ(polled({"holding.Position_Y"}), "holding.Position_Y 7\n");
-  // Or the order is given: then the device is not asked.
+  // Or the order is given, and then the device is not asked.
   EXPECT_EQ(polled({"--word-order", "high", "holding.Position_Z"}), "holding.Position_Z 131073\n");
   EXPECT_EQ(polled({"--word-order", "low", "holding.Position_Z"}), "holding.Position_Z 65538\n");
   EXPECT_NE(polled({"--word-order", "middle", "holding.Position_Z"}).find("expected low or high"),

@@ -1,4 +1,4 @@
-// Onlookers of a program.
+// Observers of a program.
 #include "base/program_watch.h"
 
 #include <gtest/gtest.h>

@@ -48,7 +48,7 @@ TEST(ParseDuration, RefusesWhatWouldOverflow) {
   for (const char* text :
        {"9223372036854775808ns", "18446744073709551616ns", "18446744073709551617ns", "9223372036854775808s",
         "9300000000s", "99999999999999999999999999999999s", "153722868min", "2562048h",
-        "5124095576030432h",  // 2^64 ns and a bit: a small number if it wrapped
+        "5124095576030432h",  // a little more than 2^64 ns: a small number if it wrapped
         "18446744074s", "307445735min"}) {
     EXPECT_FALSE(parse_duration(text)) << text;
   }

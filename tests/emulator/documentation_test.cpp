@@ -49,7 +49,7 @@ TEST(Documentation, TheSlimPageHasTheParametersOfTheTable) {
     const std::size_t at = page.find(name);
     ASSERT_NE(at, std::string::npos) << row.name;
     const std::string line = page.substr(at + 1, page.find('\n', at + 1) - at - 1);
-    // PN50 is by the number of modules.
+    // PN50 depends on the number of modules.
     const std::string factory = row.name == "PN50" ? "by `modules`" : models::slim::text_of_real(row.factory);
     EXPECT_NE(line.find(" | " + factory + " |"), std::string::npos) << line;
   }

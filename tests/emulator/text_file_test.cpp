@@ -61,13 +61,13 @@ TEST_F(TextFile, IsReadByteForByte) {
 }
 
 TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
-  // Nobody writes to the pipe, and /dev/zero has no end: reading either would never end.
+  // Nothing writes to the pipe, and /dev/zero has no end: reading either would never end.
   for (const std::string& file : {path("pipe"), path("link"), path(""), std::string("/dev/zero"),
                                   std::string("/dev/null"), std::string("/dev/tty0")}) {
     if (!fs::exists(file)) continue;
     const FileText read = read_text_file(file);
     EXPECT_FALSE(read) << file;
-    // A terminal may not be ours to open.
+    // We may not have permission to open a terminal.
     if (file != "/dev/tty0") {
       EXPECT_EQ(read.why, "is not a regular file") << file;
     }
@@ -87,7 +87,7 @@ TEST_F(TextFile, IsReadUpToTheLimitAndNotBeyond) {
   fs::resize_file(file, kMaxTextBytes + 1);
   EXPECT_FALSE(read_text_file(file));
   EXPECT_EQ(read_text_file(file).why, "is larger than 64 MiB");
-  EXPECT_EQ(why_not_readable(file), "") << "what is read piece by piece may have any length";
+  EXPECT_EQ(why_not_readable(file), "") << "a file that is read in pieces can have any length";
 }
 
 TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
@@ -169,7 +169,7 @@ TEST_F(TextFile, WhatReplacesAFileHasItsOwner) {
   EXPECT_EQ(status.st_gid, 23456U);
 }
 
-// Files next to a memory may belong to someone: only leftovers of a writer are removed, and nothing that is
+// Files next to a memory may belong to someone: only a writer's leftovers are removed, and nothing that is
 // being written.
 TEST_F(TextFile, WhatAKilledWriterHasLeftIsRemoved) {
   const std::string image = R"({"understudy":1,"kind":"nv-image","model":"slim"})";

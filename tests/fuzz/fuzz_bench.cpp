@@ -1,5 +1,5 @@
-// Any text as a bench file is refused with an error of one line, or it is a bench, which as text reads back
-// as the same bench.
+// Any text as a bench file is refused with an error of one line, or it is a bench that, written as text,
+// reads back as the same bench.
 #include <cstdint>
 #include <string>
 

@@ -28,7 +28,7 @@ emulator::serve::DaemonOptions options() {
   return made;
 }
 
-/// One daemon for all inputs, restored to what it was.
+/// One daemon for all inputs, restored to its initial state.
 struct Rig {
   Rig()
       : daemon(emulator::world::parse_bench(
@@ -78,7 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     });
     require(replies <= 1, "a message gets one reply");
     rig.is_as_made = rig.is_as_made && is_refused;
-    rig.daemon.pause();  // an advance that is under way ends
+    rig.daemon.pause();  // an advance in progress ends
     if (!is_checked_wholly) continue;
     emulator::world::WorldState after = save(rig.daemon.world());
     if (is_refused) require(after == before, "a message that is refused changes nothing");

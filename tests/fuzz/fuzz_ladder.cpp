@@ -1,5 +1,5 @@
-// Any text as a listing of a SUPER-40NC's programs is refused with places, or it is programs: then the
-// listing made from them gives the same programs, and they run for a while, all six at once.
+// Any text as a listing of a SUPER-40NC's programs is refused with places, or it is a set of programs: then
+// the listing made from them gives the same programs, and they run for a while, all six at once.
 #include <cstdint>
 #include <string>
 

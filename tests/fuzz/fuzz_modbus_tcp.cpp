@@ -1,8 +1,8 @@
-// What masters send to a gateway, and what comes back over the line: whole or not. However it is cut into
-// pieces, the line gets the frames of the messages that the standard knows, one after the other, up to the
-// first whose length none has; the masters get answers that are whole; nothing grows without bound.
+// Input from masters to a gateway, and from the line back to it, complete or not. However it is cut into
+// pieces, the line gets the frames of the messages that the standard knows, one after another, up to the
+// first one without a known length; the masters get complete replies; nothing grows without bound.
 //
-// The first byte says how it is cut and what the line says; the rest is what is sent.
+// The first byte says how the input is cut and what the line replies; the rest is the input.
 #include <algorithm>
 #include <array>
 #include <cstddef>

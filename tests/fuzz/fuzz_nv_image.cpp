@@ -18,7 +18,7 @@ using fuzzing::require;
 
 constexpr std::size_t kLongest = 8192;
 
-/// One device of each model, without power: it is given one memory after the other.
+/// One device of each model, without power, which gets one memory after another.
 emulator::Device* device_of(const std::string& name) {
   static std::map<std::string, std::unique_ptr<emulator::Device>> devices = [] {
     std::map<std::string, std::unique_ptr<emulator::Device>> made;

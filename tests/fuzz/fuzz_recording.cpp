@@ -1,7 +1,7 @@
-// Any text as a recording, after a correct or a wrong header, is refused or replayed: every eighth one is,
-// for half a second of its time.
+// Any text as a recording, after a correct or a wrong header, is refused or replayed: one in eight is
+// replayed, for half a second of its time.
 //
-// An input that begins with '{' is a whole recording. Otherwise its lines are events behind a header of ours.
+// An input that begins with '{' is a whole recording. Otherwise its lines are events after a header of ours.
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -49,8 +49,8 @@ const emulator::world::World& our_world() {
   return world;
 }
 
-/// Events that are taken are written as they are read. Each that is not throws, which is dear: only a few
-/// lines of an input that is not checked wholly are looked at.
+/// Accepted events are written as they are read. Each refused one throws, which is expensive, so only a few
+/// lines are read of an input that is not checked completely.
 void check_events(std::istringstream text, bool is_checked_wholly) {
   constexpr int kFew = 4;
   const emulator::world::World& world = our_world();

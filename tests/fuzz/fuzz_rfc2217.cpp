@@ -1,8 +1,8 @@
-// What a telnet client sends: commands, options, subnegotiations and bytes, whole or not. However it is cut
-// into pieces, and however little room the line has, the line gets the same bytes with the same settings and
-// the client the same answers; nothing grows without bound, and what is said is well-formed telnet.
+// Input from a telnet client: commands, options, subnegotiations and bytes, complete or not. However it is
+// cut into pieces, and however little room the line has, the line gets the same bytes with the same settings
+// and the client the same replies; nothing grows without bound, and the output is well-formed telnet.
 //
-// The first byte says how it is cut.
+// The first byte says how the input is cut.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,8 @@ constexpr std::size_t kLongest = 8192;
 constexpr std::size_t kMaxAnswers = 64 * 1024;
 
 struct Outcome {
-  std::vector<std::pair<std::uint8_t, pty::LineSettings>> line;  // each byte, with what the host had set
+  std::vector<std::pair<std::uint8_t, pty::LineSettings>>
+      line;  // each byte, with the host's settings at that time
   Bytes answers;
   bool operator==(const Outcome&) const = default;
 };
@@ -68,7 +69,8 @@ Outcome outcome_of(std::span<const std::uint8_t> said, std::size_t piece, std::s
   return outcome;
 }
 
-/// Commands and answers only, as nothing came from the line: each begins with 255 and ends where it should.
+/// Only commands and replies, because nothing came from the line: each begins with 255 and ends where it
+/// should.
 void require_telnet(std::span<const std::uint8_t> said) {
   std::size_t at = 0;
   while (at < said.size()) {
@@ -93,7 +95,7 @@ void require_telnet(std::span<const std::uint8_t> said) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0 || size > kLongest) return 0;
   const std::span<const std::uint8_t> said(data + 1, size - 1);
-  // A whole break is let go where the line has no room for it, so it has some.
+  // A whole break is dropped if the line has no room for it, so it has some.
   const Outcome whole = outcome_of(said, 4096, 4096);
   require_telnet(whole.answers);
   require(outcome_of(said, 1 + data[0] % 16, 1 + data[0] / 16) == whole, "pieces make no difference");

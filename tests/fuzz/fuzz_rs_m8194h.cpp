@@ -1,8 +1,8 @@
-// What a host may write to the window of an RS-M8194H: messages of any registers. Each is refused with a
-// reason, or is the same again by its registers and by its text; downloads follow, and their macros run.
+// Writes of a host to the window of an RS-M8194H: messages of any registers. Each is refused with a reason,
+// or converts to text and back without loss; downloads follow, and their macros run.
 //
-// A message: a byte, how many registers (0 to 31) and, above that, the word order and how many ticks run
-// first; then the registers, high bytes first.
+// A message starts with a byte: how many registers (0 to 31) and, above that, the word order and how many
+// ticks run first; then come the registers, high bytes first.
 #include <algorithm>
 #include <array>
 #include <cstddef>

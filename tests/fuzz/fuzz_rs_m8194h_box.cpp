@@ -1,15 +1,14 @@
-// What may come to an RS-M8194H, the whole of it, while time passes, axes move, macros run, inputs change and
-// the power goes: anything. Replies are whole frames; a request that gets an exception has changed nothing;
-// many ticks in one step are the same as one by one, and a state that is saved is one that goes on alike.
+// Any input to a whole RS-M8194H while time passes, axes move, macros run, inputs change and the power is
+// switched. Replies are whole frames; a request that gets an exception has changed nothing; many ticks in one
+// step equal single ticks, and a saved state continues in the same way.
 //
-// An input is a byte of options (which macros), then acts of a byte and what belongs to it. The byte's lower
-// bits:
+// An input is a byte of options (which macros), then acts: a byte and its data. The byte's lower bits:
 //   0 a lump as it is    1 a PDU (station and checksum are put round it); a byte of length, bytes
 //   2 time: the upper bits, in ticks, once more times the next byte
 //   3 an input: the next byte says which, its top bit that it is on
 //   4 a command, bit 7: its macro line: a byte says which, six more make its parameters
 //   5 a register: a byte says which, four bytes its value
-//   6 the power goes and comes; bit 3: without the module, or with it again
+//   6 the power is switched off and on; bit 3: without the module, or with it again
 //   7 edges at EXP+ or EXP-: bits 3 and 4 say whose, bit 5 which, the others how many
 #include <algorithm>
 #include <array>
@@ -83,7 +82,7 @@ constexpr std::string_view kPrograms[] = {
 
 struct Act {
   std::uint8_t head = 0;
-  std::vector<std::uint8_t> bytes{};  // what belongs to it
+  std::vector<std::uint8_t> bytes{};  // its data
 
   unsigned kind() const { return head & 7U; }
   unsigned upper() const { return head >> 3U; }
@@ -108,7 +107,7 @@ std::vector<Act> read_acts(std::span<const std::uint8_t> data) {
   return acts;
 }
 
-/// A parameter by one byte: most often a good one, at its ends, or just beyond them.
+/// A parameter from one byte: usually a valid one, at its limits, or just beyond them.
 std::uint32_t value_of(const lang::Parameter& parameter, std::uint8_t byte) {
   const std::uint32_t n = byte;
   switch (parameter.kind) {
@@ -151,7 +150,7 @@ lang::Command command_of(const Act& act) {
   return command;
 }
 
-/// Registers that do something, or that macros read; with a good or a bad number of words.
+/// Registers that do something, or that macros read, with a valid or invalid number of words.
 std::uint16_t register_of(std::uint8_t number) {
   constexpr std::array<std::uint16_t, 8> kWords{0, 8, 9, 14, 20, 24, 81, 128};
   if (number < 64) return kWords[number % kWords.size()];
@@ -340,7 +339,7 @@ Box& box_for(std::size_t program, bool in_bulk) {
   return *one;
 }
 
-/// Requests of what the line brings, one after the other. In a download a refused line may spoil it.
+/// The requests on the line, one after another. In a download a refused line may spoil it.
 void check_refusals(Box& box, std::span<const Act> acts) {
   for (const Act& act : acts) {
     std::vector<std::uint8_t> pdu;

@@ -2,8 +2,8 @@
 // saved state is accepted back, and a host that leaves the current dialogue (ESC, an empty line, EXIT) gets
 // replies again.
 //
-// An input is a byte of options, a byte that mixes all other choices (0: ours), then what is typed. Two
-// values stand for what is not a typing:
+// An input is a byte of options, a byte that mixes all other choices (0: ours), then the typed text. Two
+// values are not typed:
 //   FE n   time passes (n's upper bits: in which steps)
 //   FD n   a terminal of T0 gets a level (lower bits: which one; upper bits: how much)
 #include <algorithm>
@@ -41,12 +41,12 @@ constexpr Tick kMaxTicks = 20'000;  // so that a run ends
 constexpr Tick kMaxTicks = 200;
 #endif
 constexpr SimTime kUntilQuiet = 1s;  // longer than any piece of a long text takes
-constexpr int kMaxRounds = 600;      // of it: a chain has nothing more to say than its line can carry
+constexpr int kMaxRounds = 600;      // a chain has no more output than its line can carry
 constexpr std::uint8_t kTime = 0xFE;
 constexpr std::uint8_t kLevel = 0xFD;
 
-/// Rows that have a bit of their own, or would change what is checked here: how a line ends, that EXIT is
-/// heard and nothing begins behind it, and that it is said at all.
+/// Choices with an option bit of their own, or that would change the properties checked here: how a line
+/// ends, that EXIT is accepted and nothing starts after it, and that output is sent at all.
 constexpr std::string_view kNotMixed[] = {
     "echo",         "prompt",          "query_reply",        "acknowledgement",
     "error_reply",  "failed_line",     "immediate_column",   "output_end",
@@ -58,7 +58,7 @@ struct Options {
   bool names_values = false;
   bool acknowledges = false;
   bool keeps_errors_to_itself = false;
-  bool lenient = false;  // columns that are not printed, and programs that go on after an error
+  bool lenient = false;  // columns that are not printed, and programs that continue after an error
   int modules = 1;
   std::uint8_t mix = 0;
 };
@@ -74,7 +74,7 @@ Options options_of(std::uint8_t bits, std::uint8_t mix) {
           .mix = mix};
 }
 
-/// One of each row's options, ours more often than not.
+/// One option of each choice, usually ours.
 void mix_choices(std::uint8_t mix, std::map<std::string, std::string>& choices) {
   if (mix == 0) return;
   std::uint32_t number = mix;
@@ -171,7 +171,7 @@ Tick ticks_of(std::uint8_t code) {
   return kSteps[code >> 6] * (code & 0x3F);
 }
 
-/// Types it all, with the time that passes in between, `left` ticks at most.
+/// Types everything, with the time that passes in between, `left` ticks at most.
 void play(Listener& listener, std::string_view input, Tick left) {
   while (!input.empty()) {
     const std::size_t typed = std::min(input.size(), input.find_first_of("\xFE\xFD"));
@@ -194,7 +194,7 @@ void play(Listener& listener, std::string_view input, Tick left) {
   }
 }
 
-/// To be asked at rest: a long text is sent in pieces. While time passes nobody reads here, so that a program
+/// To be called at rest: a long text is sent in pieces. While time passes nothing reads here, so a program
 /// that prints without end fills what the line can hold, and loses the rest.
 void check_whole_lines(const Listener& listener, const Options& options) {
   const std::string& said = listener.said();
@@ -234,8 +234,8 @@ struct Settings {
   auto operator<=>(const Settings&) const = default;
 };
 
-/// A search has few chains, which the processor's cache can hold: other bytes mean one of these. (To replay
-/// what it found with such bytes, put the pair that they mean in their place.)
+/// A search has few chains, which fit into the processor's cache: other bytes mean one of these. (To replay a
+/// finding with such bytes, replace them by the pair that they mean.)
 [[maybe_unused]] constexpr Settings kSearched[] = {
     {0x00, 0}, {0x40, 0}, {0x80, 0}, {0xC0, 0}, {0x03, 0}, {0x0C, 0}, {0x10, 0}, {0x20, 0},
     {0x60, 0}, {0x4F, 0}, {0x00, 1}, {0x40, 1}, {0x80, 2}, {0xC0, 2}, {0x20, 3}, {0x60, 3}};
@@ -250,7 +250,7 @@ Settings settings_of(std::uint8_t bits, std::uint8_t mix) {
 #endif
 }
 
-/// Two chains for one set of options; the second runs every tick. Made when they are first asked for.
+/// Two chains for one set of options; the second runs every tick. They are made on first use.
 class Chains {
  public:
   Listener& listener(Settings settings) { return in(settings, listeners_, true); }

@@ -1,8 +1,8 @@
 // Any text as a snapshot is refused or read. A state with a correct checksum but wrong bytes is refused
 // without changes, or it is a state: saved again it is the same, and the world continues.
 //
-// An input that begins with '{' is the text of a snapshot. Otherwise it changes a state that a busy world has
-// given: groups of four bytes are a part, two bytes of a place in it, and the value that is put there.
+// An input that begins with '{' is the text of a snapshot. Otherwise it changes a state of a busy world:
+// groups of four bytes are a part, two bytes of a position in it, and the value that is written there.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
 
-/// Both models in motion, with a program each, on a machine with an end.
+/// Both models in motion, with a program each, on a machine with stops.
 struct Busy {
   Busy() : bench(make_bench()), world(bench, emulator::world::WorldOptions{}, {}) {
     world.advance_to(180ms);
@@ -80,7 +80,7 @@ void check_state(const emulator::world::WorldState& state, bool is_checked_wholl
   try {
     world.advance_to(world.now() + 20ms);
   } catch (const std::exception&) {
-    // A plausible state that no world reaches: it is reported, and the world is not used any more.
+    // A plausible state that no world reaches is reported, and the world is not used any more.
   }
 }
 

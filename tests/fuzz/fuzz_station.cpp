@@ -1,9 +1,9 @@
-// What may come over the wire: anything. One controller on one line hears lumps of bytes, and whatever they
-// are, what it says is well-formed and what was not meant for it leaves it as it was.
+// Any input over the wire. One controller on one line receives lumps of bytes; whatever they are, its output
+// is well-formed, and requests for other stations do not change it.
 //
-// An input is one byte of options, then lumps. A lump is: a byte of gap (how long the line was quiet), a byte
-// of length, its bytes. With the length's top bit a right checksum is put behind the bytes, so that the
-// search gets past it.
+// An input is one byte of options, then lumps. A lump is a byte of gap (how long the line was quiet), a byte
+// of length, and its bytes. If the length's top bit is set, a correct checksum is added after the bytes, so
+// that the search gets past it.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Input {
   pty::Timing timing = pty::Timing::wire;
   bool strict_framing = false;
   int rotary_switch = 1;
-  int other_switch = 15;  // of a controller that hears the same
+  int other_switch = 15;  // of a controller that receives the same
   bool alternative_choices = false;
   std::vector<Lump> lumps;
 };
@@ -156,7 +156,7 @@ std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
 }
 
 void check_replies(Listener& listener, int rotary_switch) {
-  if (listener.line().counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
+  if (listener.line().counters().bytes_discarded > 0) return;  // it sent faster than the wire carries
   std::span<const std::uint8_t> said = listener.said();
   std::uint64_t replies = 0;
   std::uint64_t exceptions = 0;
@@ -188,7 +188,7 @@ struct Crowd {
 
   Listener listener;
   Listener stepped;  // the same, every tick run one by one
-  Listener other;    // hears the same, is meant by little of it
+  Listener other;    // receives the same, but few requests are for it
   Listener untouched;
 };
 

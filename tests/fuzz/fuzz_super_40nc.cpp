@@ -1,18 +1,16 @@
-// What may come to a SUPER-40NC on both its ports, while time passes, programs run, inputs change and the
-// power goes: anything. Replies are whole frames on the port that asked; a request that gets an exception has
-// changed nothing; many ticks in one step are the same as one by one, and a state that is saved is one that
-// goes on alike.
+// Any input to a SUPER-40NC on both its ports, while time passes, programs run, inputs change and the power
+// is switched. Replies are whole frames on the port that asked; a request that gets an exception has changed
+// nothing; many ticks in one step equal single ticks, and a saved state continues in the same way.
 //
-// An input is a byte of options (which programs), then acts of a byte and what belongs to it. The byte's
-// lower bits:
+// An input is a byte of options (which programs), then acts: a byte and its data. The byte's lower bits:
 //   0 a lump as it is    1 a PDU (station and checksum are put round it)
 //     bit 7: RS485; a byte of length, bytes
 //   2 time: the upper bits, in ticks, once more times the next byte
 //   3 an input: upper bits which one, the next byte its level
 //   4 a contact: a byte says which command or relay, the top bit of it OFF; bit 7: by RS485
 //   5 a register: a byte says which, four bytes its value
-//   6 the power goes and comes
-//   7 the hand-wheel is turned, upper bits
+//   6 the power is switched off and on
+//   7 the hand wheel is turned, upper bits
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -64,7 +62,7 @@ constexpr std::string_view kPrograms[] = {
 
 struct Act {
   std::uint8_t head = 0;
-  std::vector<std::uint8_t> bytes{};  // what belongs to it
+  std::vector<std::uint8_t> bytes{};  // its data
 
   unsigned kind() const { return head & 7U; }
   unsigned upper() const { return head >> 3U; }

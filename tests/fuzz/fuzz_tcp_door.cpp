@@ -1,8 +1,9 @@
-// What strangers send to a line's TCP door, in pieces, and how they go: by FIN, by closing, without a word.
-// Whatever it was, nobody dies, the door closes what is over, and the next host is served.
+// Input from unknown clients to a line's TCP port, in pieces, and how they disconnect: by FIN, by closing,
+// without a word. Whatever it was, nothing crashes, the door closes connections that have ended, and the next
+// host is served.
 //
-// An input is one byte of options (what is spoken, how it ends, whether characters take time), then pieces: a
-// byte of length, whose top bit lets time go by before it, and its bytes.
+// An input is one byte of options (which protocol, how it ends, whether characters take time), then pieces: a
+// byte of length, whose top bit lets time pass first, and its bytes.
 #include <sys/socket.h>
 
 #include <algorithm>

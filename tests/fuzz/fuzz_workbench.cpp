@@ -1,12 +1,12 @@
-// What may come to a controller with four tables: anything, above all requests of the eight functions. It has
-// coils, inputs, pairs, reals, holes and a window with a FIFO behind it (tests/emulator/workbench). Whatever
-// it hears, its replies are well-formed and tell what it holds, and a request that gets an exception has
+// Any input to a controller with four tables, above all requests of the eight functions. It has coils,
+// inputs, pairs, reals, holes and a window with a FIFO behind it (tests/emulator/workbench). Whatever it
+// receives, its replies are well-formed and report its values, and a request that gets an exception has
 // changed nothing.
 //
-// An input is one byte of options, then lumps. A lump is: a byte of gap (in units of 100 us), a byte of
-// length, its bytes. With the length's top bit the bytes are a PDU: station 1 is put before it, a right
-// checksum behind. Where the options give the controller both its ports, a gap's top bit means the second
-// one.
+// An input is one byte of options, then lumps. A lump is a byte of gap (in units of 100 us), a byte of
+// length, and its bytes. If the length's top bit is set, the bytes are a PDU: station 1 is put before it, and
+// a correct checksum after it. If the options give the controller both its ports, a gap's top bit means the
+// second one.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -153,7 +153,7 @@ std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
 
 /// A request is answered on its own line, and nowhere else.
 void check_replies(Listener& listener, std::size_t line) {
-  if (listener.line(line).counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
+  if (listener.line(line).counters().bytes_discarded > 0) return;  // it sent faster than the wire carries
   std::span<const std::uint8_t> said = listener.said()[line];
   std::uint64_t replies = 0;
   std::uint64_t exceptions = 0;
@@ -174,8 +174,8 @@ void check_replies(Listener& listener, std::size_t line) {
   require(exceptions == listener.counters(line).exceptions, "exceptions are counted");
 }
 
-/// Without a line: what was refused has changed nothing but what the device notes of it, and what was written
-/// can be read again.
+/// Without a line: a refused request has changed nothing except what the device records about it, and written
+/// values can be read again.
 void check_requests(std::span<const Lump> lumps) {
   emulator::DeviceSettings settings;
   settings.name = "it";

@@ -1,5 +1,5 @@
-// Any text as a program of the test controller is refused with a place for each mistake, by the check and by
-// a device, which is then unchanged; or the device lists its program, and that listing is accepted and listed
+// Any text as a program of the test controller is refused with a place for each error, by the check and by a
+// device, which is then unchanged; or the device lists its program, and that listing is accepted and listed
 // the same again. A program as numbers gives the same program from these numbers.
 #include <algorithm>
 #include <memory>

@@ -1,8 +1,8 @@
-// What the fuzz targets share: how they complain, and how they share out the time of a search.
+// Shared by the fuzz targets: how they report errors, and how they divide the time of a search.
 //
-// A search lives from many runs: worlds are made once and put back into the state that they had, and what
-// costs a multiple of a plain run (the same in single ticks, a second station) is done for one input in
-// eight, or more. A corpus that is replayed has all of it done.
+// A search needs many runs: worlds are made once and restored to their initial state, and checks that cost a
+// multiple of a plain run (the same in single ticks, a second station) are done for one input in eight, or
+// fewer. When a corpus is replayed, everything is checked.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Returns true for the one input in so many with which everything is checked. Depends only on the input.
+/// Returns true for the one input in this many with which everything is checked. Depends only on the input.
 inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input,
                               [[maybe_unused]] std::uint32_t one_in = 8) {
 #ifdef UNDERSTUDY_REPLAYS_CORPUS

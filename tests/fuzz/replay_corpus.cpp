@@ -1,5 +1,5 @@
-// Passes files, or all files of folders, to the function that the fuzzer searches, so that faults that were
-// found stay fixed, with any compiler.
+// Passes files, or all files of folders, to the function that the fuzzer searches, so that faults found
+// earlier stay fixed, with any compiler.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What an onlooker of a program is told, added up.
+// Adds up what an observer of a program is told.
 #pragma once
 
 #include <cstdint>

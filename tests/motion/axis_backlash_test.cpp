@@ -1,5 +1,4 @@
-// Backlash: at each reversal, extra pulses come first, and then the motion, from the moment at which they are
-// out.
+// Backlash: at each reversal, extra pulses come first, and the motion starts when they have been sent.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -87,7 +86,7 @@ TEST(AxisBacklash, IsOutputFirstAndIsNoTravel) {
     EXPECT_EQ(course.travel(), 100);
     EXPECT_EQ(course.axis.remaining_pulses(), 100);
   }
-  // The motion itself begins at 7.5 ms, and so is 5 pulses on at 8 ms.
+  // The motion itself starts at 7.5 ms, and so has made 5 pulses at 8 ms.
   EXPECT_EQ(course.step(), -2 - 5);
   EXPECT_EQ(course.travel(), 95);
   EXPECT_EQ(course.step(), -10);

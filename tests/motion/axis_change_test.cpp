@@ -37,13 +37,13 @@ TEST(AxisChange, AMoveTakesOverASpeedThatThereIs) {
     EXPECT_EQ(course.until_rest(), 350 + 100);
     EXPECT_EQ(course.travel(), direction * 500);
     EXPECT_EQ(course.axis.cause, Cause::arrived);
-    // Faster than it is to be: 150 in 100 ms down to 1000, 800 ms there, 50 down.
+    // Faster than it should be: 150 in 100 ms down to 1000, 800 ms there, 50 down.
     AxisCourse faster;
     ASSERT_EQ(faster.axis.move_on(direction * 2000.0, direction * 1000, trapezoid(1000, 10'000), 0),
               Cause::none);
     EXPECT_EQ(faster.until_rest(), 100 + 800 + 100);
     EXPECT_EQ(faster.travel(), direction * 1000);
-    // The other way, and too near: 50 further to a stop, and back.
+    // In the other direction, and too near: 50 further to a stop, and back.
     for (const int distance : {-100, 20}) {
       AxisCourse back;
       ASSERT_EQ(back.axis.move_on(direction * 1000.0, direction * distance, trapezoid(1000, 10'000), 0),
@@ -69,7 +69,7 @@ TEST(AxisChange, AMoveTakesOverWhatItMayAlone) {
   EXPECT_EQ(course.axis.move_on(-1000, 500, trapezoid(1000, 10'000), 0), Cause::limit_minus);
   EXPECT_THROW(course.axis.move_on(1000, 500, trapezoid(0, 10'000), 0), BadMotion);
   EXPECT_EQ(course.axis, before);
-  // Without a speed it is a move, and a distance of 0 is over.
+  // Without a speed it is a move, and a distance of 0 ends at once.
   EXPECT_EQ(course.axis.move_on(0, 500, trapezoid(1000, 10'000), 0), Cause::none);
   EXPECT_EQ(course.until_rest(), 601);
   EXPECT_EQ(course.travel(), 500);
@@ -94,7 +94,7 @@ TEST(AxisChange, AMoveStillEndsOnItsTargetWhateverTheSpeedBecomes) {
 }
 
 TEST(AxisChange, BeforeTheFirstTickAMoveBeginsAtTheNewSpeed) {
-  for (const Tick when : {0, 1}) {  // given, or at its beginning
+  for (const Tick when : {0, 1}) {  // commanded, or at its beginning
     AxisCourse changed;
     changed.axis.move(5'000, trapezoid(10'000, 100'000), 0);
     changed.steps(when);
@@ -114,7 +114,7 @@ TEST(AxisChange, SeveralChangesInTheSameTickGoOnFromThere) {
   course.axis.change_speed(trapezoid(20'000, 100'000), course.now);
   course.axis.change_speed(trapezoid(5'000, 100'000), course.now);
   course.axis.change_distance(9'000, false, course.now);
-  EXPECT_EQ(course.step(), 9);  // 10 pulses, and slower already
+  EXPECT_EQ(course.step(), 9);  // 10 pulses, and already slower
   EXPECT_NEAR(course.axis.sample(course.now).speed_u_s, 9'900, 1e-6);
   ASSERT_GE(course.until_rest(), 0);
   EXPECT_EQ(course.travel(), 9'000);
@@ -133,7 +133,7 @@ TEST(AxisChange, SeveralChangesInTheSameTickGoOnFromThere) {
 TEST(AxisChange, ASlowerRampGivenTooLateEndsAbruptlyOnTheTarget) {
   AxisCourse course;
   course.axis.move(10'000, trapezoid(10'000, 100'000), 0);
-  course.steps(1001);  // it is about to slow down
+  course.steps(1001);  // it is about to decelerate
   course.axis.change_speed(trapezoid(10'000, 1'000), course.now);
   course.until_rest();
   EXPECT_EQ(course.travel(), 10'000);
@@ -173,11 +173,11 @@ TEST(AxisChange, AnotherDistanceIsCountedFromWhereTheMoveBegan) {
       {501, 6'000, 6'000},
       {501, 5'001, 5'001},
       {501, 5'000, 5'000},   // just within reach
-      {501, 4'999, 5'000},   // and just not
-      {501, 4'500, 5'000},   // where it is
-      {501, 4'000, 5'000},   // passed
-      {501, 0, 5'000},       // back to where it came from
-      {501, -3'000, 5'000},  // and farther
+      {501, 4'999, 5'000},   // and just out of reach
+      {501, 4'500, 5'000},   // its present position
+      {501, 4'000, 5'000},   // already passed
+      {501, 0, 5'000},       // back to its start
+      {501, -3'000, 5'000},  // and further
       {1'090, 9'000, 10'000},
   }};
   for (const DistanceCase& c : kCases) {
@@ -274,7 +274,7 @@ TEST(AxisChange, AReturnThatIsForbiddenEndsWhereItTurns) {
 }
 
 TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedInAdvance) {
-  // Slowing down begins 400 pulses before the target. A short move is so slow by then that it would have to
+  // Deceleration starts 400 pulses before the target. A short move is so slow by then that it would have to
   // creep the rest, at a start speed of 0.
   SpeedLaw law = trapezoid(10'000, 100'000);
   law.slow_down_at_u = 400;
@@ -288,7 +288,7 @@ TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedInAdvance) {
   EXPECT_EQ(course.travel(), 10'000);
 }
 
-/// Everything that can be changed on the way, at random; the last request must be the result.
+/// Everything that can be changed during the motion, at random; the last request must be the result.
 TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
   RandomLaws laws(seed());
   int refused = 0;
@@ -368,7 +368,7 @@ TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
     }
     ASSERT_EQ(course.output_pulses, course.travel()) << input;
     if (course.axis.moving()) continue;  // at a crawl
-    course.step();                       // which tells of a stop
+    course.step();                       // which reports a stop
     if (!stopped) {
       ASSERT_EQ(course.travel(), direction * target) << input;
       ASSERT_EQ(course.axis.cause, Cause::arrived) << input;

@@ -1,4 +1,4 @@
-// An axis on its course: stepped tick by tick, with all its pulses and events.
+// An axis during a motion: stepped tick by tick, with all its pulses and events.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct AxisCourse {
   Axis axis;
   Environment environment;
   Tick now = 0;
-  std::int64_t output_pulses = 0;  // all that came out, signed
-  std::int64_t farthest = 0;       // the greatest and the least travel at any tick
+  std::int64_t output_pulses = 0;  // all pulses sent, signed
+  std::int64_t farthest = 0;       // the largest and the smallest travel at any tick
   std::int64_t nearest = 0;
   Events seen = 0;
   int endings = 0;
@@ -54,7 +54,7 @@ struct AxisCourse {
     for (Tick tick = 0; tick < ticks; ++tick) sent += step();
     return sent;
   }
-  /// Runs until it rests. Returns the ticks, or -1 if it still moves after `at_most`.
+  /// Runs until it is at rest. Returns the ticks, or -1 if it still moves after `at_most`.
   Tick until_rest(Tick at_most = 1'000'000) {
     for (Tick ticks = 0; ticks <= at_most; ++ticks) {
       if (!axis.moving()) return ticks;

@@ -1,4 +1,4 @@
-// Fast-forwarded ticks equal single ticks: random courses of an axis, with everything that it may meet.
+// Fast-forwarded ticks equal single ticks: random courses of an axis, with everything that can happen to it.
 #include <gtest/gtest.h>
 
 #include "tests/motion/axis_scenario.h"

@@ -52,7 +52,7 @@ TEST(AxisEquivalence, TheShortWayThroughATickIsTheCarefulOne) {
   }
 }
 
-/// Found once in 20,000: backlash is left over when the settings have none any more.
+/// Found once in 20,000: backlash is left over when the settings no longer have any.
 TEST(AxisEquivalence, PlayThatIsLeftOverIsForgottenByBoth) {
   expect_alike(AxisScenario(1600278233990034164));
 }
@@ -97,7 +97,7 @@ TEST(AxisEquivalence, WithinItsWindowNothingDependsOnThePlace) {
           ASSERT_EQ(comparator.holds(place), comparator.was_true)
               << scenario.code() << " " << course.now << " " << place;
         }
-        // A soft limit is met on the way out.
+        // A soft limit is reached on the way out.
         const auto& most = axis.settings.soft_limit_plus;
         const auto& least = axis.settings.soft_limit_minus;
         const bool matters = axis.settings.at_soft_limit != Reaction::ignore;

@@ -14,7 +14,7 @@ namespace axis_event_test {
 using Relation = Comparator::Relation;
 using Range = Counter::Range;
 
-/// In which ticks (1 ...) comparator `number` fires.
+/// Returns the ticks (1 ...) in which comparator `number` fires.
 std::vector<Tick> firings(AxisCourse& course, Tick ticks, std::size_t number = 0) {
   std::vector<Tick> at;
   for (Tick tick = 0; tick < ticks; ++tick) {
@@ -29,14 +29,14 @@ struct RelationCase {
   Relation relation;
   int direction;
   std::int64_t value;
-  Tick fires;  // at 1 pulse a tick, from 0 in tick 1; 0: never
+  Tick fires;  // at 1 pulse per tick, from 0 in tick 1; 0: never
 };
 
 TEST(AxisEvent, AComparatorFiresInTheTickItsRelationBecomesTrue) {
   constexpr std::array<RelationCase, 18> kCases{{
       {Relation::at_least, +1, 5, 6},
       {Relation::at_least, +1, 1, 2},
-      {Relation::at_least, +1, 0, 0},  // is true already
+      {Relation::at_least, +1, 0, 0},  // is already true
       {Relation::at_least, -1, -5, 0},
       {Relation::below, -1, -5, 7},
       {Relation::below, -1, 0, 2},
@@ -86,7 +86,7 @@ TEST(AxisEvent, ANumberThatIsWrittenCanMakeTheRelationTrue) {
   mine.value = -5;
   course.axis.set_comparator(0, mine);
   EXPECT_EQ(firings(course, 3), (std::vector<Tick>{4}));
-  mine.value = -7;  // true, as it was
+  mine.value = -7;  // true, as before
   course.axis.set_comparator(0, mine);
   EXPECT_TRUE(firings(course, 3).empty());
   mine.value = 1;
@@ -129,7 +129,7 @@ TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
   EXPECT_FALSE(course.axis.must_recheck);
   course.axis.set_comparator(
       1, {.relation = Comparator::Relation::equal_upwards, .count = Count::encoder, .value = 30});
-  EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed before";
+  EXPECT_TRUE(firings(course, 5, 1).empty()) << "it was passed earlier";
   course.axis.set_encoder(20);
   EXPECT_TRUE(course.axis.must_recheck);
   EXPECT_TRUE(firings(course, 5, 1).empty());
@@ -138,7 +138,7 @@ TEST(AxisEvent, AComparatorOfTheEncoderMeetsWhatComesAfterIt) {
 }
 
 TEST(AxisEvent, AnEncoderThatJumpsFarPassesNothing) {
-  // 100,000 counts within a tick are a motion, which passes what lies between; more are a jump.
+  // 100,000 counts within a tick are a motion, which passes everything in between; more are a jump.
   for (const int direction : {+1, -1}) {
     AxisCourse course;
     course.axis.set_comparator(
@@ -209,7 +209,7 @@ TEST(AxisEvent, AComparatorThatStopsAtOnceStopsOnItsPulse) {
       EXPECT_EQ(course.travel(), direction * value);
       EXPECT_EQ(course.axis.cause, Cause::comparator);
       EXPECT_TRUE(course.saw(Event::comparator_2));
-      // It stands on it, and continues from it.
+      // It is at the limit, and continues from there.
       course.axis.move(direction * 5, constant(4e6), course.now);
       course.until_rest();
       EXPECT_EQ(course.travel(), direction * (value + 5));

@@ -1,5 +1,5 @@
 // An axis that follows a wheel, or that is carried along a path with others: its pulses come from elsewhere,
-// and it still handles everything on the way.
+// and it still handles everything that it meets.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -50,7 +50,7 @@ TEST(AxisLimit, SlowedDownItStandsABrakingDistanceBeyond) {
     for (const double top_pps : {2'000.0, 50'000.0, 1e6}) {
       for (const double slope_pps2 : {50'000.0, 123'456.0, 3e6}) {
         const double braking = top_pps * top_pps / (2 * slope_pps2);
-        const auto edge = static_cast<std::int64_t>(2 * braking) + 1'234;  // at top speed by then
+        const auto edge = static_cast<std::int64_t>(2 * braking) + 1'234;  // at full speed by then
         AxisCourse course = track(-edge, edge);
         course.axis.set({.at_limit_plus = Reaction::slow_down, .at_limit_minus = Reaction::slow_down});
         course.axis.move(way * 100'000'000, trapezoid(top_pps, slope_pps2), 0);
@@ -86,7 +86,7 @@ TEST(AxisLimit, OnlyMotionTowardsItIsStopped) {
 
 TEST(AxisLimit, ThatIsOnFromTheBeginningStopsBeforeThePulse) {
   AxisCourse course = track(-1'000, 0);
-  course.axis.move(100, constant(10'000), 0);  // not seen yet
+  course.axis.move(100, constant(10'000), 0);  // not detected yet
   course.until_rest();
   EXPECT_EQ(course.travel(), 0);
   EXPECT_EQ(course.axis.cause, Cause::limit_plus);
@@ -313,7 +313,7 @@ TEST(AxisLimit, SlowingDownWithinATickStartsFromTheSpeedAtTheEdge) {
     const auto down = static_cast<double>(random.of_any_size(10'000, 100'000'000));
     const double speed_squared = std::min(top_pps * top_pps, 2 * up * static_cast<double>(edge));
     const double braking = speed_squared / (2 * down);
-    if (braking > 1e6) continue;  // takes long
+    if (braking > 1e6) continue;  // takes a long time
     const SpeedLaw law{
         .top_speed_u_s = top_pps, .up = RampLaw::by_slope(up), .down = RampLaw::by_slope(down)};
     const int direction = random.between(0, 1) == 0 ? +1 : -1;
@@ -334,7 +334,7 @@ TEST(AxisLimit, SlowingDownWithinATickStartsFromTheSpeedAtTheEdge) {
 TEST(AxisLimit, TimeRoundingTakesNoPulseBackEvenAfterHours) {
   RandomMoves random(seed());
   for (int i = 0; i < random_cases(4'000); ++i) {
-    // Whole pulses up to the top speed, and whole ones in each tick: edges fall exactly on ticks.
+    // Whole pulses up to the full speed, and whole ones in each tick: edges are exactly on ticks.
     constexpr std::array<double, 6> kSpeeds{1e5, 2e5, 4e5, 1e6, 2e6, 4e6};
     const double pps = kSpeeds[static_cast<std::size_t>(random.between(0, 5))];
     AxisCourse course;

@@ -151,7 +151,7 @@ TEST(AxisMotion, SlowingDownEndsAtTheStartSpeed) {
   law.start_speed_u_s = 2'000;
   AxisCourse course;
   course.axis.run(+1, law, 0);
-  course.steps(1001);  // 10000 pps long since
+  course.steps(1001);  // 10000 pps for a long time
   const double place = course.axis.sample(course.now).position_u;
   course.axis.slow_down(course.now);
   EXPECT_EQ(course.until_rest(), 80);
@@ -192,7 +192,7 @@ TEST(AxisMotion, SlowingDownDuringTheRampDownStillReachesTheTarget) {
     const SpeedLaw law{.top_speed_u_s = top, .up = laws.slope(false), .down = laws.any_ramp(top, false)};
     const auto distance = static_cast<std::int64_t>(laws.of_any_size(1, 1e6));
     const Profile profile = plan(static_cast<double>(distance), law);
-    // The place where its speed begins to fall for good.
+    // Returns the position at which its speed starts to decrease for good.
     double begins_s = profile.duration_s;
     for (std::int32_t k = profile.segment_count - 1; k >= 0; --k) {
       const Segment& segment = profile.segments[static_cast<std::size_t>(k)];
@@ -219,7 +219,7 @@ TEST(AxisMotion, AStopWhileSlowingDownIsAtOnce) {
   course.axis.slow_down(course.now);
   course.steps(100);
   EXPECT_TRUE(course.axis.moving());
-  course.axis.slow_down(course.now, Cause::alarm);  // it does so already
+  course.axis.slow_down(course.now, Cause::alarm);  // it already does so
   course.axis.stop();
   EXPECT_EQ(course.steps(100), 0);
   EXPECT_EQ(course.axis.cause, Cause::stopped);

@@ -20,7 +20,7 @@ struct Course {
     AxisSettings settings;
     settings.needs_servo = false;
     settings.backlash_pulses = backlash;
-    settings.backlash_speed_pps = 1000;  // a pulse a tick
+    settings.backlash_speed_pps = 1000;  // one pulse per tick
     axis.set(settings);
   }
   void steps(int count) {

@@ -1,5 +1,5 @@
-// Changes while moving, from random moments of random moves of every family. A failure prints the law and the
-// state as code. Under sanitizers a tenth of them.
+// Changes during motion, from random moments of random moves of every family. A failure prints the law and
+// the state as code. Under sanitizers it tries a tenth of them.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -33,7 +33,7 @@ SpeedLaw random_law(RandomLaws& random, int family) {
   return law;
 }
 
-/// A moment of a move on its way.
+/// A moment during a move.
 struct OnTheWay {
   SpeedLaw law;
   double distance = 0;
@@ -67,13 +67,13 @@ OnTheWay random_moment(RandomLaws& random, int family) {
   }
   moment.t_s = std::min(moment.t_s, std::nextafter(end_s, 0));
   moment.now = moment.profile.sample(moment.t_s);
-  moment.now.speed_u_s = std::max(0.0, moment.now.speed_u_s);  // a rounding, at the last moment
+  moment.now.speed_u_s = std::max(0.0, moment.now.speed_u_s);  // a rounding error, at the last moment
   return moment;
 }
 
-/// The speed at which the acceleration there is has faded by the jerk of its law. A change may pass the speed
-/// it is to reach up to that: v + a^2 / 2 K for a jerk law, at most 2 v; as much by the jerk of whole
-/// sections, though no more than the top speed; no other law passes anything.
+/// Returns the speed at which the present acceleration has faded with the jerk of its law. A change can
+/// exceed its target speed up to this: v + a^2 / 2 K for a jerk law, at most 2 v; just as much with the jerk
+/// of whole sections, but no more than the top speed; no other law exceeds anything.
 Long faded(const Sample& now, const SpeedLaw& law) {
   const Long a = now.acceleration_u_s2;
   const Long v = now.speed_u_s;
@@ -84,7 +84,7 @@ Long faded(const Sample& now, const SpeedLaw& law) {
   return std::min(v + law.up.section_u_s * (a / limit) * (a / limit), std::max<Long>(law.top_speed_u_s, v));
 }
 
-/// Limits of a change from `now`, in which speeds are meant to stay within [least, most].
+/// Limits of a change from `now`, in which speeds should stay within [least, most].
 Fault change_beyond_limits(const Profile& profile, const Sample& now, const SpeedLaw& law, Long least,
                            Long most) {
   const Blur blur = blur_of(profile);
@@ -108,8 +108,8 @@ Fault change_beyond_limits(const Profile& profile, const Sample& now, const Spee
         return "acceleration is " + text(state.acceleration);
       }
     }
-    // Jerk: the law's; more only where that could not bring the acceleration to 0 before the start speed, as
-    // roundings at the end of a ramp have it.
+    // Jerk: the law's; more only if that could not bring the acceleration to 0 before the start speed, as
+    // with rounding errors at the end of a ramp.
     const bool both_by_jerk = law.up.kind == RampLaw::Kind::jerk && law.down.kind == RampLaw::Kind::jerk;
     const Long jerk = std::max(law.up.jerk_u_s3, law.down.jerk_u_s3);
     const bool rounding = std::abs(begin.speed - end.speed) <= kLimitTolerance * top;
@@ -135,7 +135,7 @@ Fault begins_elsewhere(const Profile& profile, const Sample& now, const SpeedLaw
   const Segment& first = profile.segments[0];
   if (first.position_u != now.position_u) return "it begins at " + text(first.position_u);
   const double start = std::min(law.start_speed_u_s, law.top_speed_u_s);
-  const bool jumps = now.speed_u_s <= start * (1 + 2e-12);  // speeds below the start speed are jumped to
+  const bool jumps = now.speed_u_s <= start * (1 + 2e-12);  // speeds below the start speed are skipped
   if (!jumps && std::abs(first.speed_u_s - now.speed_u_s) > 1e-11 * now.speed_u_s) {
     return "it begins with speed " + text(first.speed_u_s);
   }
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ChangeProperty, testing::Range(0, 5), [](const auto
   return kFamilies[static_cast<std::size_t>(family.param)];
 });
 
-/// Of the families whose ramps go on where they are: one by time begins anew.
+/// Only for families whose ramps continue from the present state: one by time starts again.
 class ChangeOnTheWay : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Of, ChangeOnTheWay, testing::Values(kSlopes, kJerk, kSections),
@@ -190,15 +190,15 @@ TEST_P(ChangeProperty, AnotherSpeedIsReachedWithoutAGapAndKept) {
     const double start = law.start_speed_u_s;
     const Long most = std::max<Long>({Long{speed}, Long{start}, faded(moment.now, law)});
     Fault fault = begins_elsewhere(profile, moment.now, law);
-    // From the start speed down it is a jump, to what is told.
+    // From the start speed down it is a jump, to the commanded speed.
     if (!fault && speed >= start) fault = gap_in(profile, farthest(profile), law.top_speed_u_s);
     if (!fault && speed >= start) fault = change_beyond_limits(profile, moment.now, law, start, most);
     return fault ? *fault + what : fault;
   });
 }
 
-/// A change of speed of no more than a rounding is not made by a ramp, and may be lost in the speeds
-/// themselves. It would take so long.
+/// A change of speed no larger than a rounding error is not made by a ramp, and may be lost in the speeds
+/// themselves. It would take this long.
 double tail_s(const Sample& now, const SpeedLaw& law) {
   const double rounding_u_s = 2e-12 * (now.speed_u_s + law.start_speed_u_s) + 1e-15 * law.top_speed_u_s;
   switch (law.down.kind) {
@@ -213,7 +213,7 @@ double tail_s(const Sample& now, const SpeedLaw& law) {
 }
 double tail_u(const Sample& now, const SpeedLaw& law) { return tail_s(now, law) * law.start_speed_u_s; }
 
-/// The distance of a stop, in closed form; nothing where there is none but for integration.
+/// The distance of a stop, in closed form; nothing if there is none without integration.
 std::optional<Long> stop_distance(const Sample& now, const SpeedLaw& law) {
   const Long start = law.start_speed_u_s;
   const Long speed = now.speed_u_s;
@@ -230,7 +230,7 @@ std::optional<Long> stop_distance(const Sample& now, const SpeedLaw& law) {
     const Long peak = speed + a * t / 2;
     return speed * t + a * t * t / 2 - k * t * t * t / 6 + oracle::ramp_distance(law.down, start, peak);
   }
-  // On a ramp down that began `t` ago, at a speed higher by a^2 / 2 K.
+  // On a ramp down that started `t` ago, at a speed higher by a^2 / 2 K.
   const Long began = speed - a * t / 2;
   return oracle::ramp_distance(law.down, start, began) - (began * t - k * t * t * t / 6);
 }

@@ -1,4 +1,4 @@
-// A different speed, and a stop, while moving: by hand.
+// A different speed, and a stop, during motion: by hand.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -20,7 +20,7 @@ struct Row {
   const char* what;
   SpeedLaw law;
   Sample now;
-  double speed, change_s, change_u;  // until the new speed is kept, or it stands
+  double speed, change_s, change_u;  // until it keeps the new speed, or is at rest
 };
 
 Sample moving(double speed, double acceleration = 0) {
@@ -72,7 +72,8 @@ TEST(ChangeSpeed, AJerkLawOvershootsUntilItsAccelerationFades) {
 }
 
 TEST(ChangeSpeed, AnAccelerationTooHighForASofterLawDropsToItsLimit) {
-  // From standstill jerk 100 has 100 u/s^2 at 50 u/s, and no more; so it goes on to twice the speed at most.
+  // From standstill jerk 100 reaches 100 u/s^2 at 50 u/s, and no more; so it continues to twice the speed at
+  // most.
   const Profile profile = change_speed(moving(50, 1e6), 30, law(0, kSoft, kSoft));
   EXPECT_NEAR(static_cast<double>(greatest_speed(profile)), 100, 1e-6);
   EXPECT_NEAR(profile.sample(0).acceleration_u_s2, 100, 1e-6);

@@ -1,4 +1,4 @@
-// A different target while moving: by hand.
+// A different target during motion: by hand.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -128,7 +128,7 @@ TEST(ChangeTarget, WhatIsLeftByAnOffsetIsCrept) {
 TEST(ChangeTarget, ARampReckonedTooShortIsCutOffOnTheTarget) {
   SpeedLaw law = from_start_speed();
   law.slow_down_reckoned_by = law.down;
-  law.down = RampLaw::by_slope(50);  // takes 99 u, of which 49.5 are reckoned with
+  law.down = RampLaw::by_slope(50);  // takes 99 u, of which 49.5 are planned for
   const Sample cruising{.position_u = 0, .speed_u_s = 100};
   expect_rows(
       law, {

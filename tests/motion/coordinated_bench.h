@@ -17,7 +17,7 @@ struct Bench {
   std::array<Axis, kAxes> axes{};
   std::array<Environment, kAxes> environment{};
   std::array<std::int64_t, kAxes> pulses{};  // of the last tick
-  std::array<std::int64_t, kAxes> sent{};    // all so far, as they came out
+  std::array<std::int64_t, kAxes> sent{};    // all so far, as they were sent
   std::array<Events, kAxes> events{};        // all so far
   Coordinated group;
   Tick tick = 0;

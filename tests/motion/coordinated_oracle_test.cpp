@@ -17,7 +17,7 @@ class PulseLine {
   }
   std::int64_t longest() const { return longest_; }
   const Travels& place() const { return place_; }
-  /// Half a pulse exactly, rounded down so far: the next one is as near.
+  /// Exactly half a pulse, rounded down so far: the next one is equally near.
   bool tie(std::size_t axis) const { return error_[axis] == longest_; }
   void step() {
     for (std::size_t axis = 0; axis < way_.size(); ++axis) {
@@ -30,7 +30,7 @@ class PulseLine {
  private:
   Travels way_;
   Travels place_{};
-  Travels error_{};  // twice what the place is behind the line, in parts of a pulse of the longest axis
+  Travels error_{};  // twice the distance behind the line, in parts of a pulse of the longest axis
   std::int64_t longest_ = 0;
 };
 
@@ -90,7 +90,7 @@ TEST(CoordinatedOracle, AtAnySpeedEveryPlaceIsWithinHalfAPulseOfTheLine) {
     bench.begin();
     while (bench.group.engaged && bench.tick < 20'000) {
       bench.step();
-      // Some share of the way is within half a pulse of every axis at once.
+      // Some fraction of the path is within half a pulse of every axis at once.
       double least = 0;
       double most = 1;
       for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -142,7 +142,7 @@ TEST(CoordinatedOracle, ACircleGoesByThePulsesOfTheEightOctants) {
   for (const std::int64_t radius : {1, 2, 3, 5, 10, 29, 100, 257, 1000, 1999}) {
     for (const double turn : {1.0, -1.0}) {
       for (const Measure measure : {Measure::vector, Measure::longest_axis}) {
-        // Half a pulse a tick: no pixel is jumped over.
+        // Half a pulse per tick: no pixel is skipped.
         SpeedLaw slow = by_slope(500, 1000);
         slow.start_speed_u_s = 500;
         Bench bench(slow);
@@ -156,7 +156,7 @@ TEST(CoordinatedOracle, ACircleGoesByThePulsesOfTheEightOctants) {
           bench.step();
           const Pixel pixel{bench.axes[0].travel_pulses + radius, bench.axes[1].travel_pulses};
           visited.insert(pixel);
-          // The square of half a pulse about the place touches the circle: exact, in quarters.
+          // The square of half a pulse around the position touches the circle: exact, in quarters.
           const std::int64_t x = std::abs(2 * pixel.first);
           const std::int64_t y = std::abs(2 * pixel.second);
           const auto square = [](std::int64_t a, std::int64_t b) { return a * a + b * b; };

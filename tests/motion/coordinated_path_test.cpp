@@ -9,9 +9,9 @@ namespace understudy::motion {
 namespace coordinated_path_test {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHalf = 0.5 + 1e-6;  // a rounding of the ideal place is not a fault
+constexpr double kHalf = 0.5 + 1e-6;  // a rounding error of the ideal position is not a fault
 
-/// The whole run of one shape, held against the shape and the trapezoid at every tick.
+/// The whole run of one shape, compared with the shape and the trapezoid at every tick.
 void expect_on_shape(Bench bench, const Shape& shape, double top, double slope) {
   bench.group.run.set_speed(by_slope(top, slope), 0);
   bench.add(shape.path());
@@ -28,7 +28,7 @@ void expect_on_shape(Bench bench, const Shape& shape, double top, double slope) 
       if (axis == Coordinated::kNone) continue;
       const auto number = static_cast<std::size_t>(axis);
       const double per_unit = bench.group.scale[i].pulses_per_unit();
-      // Both the travel from the beginning, and the ideal one, in the coordinate's pulses.
+      // Both the travel from the beginning and the ideal one, in the coordinate's pulses.
       const double zero =
           static_cast<double>(from[number]) - std::round(shape.begin[static_cast<int>(i)] * per_unit);
       const double off = static_cast<double>(bench.axes[number].travel_pulses) - zero -
@@ -92,7 +92,7 @@ TEST(CoordinatedPath, AxesGoByCoordinatesInWhateverOrder) {
       {0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, kNone, 0, kNone}, {kNone, kNone, kNone, 2}};
   for (const auto& order : kOrders) {
     Bench bench;
-    bench.axes[0].travel_pulses = 77;  // where axes happen to be does not matter
+    bench.axes[0].travel_pulses = 77;  // the present positions of the axes do not matter
     bench.axes[2].travel_pulses = -1'000'000'007;
     bench.group.axis_of = order;
     expect_on_shape(bench, line, 10'000, 100'000);
@@ -128,7 +128,7 @@ TEST(CoordinatedPath, AfterTheEndTheAxesAreFreeAndTheirEventsTold) {
 }
 
 TEST(CoordinatedPath, KeptByTheirOwnerTheyStandBetweenRuns) {
-  // Engaged with nothing queued: at the place that was given, wherever the run's last one ended.
+  // Engaged with nothing queued: at the given position, wherever the run's last one ended.
   Bench bench;
   ASSERT_EQ(bench.begin(place_of(5000, -7000)), Cause::none);
   for (int i = 0; i < 10; ++i) bench.step(true);
@@ -140,7 +140,7 @@ TEST(CoordinatedPath, KeptByTheirOwnerTheyStandBetweenRuns) {
   bench.step();
   EXPECT_FALSE(bench.group.engaged);
   EXPECT_EQ(bench.group.cause, Cause::arrived);
-  // And again from another place.
+  // And again from another position.
   ASSERT_EQ(bench.begin(place_of(1, 1)), Cause::none);
   bench.step(true);
   EXPECT_EQ(bench.travels(), (Travels{100, 0, 0, 0}));
@@ -181,7 +181,7 @@ TEST(CoordinatedPath, BacklashComesOutAtEachReversalAndIsNotTravel) {
     settings.backlash_speed_pps = 1000;
     bench.axes[i].set(settings);
   }
-  // Once round: X goes -, +; it begins at its greatest X. Y goes +, -, +.
+  // One full turn: X moves -, +; it starts at its maximum X. Y moves +, -, +.
   const Shape shape = Shape::arc(place_of(3000, 0), place_of(0, 0), 2 * kPi);
   bench.add(shape.path());
   bench.begin(shape.begin);
@@ -203,13 +203,13 @@ TEST(CoordinatedPath, BacklashComesOutAtEachReversalAndIsNotTravel) {
   }
   EXPECT_EQ(reversals, (std::array<int, 2>{1, 2}));
   EXPECT_EQ(bench.axes[0].backlash_sent, 40);
-  EXPECT_EQ(bench.axes[1].backlash_sent, 0);  // there and back
+  EXPECT_EQ(bench.axes[1].backlash_sent, 0);  // out and back
   EXPECT_EQ(bench.travels(), (Travels{0, 0, 0, 0}));
 }
 
 TEST(CoordinatedPath, TheSpeedOfAnAxisIsHowFastItsPlaceChanges) {
-  // A line of 3:4, a quarter circle of radius 1000 that goes on from it in its direction (0.6, 0.8), in
-  // pulses of 1/8 and 1/2 units. Speeds by hand: 5000 u/s along the path.
+  // A line of 3:4, then a quarter circle of radius 1000 that continues in its direction (0.6, 0.8), in pulses
+  // of 1/8 and 1/2 units. Speeds by hand: 5000 u/s along the path.
   constexpr double kSpeed = 5000;
   Bench bench;
   bench.group.run.set_speed(by_slope(kSpeed, 1e6), 0);

@@ -1,4 +1,4 @@
-// A path that slows down for one of its axes, waits for in-position, and does not jump.
+// A path that decelerates for one of its axes, waits for in-position, and does not jump.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Group {
       axis.servo_on = true;
     }
     group.axis_of = {0, 1, Coordinated::kNone, Coordinated::kNone};
-    // 100,000 a second, a = 1e6: a stop takes 100 ms and 5000 units.
+    // 100,000 per second, a = 1e6: a stop takes 100 ms and 5000 units.
     group.run.set_speed({.top_speed_u_s = 1e5, .up = RampLaw::by_slope(1e6), .down = RampLaw::by_slope(1e6)},
                         0);
     group.run.append(line(Point::Zero(), Point(30000, 40000, 0, 0)), {}, 0);
@@ -51,7 +51,7 @@ TEST(CoordinatedSlow, ALimitThatSlowsDownSlowsThePathAndKeepsItsShape) {
   }
   EXPECT_EQ(group.group.cause, Cause::limit_plus);
   EXPECT_EQ(group.axes[0].cause, Cause::limit_plus);
-  // 5000 units of path on, so 3000 of X, from the pulse of the edge.
+  // 5000 units further along the path, so 3000 of X, from the pulse of the edge.
   EXPECT_NEAR(static_cast<double>(group.axes[0].travel_pulses), 15'000, 1);
   EXPECT_EQ(group.group.run.queued(), 0U);
 }

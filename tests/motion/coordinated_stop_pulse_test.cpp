@@ -1,4 +1,4 @@
-// An axis that is stopped within a tick stops the others at that place of the path, whatever the speed.
+// An axis that is stopped within a tick stops the others at that point of the path, whatever the speed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,9 +14,9 @@ namespace coordinated_stop_pulse_test {
 struct Course {
   const char* what;
   std::function<void(Bench&)> lay;
-  // The other axes' places where X is at `x`, on its way there: worked out from the course itself.
+  // The other axes' positions when X is at `x`, moving there: calculated from the course itself.
   std::function<Point(double x)> others;
-  std::int64_t limit;  // of X: on from here on, in the way in which it goes
+  std::int64_t limit;  // of X: from here on, in its direction of motion
 };
 
 constexpr double kRadius = 40'000;
@@ -79,7 +79,7 @@ TEST(CoordinatedStopPulse, TheOthersStandWhereThePathWas) {
       ASSERT_EQ(bench.begin(), Cause::none);
       ASSERT_GT(bench.to_the_end(), 0);
       EXPECT_EQ(bench.axes[0].travel_pulses, course.limit);
-      // The pulse comes where the path is half a pulse before it.
+      // The pulse is sent when the path is half a pulse before it.
       const Point expected = course.others(static_cast<double>(course.limit) - 0.5 * direction);
       for (std::size_t i = 1; i < 3; ++i) {
         const auto number = static_cast<Eigen::Index>(i);

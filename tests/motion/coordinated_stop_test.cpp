@@ -8,7 +8,7 @@
 namespace understudy::motion {
 namespace coordinated_stop_test {
 
-/// A line of X and Y, 2 to 1, at 20 pulses of X a tick, begun from the place 0, 0; another waits behind it.
+/// A line of X and Y, 2 to 1, at 20 pulses of X per tick, started at position 0, 0; another waits behind it.
 Bench two_to_one(double sign = 1) {
   Bench bench(by_slope(20'000 * std::sqrt(1.25), 1e9));
   bench.group.axis_of = {0, 1, 2, Coordinated::kNone};
@@ -22,7 +22,7 @@ struct StopCase {
   std::function<void(Bench&)> set_up;  // before the beginning
   double sign;                         // of the line
   Cause cause;
-  std::size_t axis;     // that is stopped ...
+  std::size_t axis;     // the axis that is stopped ...
   std::int64_t travel;  // at this pulse
 };
 
@@ -44,7 +44,7 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
          b.environment[0].add(Signal::limit_plus, 5003, 9000);
          settings(b, 0, [](AxisSettings& s) { s.at_limit_plus = Reaction::slow_down; });
        },
-       1, Cause::limit_plus, 0, 5003},  // the path slows down, and needs a quarter of a unit
+       1, Cause::limit_plus, 0, 5003},  // the path decelerates, and needs a quarter of a unit
       {"soft limit + of Y",
        [&](Bench& b) { settings(b, 1, [](AxisSettings& s) { s.soft_limit_plus = 1234; }); }, 1,
        Cause::soft_limit_plus, 1, 1235},  // the pulse beyond it triggers
@@ -90,7 +90,7 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
 TEST(CoordinatedStop, SignalsThatAreNoneOfItsPlacesStopItToo) {
   for (const auto& [signal, cause] :
        {std::pair{Signal::alarm, Cause::alarm}, std::pair{Signal::emergency, Cause::emergency}}) {
-    // Of an axis that takes part, but stands.
+    // An axis that takes part, but is at rest.
     Bench bench = two_to_one();
     bench.begin();
     bench.steps(100);
@@ -117,7 +117,7 @@ TEST(CoordinatedStop, WhatOneAxisIsToldBetweenTicksEndsItForAll) {
     EXPECT_FALSE(bench.group.engaged);
     EXPECT_EQ(bench.group.cause, cause);
     EXPECT_EQ(bench.axes[1].travel_pulses, before[1]);
-    EXPECT_TRUE((bench.axes[1].events & bit(Event::ended)) != 0);  // told in that very tick
+    EXPECT_TRUE((bench.axes[1].events & bit(Event::ended)) != 0);  // reported in that very tick
     EXPECT_FALSE(bench.axes[0].moving());
   }
 }
@@ -175,7 +175,7 @@ TEST(CoordinatedStop, AnAxisOnALimitMayLeaveItAndMayStandOnItButNotGoOn) {
     double x, y;
     bool arrives;
   };
-  // X stands on its + limit, where a move in + brought it.
+  // X is on its + limit, where a move in + brought it.
   for (const Row& row : {Row{"leaves it", -500, 100, true}, Row{"stands on it", 0, 100, true},
                          Row{"goes on", 500, 100, false}}) {
     Bench bench(by_slope(1000, 1e5));

@@ -26,7 +26,8 @@ constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 class Elementary : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "long double is not more than double";
+    if (std::numeric_limits<long double>::digits < 64)
+      GTEST_SKIP() << "long double is not longer than double";
   }
 };
 
@@ -110,7 +111,7 @@ TEST_F(Elementary, SineAndCosineOfWhatIsNoAngleAreNan) {
 }
 
 void add_angle(Worst& worst, double y, double x) {
-  // + 0: unlike atan2 ours knows no negative zero.
+  // + 0: unlike atan2, ours has no negative zero.
   worst.add(angle_of(y, x), std::atan2(static_cast<long double>(y) + 0, static_cast<long double>(x)));
 }
 

@@ -12,7 +12,7 @@ namespace environment_test {
 
 using Zone = Environment::Zone;
 
-/// The index counted from the one mark there is at `index_at`, without a division.
+/// The index counted from the one mark at `index_at`, without a division.
 bool index_at(const Environment& environment, std::int64_t travel) {
   if (environment.index_period <= 0) return false;
   if (travel < environment.index_from) return index_at(environment, environment.index_from);
@@ -97,7 +97,7 @@ TEST(Environment, ZonesMayReachToTheEndOfAllNumbers) {
   EXPECT_EQ(environment.steps_until_change(5'000, -1), 4'001);
   EXPECT_EQ(environment.steps_until_change(-5'000, +1), 4'001);
   for (const std::int64_t travel : {INT64_C(-5'000), INT64_C(0), INT64_C(5'000)}) {
-    // What is said of a change that never comes must be too far to matter.
+    // The forecast of a change that never comes must be too far away to matter.
     if (const auto up = environment.steps_until_change(travel, +1); travel >= 1'000 && up) {
       EXPECT_GT(*up, INT64_MAX / 2);
     }
@@ -209,7 +209,7 @@ TEST(Environment, AreWhatLookingAtEveryPulseGives) {
       ASSERT_EQ(environment.at(travel), by_hand(environment, travel))
           << code(environment) << " at " << travel;
       for (const int direction : {+1, -1}) {
-        // May be cautious, never late: until then nothing changes, and on from there it finds the change.
+        // It may be early, never late: until then nothing changes, and from there on it finds the change.
         const std::optional<std::int64_t> change = change_by_hand(environment, travel, direction);
         std::int64_t steps = 0;
         int looks = 0;
@@ -258,7 +258,7 @@ TEST(Environment, SlackKeepsASignalOnUntilItIsFarEnough) {
     } else {
       environment.add(Signal::home, 10, 19, 3);
     }
-    // A switch that comes on from 10 to 19, and lets go 3 outside; the signal is the switch or its opposite.
+    // A switch that comes on from 10 to 19, and releases 3 outside; the signal is the switch or its inverse.
     bool is_on = false;
     Signals seen = environment.at(0);
     const auto go = [&](std::int64_t to, std::int64_t from) {

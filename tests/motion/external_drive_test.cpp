@@ -15,7 +15,7 @@ constexpr DriveOrder kSlowDown{.what = What::slow_down};
 constexpr DriveOrder moves(std::int64_t pulses) { return {.what = What::move, .pulses = pulses}; }
 constexpr DriveOrder runs(std::int8_t direction) { return {.what = What::run, .direction = direction}; }
 
-/// The inputs in one tick, and what follows.
+/// The inputs in one tick, and the result.
 struct InputCase {
   bool plus_high;
   bool minus_high;
@@ -111,7 +111,7 @@ TEST(ExternalDrive, RemembersTheLevelsWhateverTheMode) {
   watch_inputs(drive, false, false, false);
   drive.mode = Mode::fixed;
   drive.pulses = 5;
-  EXPECT_EQ(watch_inputs(drive, false, false, false), kNothing);  // low already: no edge
+  EXPECT_EQ(watch_inputs(drive, false, false, false), kNothing);  // already low: no edge
   EXPECT_FALSE(drive.plus_high);
   EXPECT_FALSE(drive.minus_high);
 }

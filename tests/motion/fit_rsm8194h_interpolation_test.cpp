@@ -12,7 +12,7 @@ namespace fit_rsm8194h_interpolation_test {
 
 constexpr double kPi = std::numbers::pi;
 
-/// VECTOR_SPEED's parameters; `s_curve`: VK and VL are used, else VA and VD. VAO 0 unless given.
+/// VECTOR_SPEED's parameters; with `s_curve`, VK and VL are used, otherwise VA and VD. VAO 0 unless given.
 struct VectorSpeed {
   bool s_curve = false;
   double vsv = 0, vv = 0, va = 0, vd = 0, vk = 0, vl = 0, vao = 0;
@@ -28,8 +28,8 @@ struct VectorSpeed {
   double ramp_s(double a, double k) const {
     return vv <= vsv ? 0 : s_curve ? 2 * std::sqrt((vv - vsv) / k) : (vv - vsv) / a;
   }
-  /// The chip's law over a length that reaches VV: pulses of a ramp are its mean speed times its time. What
-  /// begins VAO pulses early is left to creep at VSV.
+  /// The chip's law over a length that reaches VV: the pulses of a ramp are its mean speed times its time. A
+  /// ramp that starts VAO pulses early leaves these to creep at VSV.
   double closed_s(double length) const {
     const double up_s = ramp_s(va, vk);
     const double down_s = ramp_s(vd, vl);
@@ -106,7 +106,7 @@ TEST(FitRsm8194hInterpolation, AtConstantVectorSpeedEveryTickGoesTheSameWay) {
     Point before = run.step(1);
     for (Tick tick = 2; run.queued() > 0; ++tick) {
       const Point place = run.step(tick);
-      // A chord of an arc of 5 on a radius of 20,000 is as long as the arc, but for 1e-8.
+      // A chord of an arc of 5 on a radius of 20,000 is as long as the arc, except for 1e-8.
       if (run.queued() > 0) {
         ASSERT_NEAR((place - before).norm(), 5, 1e-6) << tick;
       }
@@ -128,7 +128,7 @@ TEST(FitRsm8194hInterpolation, RelativeArcsAreAboutTheirCentreToTheirEnd) {
   // ARC_CW centre (-5000, -5000) end (-10000, -10000): a half circle of 7071.
   const Path half = arc_by_centre(kHere, place_of(-5000, -5000), place_of(-10'000, -10'000), Turn::clockwise);
   EXPECT_NEAR(half.length_u, kPi * 7071.0678, 1e-3);
-  // Clockwise from the north-east of its centre: by the south-east.
+  // Clockwise from the north-east of its centre: through the south-east.
   EXPECT_LT((half.at(half.length_u / 2) - place_of(0, -10'000)).norm(), 1e-6);
   const Path other =
       arc_by_centre(kHere, place_of(-5000, -5000), place_of(-10'000, -10'000), Turn::counter_clockwise);
@@ -145,7 +145,7 @@ TEST(FitRsm8194hInterpolation, RelativeArcsAreAboutTheirCentreToTheirEnd) {
 
 TEST(FitRsm8194hInterpolation, AnEndOffTheCircleIsAcceptedAsTheChipDrawsIt) {
   // 7.2.2's example: centre (10000, 0), end (11000, 9000). The shorter coordinate from the centre is X's
-  // 1000: the arc ends there, on the circle of 10000, clockwise as from the west to the north.
+  // 1000: the arc ends there, on the circle of 10000, clockwise from the west to the north.
   const Path arc = arc_by_centre(kHere, place_of(10'000, 0), place_of(11'000, 9000), Turn::clockwise,
                                  {.off_circle = OffCircle::quadrant});
   EXPECT_LT((arc.end - place_of(11'000, std::sqrt(1e8 - 1e6))).norm(), 1e-6);
@@ -211,7 +211,7 @@ TEST(FitRsm8194hInterpolation, AStreamIsTakenAsRoomComesAndNeverStopsOnTheWay) {
       least = std::min(least, bench.group.run.sample(bench.tick).speed_u_s);
     }
   }
-  EXPECT_NEAR(least, 10'000, 1e-6);  // stops in 495, of the queue's 1280 less three ticks' 30
+  EXPECT_NEAR(least, 10'000, 1e-6);  // stops in 495, of the queue's 1280 minus three ticks' 30
   EXPECT_NEAR(static_cast<double>(bench.tick - 1) / 1000, t.closed_s(kSegments * 40), 0.0011);
   EXPECT_EQ(bench.travels(), (Travels{kSegments * 40, 0, 0, 0}));
 }

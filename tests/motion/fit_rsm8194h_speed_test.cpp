@@ -1,4 +1,4 @@
-// RS-M8194H's speeds and ramps, and the MCX314 registers beneath them, by nothing but a conversion of units.
+// RS-M8194H's speeds and ramps, and the MCX314 registers beneath them, with only a conversion of units.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace understudy::motion {
 namespace fit_rsm8194h_speed_test {
 
-/// The four modes of speed that the controller knows.
+/// The four speed modes that the controller has.
 enum class Mode { t_symmetric = 0, s_symmetric = 1, t_asymmetric = 2, s_asymmetric = 3 };
 
 /// An axis as its commands set it, in pps, pps/s, pps/s^2.
@@ -21,7 +21,7 @@ struct Settings {
   Mode mode = Mode::t_symmetric;
 
   double unit() const { return max_v / 8000; }
-  /// The chip's registers hold whole units: cut, but never to nothing.
+  /// The chip's registers hold whole units: truncated, but never to zero.
   double quantised(double pps) const { return std::max(1.0, std::floor(pps / unit())) * unit(); }
 
   SpeedLaw law() const {
@@ -47,7 +47,7 @@ struct Settings {
 TEST(FitRsm8194hSpeed, TheChipsRegistersStandForTheUnitsOfItsManual) {
   const double m = 8'000'000 / 800'000.0;
   EXPECT_EQ(m, 10);
-  EXPECT_NEAR(62.5e6 / 1010 * m / 1000, 619, 0.5);  // kpps/s^2 in each second
+  EXPECT_NEAR(62.5e6 / 1010 * m / 1000, 619, 0.5);  // kpps/s^2 per second
   EXPECT_EQ(125 * 100 * m, 125'000);
   const Settings settings{.max_v = 8000 * m};
   EXPECT_EQ(settings.unit(), m);

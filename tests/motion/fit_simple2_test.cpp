@@ -1,4 +1,4 @@
-// Simple2-R3's moves (manual, appendix A) by nothing but a conversion of units.
+// Simple2-R3's moves (manual, appendix A) with only a conversion of units.
 #include <gtest/gtest.h>
 
 #include <cmath>

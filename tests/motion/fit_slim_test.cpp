@@ -1,5 +1,5 @@
-// SLIM's coordinated commands, as the kernel alone must serve them: resultant speed TVM and acceleration TVA,
-// golden times, CM modes with PR7, and the pause rules.
+// SLIM's coordinated commands, as the kernel alone must execute them: resultant speed TVM and acceleration
+// TVA, golden times, CM modes with PR7, and the pause rules.
 #include <gtest/gtest.h>
 
 #include "motion/bad_motion.h"
@@ -12,14 +12,14 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTvm = 100;
 constexpr double kTva = 1000;
 
-// The commands; `here` is where they begin.
+// The commands; `here` is where they start.
 Path ma(const Point& here, double x, double y, double z = 0) { return line(here, place_of(x, y, z)); }
 Path aa(const Point& here, double x, double y, double degrees, double rise = 0) {
   return arc_by_sweep(here, place_of(x, y, here[2]), degrees * kDegree, place_of(0, 0, rise));
 }
 const Point kOrigin = Point::Zero();
 
-/// SLIM: a joint that comes too late begins from rest.
+/// SLIM: after a joint that comes too late, the path starts from rest.
 PathRun linked(const SpeedLaw& law = by_slope(kTvm, kTva)) {
   PathRun run;
   run.set_late_joint(PathRun::LateJoint::from_rest);
@@ -79,14 +79,14 @@ TEST(FitSlim, TheOctagonsTimeByItsCmModeAndPr7) {
     }
     run.start(0);
     const Tick end = finish(run, 0) - 1;
-    // A stop ends within a tick, and the next side begins at the tick.
+    // A stop ends within a tick, and the next side starts at the tick.
     EXPECT_NEAR(static_cast<double>(end), row.seconds * 1000, row.seconds > 1 ? 8 : 1) << row.mode;
     EXPECT_LT(run.step(end + 10).norm(), 1e-12) << row.mode;
   }
 }
 
 TEST(FitSlim, ASuccessorQueuedTooLateBeginsFromRest) {
-  // 2MA 100,0 slows down from 95 on, 1000 ms after its beginning.
+  // 2MA 100,0 decelerates from 95 on, 1000 ms after its beginning.
   for (const auto& [queued_at, ms] : {std::pair<Tick, Tick>{900, 2100}, {1050, 2200}, {1099, 2200}}) {
     PathRun run = linked();
     run.append(ma(kOrigin, 100, 0), kJoin, 0);

@@ -1,4 +1,4 @@
-// SUPER-40NC's LIN and arcs: lengths in 0.001 mm (LU), F in LU a second, factory slope and CMX/CDV 1/1.
+// SUPER-40NC's LIN and arcs: lengths in 0.001 mm (LU), F in LU per second, factory slope and CMX/CDV 1/1.
 #include <gtest/gtest.h>
 
 #include "tests/motion/coordinated_bench.h"
@@ -6,12 +6,12 @@
 namespace understudy::motion {
 namespace fit_super40nc_path_test {
 
-constexpr double kSlope = 666'667;  // pulses a second, squared
+constexpr double kSlope = 666'667;  // pulses per second squared
 constexpr double kMm = 1000;
 
 SpeedLaw feed(double mm_s) { return by_slope(mm_s * kMm, kSlope); }
 
-/// Seconds until the axes are let go.
+/// Returns the seconds until the axes are released.
 double run_s(Bench& bench, const Path& path) {
   const Tick begin = bench.tick;
   bench.add(path);
@@ -104,14 +104,14 @@ TEST(FitSuper40ncPath, HalfCirclesInEachPlane) {
 }
 
 TEST(FitSuper40ncPath, CmxAndCdvScaleTheAxesNotThePath) {
-  // 8/5: slope in LU is that of the axis times 5/8; the path's time follows from LU alone.
+  // 8/5: the slope in LU is that of the axis times 5/8; the path's time follows from LU alone.
   const double slope_lu = kSlope * 5 / 8;
   Bench bench(by_slope(50'000, slope_lu));
   bench.group.scale.fill(UnitScale::of(8, 5));
   const double length = mm(20, 25).norm();
   EXPECT_NEAR(run_s(bench, line(mm(0, 0), mm(20, 25))), length / 50'000 + 50'000 / slope_lu, kTolerance_s);
   EXPECT_EQ(bench.travels(), (Travels{32'000, 40'000, 0, 0}));
-  // Back by way of odd places: no rounding piles up.
+  // Back through odd positions: rounding errors do not add up.
   Point here = mm(20, 25);
   for (const Point& next : {mm(7.777, 3.333), mm(-1.001, 13.337), mm(0.003, -0.002), mm(0, 0)}) {
     run_s(bench, line(here, next));
@@ -128,7 +128,7 @@ TEST(FitSuper40ncPath, OverrideScalesFBetween0And200PerCentAtOnce) {
     const double speed = 500.0 * per_cent;
     EXPECT_NEAR(run_s(bench, line(mm(0, 0), mm(20, 25))), trapezoid_s(length, speed, kSlope), kTolerance_s);
   }
-  // In motion: 0 holds, and 100 goes on.
+  // During motion, 0 holds and 100 continues.
   Bench bench(feed(50));
   bench.add(line(mm(0, 0), mm(20, 25)));
   bench.begin();

@@ -1,4 +1,4 @@
-// SUPER-40NC's speeds and ramps by nothing but a conversion of units.
+// SUPER-40NC's speeds and ramps with only a conversion of units.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace understudy::motion {
 namespace fit_super40nc_speed_test {
 
-/// The settings of an axis, as the controller has them from the factory.
+/// The settings of an axis, with the factory values.
 struct Settings {
   double ppr = 4000;            // pulses per revolution
-  double full_rpm = 5000;       // C22: what the ramp times are counted to
+  double full_rpm = 5000;       // C22: the speed that the ramp times refer to
   double start_rpm = 1;         // X13
   double acceleration_s = 0.5;  // from 0 to C22
   double deceleration_s = 0.5;
@@ -33,7 +33,7 @@ struct Settings {
             .top_speed_u_s = fh_pps,
             .up = RampLaw::by_sections(slope(acceleration_s), section),
             .down = RampLaw::by_sections(slope(deceleration_s), section),
-            // The chip finds the place to slow down by counting, up to twice the acceleration.
+            // The chip finds the point to decelerate by counting, up to twice the acceleration.
             .slow_down_reckoned_by =
                 RampLaw::by_sections(slope(std::min(deceleration_s, 2 * acceleration_s)), section)};
   }
@@ -116,7 +116,7 @@ TEST(FitSuper40ncSpeed, ADecelerationOverTwiceTheAccelerationIsCutOff) {
        {std::pair{0.2, false}, {0.5, false}, {1.0, false}, {1.001, true}, {2.0, true}, {5.0, true}}) {
     settings.deceleration_s = deceleration_s;
     const Profile profile = plan(100'000, settings.law(top));
-    // Over the distance that was reckoned, the slower ramp comes down only so far.
+    // Over the distance that was planned, the slower ramp only decreases the speed so far.
     const double reckoned = (top * top - start * start) / (2 * settings.slope(std::min(deceleration_s, 1.0)));
     const double end = std::sqrt(top * top - 2 * settings.slope(deceleration_s) * reckoned);
     EXPECT_NEAR(profile.end_speed_u_s, end, 0.05) << deceleration_s;

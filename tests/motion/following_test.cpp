@@ -18,7 +18,7 @@ std::int64_t floor_of(Wide value, std::int64_t by) {
   return static_cast<std::int64_t>(value % by < 0 ? quotient - 1 : quotient);
 }
 
-/// Feeds so many counts, and steps one period.
+/// Feeds this many counts, and steps one period.
 std::int64_t period(Follower& follower, std::int64_t counts) {
   follower.feed(counts);
   std::int64_t pulses = 0;
@@ -207,14 +207,14 @@ TEST(Following, CatchesUpAlongTheSlopeWithoutGoingTooFar) {
 }
 
 TEST(Following, SpeedsUpAndSlowsDownAlongTheSlope) {
-  Follower follower{.period_ticks = 1, .slope_pps = 2'000};  // two pulses a tick more in each tick
+  Follower follower{.period_ticks = 1, .slope_pps = 2'000};  // two more pulses per tick in each tick
   const std::array<std::int64_t, 10> fed{7, 7, 7, 7, 7, 0, 0, 0, 0, 0};
   const std::array<std::int64_t, 10> sent{2, 4, 6, 7, 7, 5, 3, 1, 0, 0};
   for (std::size_t i = 0; i < fed.size(); ++i) EXPECT_EQ(period(follower, fed[i]), sent[i]) << i;
 }
 
 TEST(Following, TheSlopeCountsByThePeriod) {
-  Follower follower{.period_ticks = 5, .slope_pps = 2'000};  // ten pulses more in each period of 5 ms
+  Follower follower{.period_ticks = 5, .slope_pps = 2'000};  // ten more pulses in each period of 5 ms
   const std::array<std::int64_t, 10> fed{35, 35, 35, 35, 35, 0, 0, 0, 0, 0};
   const std::array<std::int64_t, 10> sent{10, 20, 30, 35, 35, 25, 15, 5, 0, 0};
   for (std::size_t i = 0; i < fed.size(); ++i) EXPECT_EQ(period(follower, fed[i]), sent[i]) << i;

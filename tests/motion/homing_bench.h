@@ -1,7 +1,7 @@
-// A bench for homing: an axis, the switches along its way, and the trace of what it does there.
+// A bench for homing: an axis, the switches along its travel, and the trace of its motion there.
 //
-// Tables are written for the home direction +; mirrored() turns a bench or a trace round, so that each
-// is run for the direction -, too.
+// Tables are written for the home direction +; mirrored() reverses a bench or a trace, so that each also runs
+// for the direction -.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace understudy::motion {
 
 inline constexpr std::int64_t kFar = 1'000'000'000;
-/// The end of a leg that did not come to rest, because the next one took over in motion.
+/// The end of a leg that did not come to rest, because the next one took over during motion.
 inline constexpr std::int64_t kRunsOn = INT64_MIN;
 
 /// A leg: a row of the homing table, in a direction, until it comes to rest.
@@ -107,7 +107,7 @@ struct HomingBench {
     runs_ = is;
   }
 
-  /// Runs until homing is over, or until the tick. Returns true if it is over.
+  /// Runs until homing has ended, or until the tick. Returns true if it has ended.
   bool run(Tick until = 200'000) {
     while (axis.homing.active() && now < until) step();
     return !axis.homing.active();
@@ -121,7 +121,7 @@ struct HomingBench {
   }
 
  private:
-  /// A leg begins where its drive's coordinate is 0.
+  /// A leg starts where its drive's coordinate is 0.
   struct Running {
     int row = -1;
     int direction = 0;
@@ -139,7 +139,7 @@ struct HomingBench {
 /// The expected end of a homing.
 struct Ending {
   Cause by = Cause::arrived;
-  int in_row = -1;  // -1: no matter
+  int in_row = -1;  // -1: does not matter
 };
 
 inline void expect_ended(const HomingBench& bench, const Ending& ending) {
@@ -160,7 +160,7 @@ inline void expect_ended(const HomingBench& bench, const Ending& ending) {
 
 inline double brake_pulses(double speed_pps, double slope) { return speed_pps * speed_pps / (2 * slope); }
 
-/// The duration from rest over `pulses`, without slowing down.
+/// Returns the duration from rest over `pulses`, without decelerating.
 inline double time_to_reach_s(double pulses, double speed_pps, double slope) {
   if (pulses < brake_pulses(speed_pps, slope)) return std::sqrt(2 * pulses / slope);
   return pulses / speed_pps + speed_pps / (2 * slope);

@@ -10,7 +10,7 @@ struct Journey {
   std::int64_t start;
 };
 
-/// Every mode, and journeys of the other controllers that pass most of their rows, on super40nc_machine().
+/// Every mode, and sequences of the other controllers that pass most of their rows, on super40nc_machine().
 std::vector<Journey> journeys() {
   std::vector<Journey> all;
   for (int mode = 0; mode <= 12; ++mode) {
@@ -53,7 +53,7 @@ void expect_given_up(const Journey& journey, const Interruption& interruption, T
     EXPECT_EQ(bench.axis.travel_pulses, travel);
   }
   ASSERT_TRUE(bench.run(bench.now + 60));  // 50 ms from full speed
-  // Never farther than it takes to stop.
+  // Never further than it takes to stop.
   EXPECT_LE(std::abs(bench.axis.travel_pulses - travel), 834);
   expect_ended(bench, {.by = interruption.by, .in_row = row});
   const Axis ended = bench.axis;
@@ -62,7 +62,8 @@ void expect_given_up(const Journey& journey, const Interruption& interruption, T
   EXPECT_FALSE(bench.axis.moving());
 }
 
-/// Ticks spread over a journey, at which it is to be interrupted: every row is hit, and slowing down, too.
+/// Ticks spread over a sequence, at which it will be interrupted: every row is hit, and its deceleration,
+/// too.
 std::vector<Tick> moments(const Journey& journey) {
   HomingBench bench(super40nc_machine(), journey.start);
   EXPECT_EQ(bench.home(journey.program), Cause::none);
@@ -121,7 +122,7 @@ TEST(HomingFailure, WhateverIsToStopTheAxisEndsItInEveryRow) {
 
 TEST(HomingFailure, ASoftLimitEndsItOnePulseBeyondInEveryRow) {
   for (const Journey& journey : journeys()) {
-    // Rows begin where moments() finds them; 3 ticks later the row is under way.
+    // Rows start where moments() finds them; 3 ticks later the row is in progress.
     for (const Tick after : moments(journey)) {
       SCOPED_TRACE(journey.name + " after " + std::to_string(after));
       HomingBench bench(super40nc_machine(), journey.start);
@@ -129,7 +130,7 @@ TEST(HomingFailure, ASoftLimitEndsItOnePulseBeyondInEveryRow) {
       bench.run_ticks(after);
       HomingBench free = bench;
       free.step();
-      // Only where the next tick goes on for two pulses or more in one direction.
+      // Only if the next tick continues for two pulses or more in one direction.
       const std::int64_t gone = free.axis.travel_pulses - bench.axis.travel_pulses;
       if (std::abs(gone) < 2 || free.axis.homing.phase != bench.axis.homing.phase) continue;
       const int row = bench.axis.homing.phase;
@@ -152,7 +153,7 @@ TEST(HomingFailure, ADogPassedWhileBrakingFailsIfItMustBeFoundAgain) {
     Trace trace;
     Cause by;
   };
-  // A plate of 800 pulses, where 833 are needed. Modes 0 and 9 do not look again; 2, 3 and 10 do not stop.
+  // A plate of 800 pulses, where 833 are needed. Modes 0 and 9 do not check again; 2, 3 and 10 do not stop.
   const std::vector<Row> table = {
       {0, {{1, +1, 50'833}}, Cause::arrived},
       {1, {{1, +1, 50'833}}, Cause::homing_failed},
@@ -238,7 +239,7 @@ TEST(HomingFailure, WithoutALimitMode6RunsUntilStopped) {
   expect_ended(bench, {.by = Cause::stopped, .in_row = 0});
 }
 
-/// From behind the DOG, by the limit ahead, where that is chosen: the end is that from before it.
+/// From behind the DOG, through the limit ahead, if that is chosen: the end is the same as from before it.
 TEST(HomingFailure, MayTurnRoundAtTheLimitAndPassTheDog) {
   for (int mode = 0; mode <= 12; ++mode) {
     if (super40nc_homes_by_limit(mode)) continue;

@@ -1,5 +1,5 @@
 // SUPER-40NC's MRK: past the target at the creep speed, which differs from the start speed, and on to a mark.
-// Compared with closed forms, and from every place.
+// Compared with closed forms, and from every position.
 #include <gtest/gtest.h>
 
 #include "tests/motion/homing_super40nc_bench.h"
@@ -8,7 +8,7 @@
 namespace understudy::motion {
 namespace homing_mark_test {
 
-/// 500 rpm and 20 rpm, as the factory has them, from a start speed of 1 rpm.
+/// 500 rpm and 20 rpm, the factory values, from a start speed of 1 rpm.
 Super40ncMark mark(std::int64_t distance, std::int64_t search) {
   const double start = 1 * 4000 / 60.0;
   return {.distance_pulses = distance,
@@ -39,7 +39,7 @@ TEST(HomingMark, APassingMoveIsAtItsTargetAtTheCreepSpeed) {
     const double floor = std::max(creep, from);
     const double shortest = std::max(0.0, floor * floor - from * from) / (2 * slope);
     if (top <= creep || distance < shortest * (1 - 1e-9)) {
-      // The creep speed from the start, by its ramp.
+      // The creep speed from the start, along its ramp.
       const double rise = std::max(0.0, creep * creep - start * start) / (2 * slope);
       ASSERT_NEAR(last.position_u, rise, 1e-6 + rise * 1e-9) << i;
       continue;
@@ -57,7 +57,7 @@ TEST(HomingMark, APassingMoveIsAtItsTargetAtTheCreepSpeed) {
 TEST(HomingMark, RunsThroughItsTargetAndStopsOnTheMark) {
   HomingBench bench(eye_at(5'300, 5'400), 0);
   bench.home(super40nc_mark(mark(5'000, 500)));
-  // 833 pulses of ramp, less what 20 rpm are: at the creep speed from 5000 on.
+  // 833 pulses of ramp, minus those of 20 rpm: at the creep speed from 5000 on.
   Tick passed = 0;
   while (bench.axis.homing.active()) {
     bench.step();
@@ -87,14 +87,14 @@ TEST(HomingMark, WithoutAMarkItEndsExactlyAtTheEndOfItsSearch) {
 }
 
 TEST(HomingMark, OnlyWhatIsSeenFromTheTargetOnCounts) {
-  // Passed before the target, also where it lies at the start: no mark, and no limit either.
+  // A mark passed before the target, even one at the start, is not a mark, and not a limit either.
   for (const auto& [from, to] : {std::pair{-10, 30}, std::pair{1'000, 1'200}, std::pair{4'990, 4'999}}) {
     HomingBench bench(eye_at(from, to), 0);
     EXPECT_EQ(bench.home(super40nc_mark(mark(5'000, 100))), Cause::none);
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.axis.travel_pulses, 5'100) << from;
   }
-  // One that is on at the target stops it on the spot.
+  // One that is on at the target stops it at once.
   for (const auto& [from, to] : {std::pair{4'000, 5'000}, std::pair{5'000, 5'000}, std::pair{-10, 9'000}}) {
     HomingBench bench(eye_at(from, to), 0);
     bench.home(super40nc_mark(mark(5'000, 100)));
@@ -104,7 +104,7 @@ TEST(HomingMark, OnlyWhatIsSeenFromTheTargetOnCounts) {
   }
 }
 
-/// One that is on at the target has to come anew, where that is asked for.
+/// One that is on at the target has to come on again, if that is required.
 TEST(HomingMark, MayDemandAnEdge) {
   struct Row {
     std::int64_t from, to, end;

@@ -1,6 +1,6 @@
 #include "tests/motion/homing_super40nc_bench.h"
 
-// Switches that move while the axis looks for them: the plant changes its environment between ticks.
+// Switches that move while the axis searches for them: the plant changes its environment between ticks.
 namespace understudy::motion {
 namespace homing_moving_edges_test {
 
@@ -8,7 +8,7 @@ struct Change {
   const char* name;
   int mode;
   int row;     // in which it happens,
-  Tick after;  // so many ticks after the row has begun
+  Tick after;  // this many ticks after the row has started
   std::size_t zone;
   std::int64_t from;
   std::int64_t to;

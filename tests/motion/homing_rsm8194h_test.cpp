@@ -1,7 +1,7 @@
 #include "tests/motion/homing_bench.h"
 
-// RS-M8194H's four steps, each in a direction of its own. At V = 20000 pps and 200000 pps/s it stops 1000
-// pulses behind an edge; steps 2 and 3 stop at once, on it.
+// RS-M8194H's four steps, each in its own direction. At V = 20000 pps and 200000 pps/s it stops 1000 pulses
+// after an edge; steps 2 and 3 stop at once, on it.
 //
 //   LMT-             NHOME           HOME           LMT+
 //   ═══╗           ╔═══════╗        ╔════╗        ╔═════
@@ -56,7 +56,7 @@ void expect(const Case& wanted, const Environment& environment) {
       EXPECT_FALSE(bench.axis.moving());
       continue;
     }
-    bench.step();  // a homing of nothing is over by now
+    bench.step();  // a homing without steps has ended by now
     ASSERT_TRUE(bench.run());
     EXPECT_EQ(bench.trace, turned ? motion::mirrored(wanted.trace) : wanted.trace);
     expect_ended(bench, {.by = turned ? motion::mirrored(wanted.ending.by) : wanted.ending.by,
@@ -74,32 +74,64 @@ Rsm8194hHoming by_limit(std::array<int, 4> ways) {
 }
 
 TEST(HomingRsm8194h, EveryStepFromEveryPlace) {
-  // With step 1: rows 0 step 1; 1 step 2, 2 leaving HOME (a), 3 back from the limit (b, c); 4 step 3; 5 step
-  // 4. Rows of steps that are skipped are not there.
-  // clang-format off
+  // With step 1: rows 0 step 1; 1 step 2, 2 leaving HOME (a), 3 back from the limit (b, c); 4 step 3; 5
+  // step 4. Rows of skipped steps are missing. clang-format off
   const std::vector<Case> table = {
-      {"all four", steps({+1, +1, -1, +1}, 3500), 0,
-       {{0, +1, 31'000}, {1, +1, 50'000}, {4, -1, 48'000}, {5, +1, 51'500}}, {}, 48'000},
-      {"the manual's directions", steps({-1, -1, +1, +1}, 3500), 60'000,
-       {{0, -1, 44'000}, {1, -1, -20'000}, {3, +1, kRunsOn}, {2, +1, 51'001}, {1, -1, 51'000},
-        {4, +1, 52'000}, {5, +1, 55'500}}, {}, 52'000},
+      {"all four",
+       steps({+1, +1, -1, +1}, 3500),
+       0,
+       {{0, +1, 31'000}, {1, +1, 50'000}, {4, -1, 48'000}, {5, +1, 51'500}},
+       {},
+       48'000},
+      {"the manual's directions",
+       steps({-1, -1, +1, +1}, 3500),
+       60'000,
+       {{0, -1, 44'000},
+        {1, -1, -20'000},
+        {3, +1, kRunsOn},
+        {2, +1, 51'001},
+        {1, -1, 51'000},
+        {4, +1, 52'000},
+        {5, +1, 55'500}},
+       {},
+       52'000},
       {"NHOME on at the start: step 1 is over", steps({+1, +1, 0, 0}), 40'000, {{1, +1, 50'000}}, {}, 50'000},
-      {"NHOME never: the limit ends step 1", steps({+1, -1, 0, 0}), 60'000,
-       {{0, +1, 80'000}, {1, -1, 51'000}}, {}, 51'000},
-      {"... and is on when step 2 begins (b)", steps({+1, +1, 0, 0}), 60'000,
-       {{0, +1, 80'000}, {3, -1, kRunsOn}, {2, -1, 49'999}, {1, +1, 50'000}}, {}, 50'000},
+      {"NHOME never: the limit ends step 1",
+       steps({+1, -1, 0, 0}),
+       60'000,
+       {{0, +1, 80'000}, {1, -1, 51'000}},
+       {},
+       51'000},
+      {"... and is on when step 2 begins (b)",
+       steps({+1, +1, 0, 0}),
+       60'000,
+       {{0, +1, 80'000}, {3, -1, kRunsOn}, {2, -1, 49'999}, {1, +1, 50'000}},
+       {},
+       50'000},
       {"step 1 on the limit ahead", steps({+1, -1, 0, 0}), 80'500, {{1, -1, 51'000}}, {}, 51'000},
       {"HOME from before", steps({0, +1, 0, 0}), 0, {{0, +1, 50'000}}, {}, 50'000},
       {"HOME from on it (a)", steps({0, +1, 0, 0}), 50'500, {{1, -1, 49'999}, {0, +1, 50'000}}, {}, 50'000},
-      {"HOME from beyond (c)", steps({0, +1, 0, 0}), 70'000,
-       {{0, +1, 80'000}, {2, -1, kRunsOn}, {1, -1, 49'999}, {0, +1, 50'000}}, {}, 50'000},
-      {"HOME from the far limit (b)", steps({0, +1, 0, 0}), 80'500,
-       {{2, -1, kRunsOn}, {1, -1, 49'999}, {0, +1, 50'000}}, {}, 50'000},
+      {"HOME from beyond (c)",
+       steps({0, +1, 0, 0}),
+       70'000,
+       {{0, +1, 80'000}, {2, -1, kRunsOn}, {1, -1, 49'999}, {0, +1, 50'000}},
+       {},
+       50'000},
+      {"HOME from the far limit (b)",
+       steps({0, +1, 0, 0}),
+       80'500,
+       {{2, -1, kRunsOn}, {1, -1, 49'999}, {0, +1, 50'000}},
+       {},
+       50'000},
       {"HOME from the near limit", steps({0, +1, 0, 0}), -20'500, {{0, +1, 50'000}}, {}, 50'000},
       {"Z only", steps({0, 0, -1, 0}), 10'001, {{0, -1, 8000}}, {}, 8000},
       {"Z is on already", steps({0, 0, +1, 0}), 8000, {}, {}, 0, Cause::homing_failed},
-      {"Z and the limit at the same pulse: Z counts", steps({0, 0, +1, 0}), 78'000,
-       {{0, +1, 80'000}}, {}, 80'000},
+      {"Z and the limit at the same pulse: Z counts",
+       steps({0, 0, +1, 0}),
+       78'000,
+       {{0, +1, 80'000}},
+       {},
+       80'000},
       {"the offset only", steps({0, 0, 0, -1}, 2500), 100, {{0, -1, -2400}}, {}, -2400},
       {"an offset of nothing", steps({0, 0, 0, -1}, 0), 100, {}, {}, 100},
       {"nothing at all", steps({0, 0, 0, 0}), 100, {}, {}, 100},
@@ -139,7 +171,7 @@ TEST(HomingRsm8194h, ZOnTheEdgeOfHomeIsOnWhenStep3BeginsAndFails) {
 }
 
 TEST(HomingRsm8194h, ALimitThatSlowsDownIsTurnedRoundBehind) {
-  // Rule (c) with the limit's stop as the axis has it: 2000^2 / 2a = 10 pulses behind.
+  // Rule (c) with the limit's stop that the axis has: 2000^2 / 2a = 10 pulses further.
   HomingBench bench(machine(), 70'000);
   bench.axis.set({.at_limit_plus = Reaction::slow_down});
   ASSERT_EQ(bench.home(rsm8194h_homing(steps({0, +1, 0, 0}))), Cause::none);

@@ -1,7 +1,7 @@
 #include "tests/motion/homing_bench.h"
 
-// Simple2-R3 and SLIM. Simple2-R3's ramps take a time, whatever the change of speed: 0.1 s at 10000 pps, so
-// it stops 500 pulses behind an edge at full speed, and v / 20 behind one at speed v.
+// Simple2-R3 and SLIM. Simple2-R3's ramps take a fixed time, whatever the change of speed: 0.1 s at 10000
+// pps, so it stops 500 pulses after an edge at full speed, and v / 20 after one at speed v.
 //
 //   limit-                     home                      limit+
 //   ═══╗                      ╔════╗                    ╔═════
@@ -50,9 +50,9 @@ void expect(const Case& wanted, const Environment& environment) {
 }
 
 TEST(HomingSimple2, EndsOnTheSameEdgeFromEveryPlace) {
-  // Rows: 0 approach, 1 leaving the switch, 2 the other way, 3 on past the switch, 4 approach, 5 to the edge.
-  // On the switch: it leaves over 101 pulses, so at sqrt(2 a 101) = 4494 pps, and stops 224 behind; then
-  // comes over 225 pulses, at 6708 pps, and stops 335 behind.
+  // Rows: 0 approach, 1 leaving the switch, 2 the other direction, 3 on past the switch, 4 approach, 5 to the
+  // edge. On the switch: it leaves over 101 pulses, so at sqrt(2 a 101) = 4494 pps, and stops 224 after; then
+  // returns over 225 pulses, at 6708 pps, and stops 335 after.
   const std::vector<Case> table = {
       {"before", 0, {{0, +1, 50'500}, {5, -1, 50'000}}},
       {"on it", 50'100, {{1, -1, 49'775}, {0, +1, 50'335}, {5, -1, 50'000}}},
@@ -112,11 +112,11 @@ TEST(HomingSimple2, TakesTheTimeOfItsLegs) {
   const Tick begun = bench.now + 1;
   ASSERT_EQ(bench.home(simple2_homing({.direction = +1, .speed = by_times()})), Cause::none);
   ASSERT_TRUE(bench.run());
-  // 49500 at full speed after 500 speeding up; back over 500 in two ramps, at 5000 pps.
+  // 49500 at full speed after 500 of acceleration; back over 500 in two ramps, at 5000 pps.
   EXPECT_NEAR(static_cast<double>(bench.now - begun), 100 + 4950 + 100 + 200, 3.0);
 }
 
-constexpr double kJogPps = 100.0 * 10'000 / 60;  // 100 rpm, 10000 pulses a revolution
+constexpr double kJogPps = 100.0 * 10'000 / 60;  // 100 rpm, 10000 pulses per revolution
 constexpr double kJogSlope = 50'000;
 
 TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
@@ -131,7 +131,7 @@ TEST(HomingSlim, RunsUntilHorgAndSlowsDownThere) {
   environment.add(Signal::home, -6000, -5000);
   const auto behind = static_cast<std::int64_t>(brake_pulses(kJogPps, kJogSlope));
   ASSERT_EQ(behind, 2777);
-  // From -4000 it has run up over 1000 pulses only, and needs as many to stop.
+  // From -4000 it has accelerated over only 1000 pulses, and needs as many to stop.
   const std::vector<Row> table = {
       {"before", -1, 20'000, {{0, -1, -5000 - behind}}, -5000},
       {"on it", -1, -5500, {}, -5500},

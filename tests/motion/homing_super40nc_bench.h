@@ -1,5 +1,5 @@
-// SUPER-40NC's factory values (manual, 《X2.》, 《C22.》, 《X6.》): 4000 pulses a revolution, 500 rpm and 20
-// rpm, 5000 rpm in 0.5 s; and a machine about them.
+// SUPER-40NC's factory values (manual, 《X2.》, 《C22.》, 《X6.》): 4000 pulses per revolution, 500 rpm and
+// 20 rpm, 5000 rpm in 0.5 s; and a machine for them.
 //
 //   EL-                              DOG                           EL+
 //   ════╗                         ╔═══════╗                     ╔══════
@@ -27,7 +27,7 @@ inline Environment super40nc_machine() {
   return environment;
 }
 
-/// Zones of super40nc_machine(), to be moved.
+/// Zones of super40nc_machine() that can be moved.
 inline constexpr std::size_t kDogZone = 1;
 inline constexpr std::size_t kLimitZone = 2;
 

@@ -1,11 +1,11 @@
 #include "tests/motion/homing_super40nc_bench.h"
 
-// The 13 modes of SUPER-40NC. Where legs end is reckoned by hand: at 500 rpm it stops v^2 / 2a = 833 pulses
-// behind an edge; at 20 rpm, which stops at once, on it.
+// The 13 modes of SUPER-40NC. The ends of legs are calculated by hand: at 500 rpm it stops v^2 / 2a = 833
+// pulses after an edge; at 20 rpm, which stops at once, on it.
 namespace understudy::motion {
 namespace homing_super40nc_test {
 
-/// What a mode does from before the DOG, with three EZ and an offset of -7000.
+/// The sequence of a mode from before the DOG, with three EZ and an offset of -7000.
 struct ModeCase {
   int mode;
   bool by_limit;
@@ -34,13 +34,13 @@ const std::vector<ModeCase> kModes = {
 
 enum class Outcome { home, runs_into_limit, refused };
 
-/// Where it begins, and what that changes.
+/// Where it starts, and what that changes.
 struct Place {
   const char* name;
   std::int64_t start;
   Trace before_dog_search;    // DOG modes: leaving the DOG
   Outcome dog_modes;
-  bool limit_modes_search;    // false: the limit is on already
+  bool limit_modes_search;    // false: the limit is already on
 };
 
 const std::vector<Place> kPlaces = {
@@ -171,7 +171,7 @@ TEST(HomingSuper40nc, TakesTheTimeOfItsLegs) {
     const Tick begun = bench.now + 1;
     ASSERT_EQ(bench.home(super40nc_homing(how)), Cause::none);
     ASSERT_TRUE(bench.run());
-    // Each leg that ends with its profile ends on a tick: up to one later.
+    // Each leg that ends with its profile ends on a tick: up to one tick later.
     EXPECT_NEAR(static_cast<double>(bench.now - begun), row.seconds * 1000, 3.0);
   }
 }
@@ -217,7 +217,7 @@ TEST(HomingSuper40nc, AnIndexAtTheReversalOrOnTheDogsEdgeIsNotCounted) {
   ASSERT_TRUE(on_edge.run());
   EXPECT_EQ(on_edge.trace, (Trace{{1, +1, kRunsOn}, {2, +1, 52'000}}));
 
-  // Mode 4, standing on EZ when it turns round: 833 behind the edge.
+  // Mode 4, on EZ when it reverses: 833 behind the edge.
   environment = Environment{};
   environment.add(Signal::home, 50'000, 60'000);
   environment.index_period = 4000;
@@ -247,7 +247,7 @@ TEST(HomingSuper40nc, ALeaveDistanceOfZeroActsAsOne) {
   HomingBench bench(super40nc_machine(), 50'002);
   ASSERT_EQ(bench.home(super40nc_homing(how)), Cause::none);
   ASSERT_TRUE(bench.run());
-  // One pulse at the DOG: brakes from sqrt(2a) over one pulse more.
+  // One pulse to the DOG: decelerates from sqrt(2a) over one pulse more.
   EXPECT_EQ(bench.trace, (Trace{{0, -1, 50'001}, {0, -1, 50'000}, {0, -1, 49'999}, {1, +1, 50'001}}));
 }
 

@@ -80,12 +80,12 @@ TEST(HomingValue, BacklashTakesItsTimeWithinTheTick) {
     EXPECT_TRUE(bench.run());
     return bench.now - begun;
   };
-  // Three reversals of 41 pulses at 4 pulses a tick.
+  // Three reversals of 41 pulses at 4 pulses per tick.
   EXPECT_NEAR(static_cast<double>(duration(41) - duration(0)), 3 * 10.25, 2.0);
 }
 
 TEST(HomingValue, BacklashThatTakesNoTimeLeavesTheMotionAsItIs) {
-  // Turns round at edges, within ticks, at 20 pulses a tick from the start: a tick lost would show.
+  // Reverses at edges, within ticks, at 20 pulses per tick from the start: a lost tick would show.
   const SpeedLaw law = slope_law(20'000, kSlope, 20'000);
   const HomingProgram program = rsm8194h_homing({.ways = {0, +1, -1, 0}, .drive = law, .home = law});
   Environment environment = super40nc_machine();
@@ -136,7 +136,7 @@ TEST(HomingValue, BeginsOnceAndEndsOnceHoweverManyRowsItPasses) {
 }
 
 TEST(HomingValue, AReturnThatCannotBePlannedFailsWithoutThrowing) {
-  // Slowing down 2000 pulses before the end, the last of which nothing is left to creep at.
+  // Decelerating 2000 pulses before the end, the last of which leaves nothing to creep.
   Super40ncHoming how = super40nc_factory(9);
   how.fast.slow_down_at_u = 2000;
   HomingBench bench(super40nc_machine(), 0);
@@ -191,7 +191,7 @@ TEST(HomingValue, StartsInTheMidstOfAnotherMotion) {
   EXPECT_EQ(bench.axis.travel_pulses, 43'000);
 }
 
-/// A machine with anything at any place.
+/// A machine with anything anywhere.
 Environment random_machine(std::mt19937_64& random) {
   const auto between = [&](std::int64_t low, std::int64_t high) {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);

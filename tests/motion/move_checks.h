@@ -1,5 +1,5 @@
-// Checks of every profile of a move: it has no gaps, keeps within the limits of its law, and is where it says
-// it is.
+// Checks of every profile of a move: it has no gaps, keeps within the limits of its law, and has the
+// positions that it reports.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using oracle::Long;
 
 /// The promised tolerance, relative to the limit.
 constexpr Long kLimitTolerance = 1e-9L;
-/// The tolerance of gaps between segments (roundings), relative to the greatest speed, position or
+/// The tolerance of gaps between segments (rounding errors), relative to the largest speed, position or
 /// acceleration.
 constexpr Long kGapTolerance = 1e-10L;
 
@@ -66,7 +66,7 @@ inline Long greatest_speed(const Profile& profile) {
   return speed;
 }
 
-/// Returns the greatest distance from 0.
+/// Returns the largest distance from 0.
 inline Long farthest(const Profile& profile) {
   Long far = profile.endless() ? 0 : std::abs(Long{profile.end_position_u});
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
@@ -81,9 +81,9 @@ inline int sense_of(const Segment& segment) {
   return change > 0 ? 1 : change < 0 ? -1 : 0;
 }
 
-/// Times are doubles counted from the profile's beginning, so every boundary between segments is known to
-/// a rounding of the whole duration only. What that can make of speeds and accelerations is not a fault; in
-/// moves of hours with ramps of milliseconds it is more than roundings of the speeds themselves.
+/// Times are doubles counted from the profile's beginning, so every boundary between segments is only known
+/// to a rounding error of the whole duration. The effect of that on speeds and accelerations is not a fault;
+/// in moves of hours with ramps of milliseconds it exceeds rounding errors of the speeds themselves.
 struct Blur {
   Long time_s = 0, speed = 0, acceleration = 0;
 };
@@ -151,7 +151,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
     up = {std::max(up.acceleration, whole.acceleration), std::max(up.jerk, whole.jerk)};
   }
   const Blur blur = blur_of(profile);
-  // A change of speed next to a great start speed is known only to some roundings of the latter.
+  // A change of speed next to a large start speed is only known to some rounding errors of the latter.
   const Long rounding = 1e-15L * peak;
   State before{};
   bool told = true;  // `before` is what the last segment ended with

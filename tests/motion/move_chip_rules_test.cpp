@@ -1,5 +1,5 @@
-// Cases in which chips begin to slow down at an unexpected place: by an offset (MCX314's AO), at a given
-// place (PCL6045's PRDP), or by another ramp than the one that follows (SUPER-40NC). By hand.
+// Cases in which chips start to decelerate at an unexpected position: by an offset (MCX314's AO), at a given
+// position (PCL6045's PRDP), or for another ramp than the one that follows (SUPER-40NC). By hand.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace understudy::motion {
 namespace move_chip_rules_test {
 
-/// From 10 u/s to 100 and back at 100 u/s^2: 49.5 u and 0.9 s each way.
+/// From 10 u/s to 100 and back at 100 u/s^2: 49.5 u and 0.9 s in each direction.
 SpeedLaw common() {
   return {.start_speed_u_s = 10,
           .top_speed_u_s = 100,
@@ -96,7 +96,7 @@ TEST(MoveChipRules, AFixedPlaceToSlowDownIsNotReckoned) {
       {"before the beginning", slowed_at(1000), 250, 25, 10, 10},
       {"with an offset", slowed_at(41.5, 8), 250, 0.9 + 1.51 + 0.9, 100, 10},
       {"with an offset to nothing", slowed_at(49.5, -49.5), 250, 0.9 + 2.005, 100, 100},
-      // Speeding up for 22 u, to the root of 100 + 200 * 22, and down again from there.
+      // Accelerating for 22 u, to the root of 100 + 200 * 22, and down again from there.
       {"reached while speeding up", slowed_at(22), 44, 2 * (std::sqrt(4500.0) - 10) / 100, std::sqrt(4500.0),
        10},
       {"one pulse", slowed_at(30), 1, 0.1, 10, 10},
@@ -109,7 +109,7 @@ TEST(MoveChipRules, ATooShortRampIsCutOffAndATooLongOneEndsCreeping) {
       // 100 t - 25 t^2 = 49.5 at t = 2 - sqrt(2.02)
       {"too short", reckoned(50, 100), 250, 0.9 + 1.51 + 2 - std::sqrt(2.02), 100, std::sqrt(5050.0)},
       {"too long", reckoned(200, 100), 250, 0.9 + 1.51 + 0.45 + 2.475, 100, 10},
-      // 99 u for both ramps, as reckoned: the top is just reached.
+      // 99 u for both ramps, as planned: the top is just reached.
       {"too short, no cruise", reckoned(50, 100), 99, 0.9 + 2 - std::sqrt(2.02), 100, std::sqrt(5050.0)},
       {"too short, short", reckoned(50, 100), 39,
        (std::sqrt(4000.0) - 10) / 100 + (std::sqrt(4000.0) - std::sqrt(2050.0)) / 50, std::sqrt(4000.0),
@@ -127,7 +127,7 @@ TEST(MoveChipRules, ThereIsNoCreepingFromAStandstill) {
   for (const SpeedLaw& bad : {law, early, too_long}) {
     try {
       plan(250, bad);
-      ADD_FAILURE() << "crept at no speed";
+      ADD_FAILURE() << "creeps at no speed";
     } catch (const BadMotion& error) {
       EXPECT_EQ(error.refusal(), Refusal::not_positive);
       EXPECT_NE(std::string(error.what()).find("start speed"), std::string::npos) << error.what();

@@ -16,8 +16,8 @@ Fault differs_from_oracle(const Profile& profile, double distance, const SpeedLa
   Long tolerance_s = kLimitTolerance * expected.duration_s;
   Long tolerance_u_s = kLimitTolerance * expected.peak;
   if (law.start_speed_u_s > 0) {
-    // Where a move is cut off, or begins to creep, is as exact as the place: to a billionth or some
-    // roundings.
+    // The point at which a move is cut off, or starts to creep, is as exact as the position: to a billionth
+    // or some rounding errors.
     const Long place_s = (1e-9L + 1e-13L * distance) / law.start_speed_u_s;
     const Long dv = expected.peak - oracle::start_of(law);
     tolerance_s += place_s;
@@ -54,7 +54,7 @@ void every_move_is_the_integral_of_its_jerk(const Next& next, std::uint64_t salt
   for (int i = 0; i < moves; ++i) {
     const SpeedLaw law = next(random);
     const double distance = random.distance(ramps_u(law));
-    // By the chips' rules what is left of a distance counts from a billionth on.
+    // By the chips' rules a remaining distance counts from a billionth on.
     if (distance == 0 || (chip_rules && (distance < 1e-3 || distance > 3e9))) continue;
     const Long scale_u = distance + (chip_rules ? 10 : 0);
     Fault fault;
@@ -73,7 +73,7 @@ void every_move_is_the_integral_of_its_jerk(const Next& next, std::uint64_t salt
   }
 }
 
-/// Speeds and laws of the sizes that controllers use: what is crept at 1e-12 u/s is not a move.
+/// Speeds and laws of the sizes that controllers use: creeping at 1e-12 u/s is not a move.
 SpeedLaw usual_speeds(RandomLaws& random) {
   SpeedLaw law{.top_speed_u_s = random.usual_number()};
   law.start_speed_u_s = random.start_speed(law.top_speed_u_s);

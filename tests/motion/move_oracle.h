@@ -1,4 +1,5 @@
-// The laws of moves anew, in long double, from the chips' formulas: what plan() is compared with.
+// Another implementation of the laws of moves, in long double, from the chips' formulas, to compare plan()
+// with.
 //
 //   slope     T = dv / a                     time      T given
 //   jerk      T = 2 sqrt(dv / K), with a bound A: dv / A + A / K once A is reached (dv > A^2 / K)
@@ -71,7 +72,7 @@ inline Place on_ramp(const RampLaw& law, Long low, Long dv, Long t) {
       high - missing};
 }
 
-/// Returns the greatest x in [low, high] at which `fits` still holds; it holds at `low`.
+/// Returns the largest x in [low, high] for which `fits` is still true; it is true for `low`.
 template <class Fits>
 Long greatest(Long low, Long high, const Fits& fits) {
   if (fits(high)) return high;
@@ -111,7 +112,7 @@ inline Expected move_of(double distance_u, const SpeedLaw& law) {
   Expected expected{.peak = start};
   Long rise_s = 0;
   Long risen = 0;
-  Long rise_to = top;  // of the ramp that the move begins with, whole or broken off
+  Long rise_to = top;  // of the ramp with which the move starts, whole or broken off
   if (law.slow_down_at_u || law.when_short == Short::cut_ramp) {
     rise_s = greatest(0, shape_of(law.up, top - start).duration_s(), [&](Long t) {
       const Place here = on_ramp(law.up, start, top - start, t);
@@ -130,7 +131,7 @@ inline Expected move_of(double distance_u, const SpeedLaw& law) {
     rise_s = shape_of(law.up, rise_to - start).duration_s();
     risen = ramp_distance(law.up, start, rise_to);
   }
-  if (risen > distance) {  // cut off before slowing down has begun
+  if (risen > distance) {  // cut off before deceleration has started
     expected.duration_s = greatest(
         0, rise_s, [&](Long t) { return on_ramp(law.up, start, rise_to - start, t).position <= distance; });
     expected.end_speed = on_ramp(law.up, start, rise_to - start, expected.duration_s).speed;

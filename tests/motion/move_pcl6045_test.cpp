@@ -1,4 +1,5 @@
-// The PCL6045's registers and its formulas of times, distances and FH correction, against the section law.
+// The PCL6045's registers and its formulas of times, distances and FH correction, compared with the section
+// law.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -83,7 +84,7 @@ TEST(MovePcl6045, ShortMovesHaveTheSpeedOfItsFhCorrection) {
     rows.push_back({0, mv, std::sqrt(k(mv) + fl * fl)});
     rows.push_back({kFullS, mv, std::sqrt(k(mv) / 2 + fl * fl)});
   }
-  // With sections: as long as the move is longer than that; below it the straight part goes.
+  // With sections: if the move is longer than that; below it there is no straight part.
   const double us = 300;
   const double least = (us + fl) * us * rates * 8 / unit;
   EXPECT_NEAR(least, 333.25, 0.01);

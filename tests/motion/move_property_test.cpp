@@ -1,5 +1,5 @@
 // A million moves of each family compared with an independent implementation of the laws (move_oracle.h), in
-// closed form. A failure prints the move as code. Under sanitizers a tenth of them.
+// closed form. A failure prints the move as code. Under sanitizers it tries a tenth of them.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -19,13 +19,13 @@ Long ramps_u(const SpeedLaw& law, Long peak) {
   return oracle::ramp_distance(law.up, start, peak) + oracle::ramp_distance(law.down, start, peak);
 }
 
-/// The one peak that is right: both ramps fit, and a higher one would not. Ramps only grow with their peak,
-/// so that settles it without solving anything.
+/// The only correct peak: both ramps fit, and a higher one would not. Ramps only grow with their peak, so
+/// this decides it without solving anything.
 Fault wrong_peak(const Profile& profile, double distance, const SpeedLaw& law) {
   const Long start = oracle::start_of(law);
   const Long peak = greatest_speed(profile);
   const Long room = law.when_short == Short::keep_half ? distance / 2.0L : distance;
-  // A peak is a double: it may be some roundings off.
+  // A peak is a double: it may be off by some rounding errors.
   const Long lower = start + std::max<Long>(0, (peak - start) * (1 - 1e-12L) - 1e-15L * peak);
   const Long higher = start + (peak - start) * (1 + 1e-12L) + 1e-15L * peak;
   if (lower > start && ramps_u(law, lower) > room) return "peak " + text(peak) + " is too high";
@@ -33,7 +33,7 @@ Fault wrong_peak(const Profile& profile, double distance, const SpeedLaw& law) {
   const Long duration_s = oracle::shape_of(law.up, peak - start).duration_s() +
                           oracle::shape_of(law.down, peak - start).duration_s() +
                           (distance - ramps_u(law, peak)) / peak;
-  // Where no ramp fits at all but one of a rounding, the sum above counts it in full: none is right, too.
+  // If no ramp fits except one of a rounding error, the sum above counts it in full: none is right, too.
   const bool no_ramp =
       std::abs(profile.duration_s - distance / peak) <= kDurationTolerance * profile.duration_s;
   if (std::abs(profile.duration_s - duration_s) > kDurationTolerance * duration_s && !no_ramp) {
@@ -70,7 +70,7 @@ void every_move_keeps_its_law(const Next& next, std::uint64_t salt) {
     ASSERT_FALSE(fault) << "seed " << from << ": " << code(law) << " plan(" << code(distance) << ", law); // "
                         << *fault;
   }
-  // The mix is what it is meant to be: triangles and trapezoids.
+  // The mix is as intended: triangles and trapezoids.
   EXPECT_GT(reached, moves / 5);
   EXPECT_LT(reached, moves * 4 / 5);
 }

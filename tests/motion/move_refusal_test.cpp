@@ -1,4 +1,4 @@
-// What motion refuses, by name; and that it ends for any input: with a refusal or with a profile.
+// The inputs that motion refuses, by name; and that it ends for any input: with a refusal or with a profile.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -26,7 +26,7 @@ SpeedLaw good() {
 void expect_refused(const std::function<void()>& act, Refusal refusal, const std::string& require) {
   try {
     act();
-    ADD_FAILURE() << "accepted; should say: " << require;
+    ADD_FAILURE() << "accepted; expected the error: " << require;
   } catch (const BadMotion& error) {
     EXPECT_EQ(error.refusal(), refusal) << error.what();
     EXPECT_EQ(std::string(error.what()).find(require), 0U) << error.what();
@@ -153,7 +153,7 @@ class Garbage {
       default: return random_.of_any_size(1e-6, 1e6);
     }
   }
-  /// Mostly of a kind that gets past the checks.
+  /// Mostly of a kind that passes the checks.
   double sound() { return random_.below(16) == 0 ? number() : std::abs(number()); }
   RampLaw ramp() {
     RampLaw law{.kind = static_cast<RampLaw::Kind>(random_.below(4)), .acceleration_u_s2 = sound()};

@@ -99,7 +99,7 @@ TEST(MoveTable, SCurvesByJerkTakeTwiceTheRootOfChangeOverJerk) {
 }
 
 TEST(MoveTable, SCurvesWithABoundGoStraightOnceTheyReachIt) {
-  const RampLaw law50 = RampLaw::by_jerk(100, 50);  // the bound is reached at a change of 25 u/s
+  const RampLaw law50 = RampLaw::by_jerk(100, 50);  // the limit is reached at a change of 25 u/s
   expect_rows({
       {"long", law(0, 100, law50, law50), 450, 100, 125, 200, 125, 7},
       {"short, bound reached", law(0, 100, law50, law50), 75, 50, 37.5, 0, 37.5, 3},

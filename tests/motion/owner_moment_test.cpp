@@ -1,4 +1,4 @@
-// Moments between edges that the owner of the axes finds, in a number that it computes from several axes.
+// Moments between edges that the owner of the axes finds, in a number that it calculates from several axes.
 #include <gtest/gtest.h>
 
 #include "motion/bisection.h"

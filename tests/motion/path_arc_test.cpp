@@ -43,7 +43,7 @@ TEST(PathArc, HasThePrintedLengthsAndEnds) {
 }
 
 TEST(PathArc, OfWholeQuartersEndsOnTheVeryPoint) {
-  // However a caller comes to the sweep: k * 90 degrees and k * (pi / 2) differ by a bit here and there.
+  // However a caller calculates the sweep: k * 90 degrees and k * (pi / 2) sometimes differ by a bit.
   const Point centre{0, 50, 0, 0};
   const Point ends[] = {kOrigin, {50, 50, 0, 0}, {0, 100, 0, 0}, {-50, 50, 0, 0}};
   for (int quarters = 1; quarters <= 40; ++quarters) {
@@ -69,7 +69,7 @@ TEST(PathArc, LiesInAnyPlaneOfTwoAxes) {
     for (std::int8_t second = 0; second < kPathAxes; ++second) {
       if (first == second) continue;
       Point begin(1, 2, 3, 4);
-      Point centre(9, 9, 9, 9);  // counts in the plane only
+      Point centre(9, 9, 9, 9);  // counts only in the plane
       centre[first] = begin[first];
       centre[second] = begin[second] + 10;
       Point end = begin;
@@ -150,10 +150,10 @@ TEST(PathArc, InTheQuadrantEndsAtTheShorterCoordinate) {
                                            {{-3, 40, 0, 0}, {-3, 4, 0, 0}},
                                            {{-9, -4, 0, 0}, {-3, -4, 0, 0}},
                                            {{3.5, -3, 0, 0}, {4, -3, 0, 0}},
-                                           {{3, 3, 0, 0}, {3, 4, 0, 0}},  // equal: the first axis's is met
+                                           {{3, 3, 0, 0}, {3, 4, 0, 0}},  // equal: the first axis's is used
                                            {{-7, 0, 0, 0}, {-5, 0, 0, 0}},
                                            {{0, -2, 8, 0}, {0, -5, 8, 0}},
-                                           {{7, 0, 0, 0}, {5, 0, 0, 0}}}) {  // its beginning: a full circle
+                                           {{7, 0, 0, 0}, {5, 0, 0, 0}}}) {  // its start: a full circle
     const Path path = arc_by_centre({5, 0, 0, 0}, kOrigin, row.end, kLeft, with(OffCircle::quadrant));
     EXPECT_EQ(path.end, row.met) << row.end.transpose();
     EXPECT_GT(path.sweep_rad, 0.5);
@@ -244,7 +244,7 @@ TEST(PathArc, BySweepOfNothingIsTheLineOfItsRise) {
 }
 
 TEST(PathArc, OnALargeCircleAShortWayKeepsItsDigits) {
-  // 1 u on a radius of 1e11 bends by 5e-12 u: reckoned from the centre it would be lost in 1e-5.
+  // 1 u on a radius of 1e11 bends by 5e-12 u: calculated from the centre it would be lost in 1e-5.
   const Path path = arc_by_sweep({5, 5, 0, 0}, {5, 5 + 1e11, 0, 0}, 1e-11);
   EXPECT_NEAR(path.length_u, 1, 1e-15);
   for (const double along : {0.25, 0.5, 0.75, 1.0}) {
@@ -260,7 +260,7 @@ TEST(PathArc, OfNearlyEqualRadiiIsAsExactAsACircle) {
     for (double share = 0; share <= 1; share += 1.0 / 64) {
       const double radius = 100 + off * share;
       const double angle = share * kPi / 2;
-      // The arc before this place, radius times angle at the mean radius.
+      // The arc before this point, radius times angle at the mean radius.
       const double along = (100 + off * share / 2) * angle;
       expect_near(path.at(along), {radius * std::cos(angle), radius * std::sin(angle), 0, 0}, 1e-13);
     }

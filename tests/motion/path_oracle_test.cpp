@@ -30,7 +30,7 @@ class PulseLine {
 
   std::int64_t steps() const { return long_; }
   const Pulses& place() const { return place_; }
-  /// Half a pulse exactly: either of two pulses is as near.
+  /// Exactly half a pulse: either of two pulses is equally near.
   bool tie(int axis) const { return long_ > 0 && error_[axis] == long_; }
 
   void step() {
@@ -47,7 +47,7 @@ class PulseLine {
  private:
   Pulses target_;
   Pulses place_{};
-  Pulses error_{};  // twice what the place is behind the line, in parts of a pulse of the long axis
+  Pulses error_{};  // twice the distance behind the line, in parts of a pulse of the long axis
   std::int64_t long_ = 0;
 };
 
@@ -113,7 +113,8 @@ std::set<std::pair<std::int64_t, std::int64_t>> midpoint_circle(std::int64_t rad
   std::set<std::pair<std::int64_t, std::int64_t>> pulses;
   std::int64_t short_axis = radius;
   for (std::int64_t long_axis = 0; long_axis <= short_axis; ++long_axis) {
-    // Is the circle, at this place of the long axis, nearer to the next pulse inside? (2 x)^2 keeps it whole.
+    // Returns whether the circle, at this position of the long axis, is nearer to the next pulse inside. (2
+    // x)^2 keeps it whole.
     const std::int64_t middle = 2 * short_axis - 1;
     if (4 * long_axis * long_axis + middle * middle > 4 * radius * radius) --short_axis;
     for (const std::int64_t a : {long_axis, -long_axis}) {
@@ -126,7 +127,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> midpoint_circle(std::int64_t rad
   return pulses;
 }
 
-/// Samples a circle in the places where the axis that moves most is at a whole pulse, in all octants.
+/// Samples a circle at the points where the axis that moves most is at a whole pulse, in all octants.
 void expect_midpoint_circle(std::int64_t radius, std::int64_t centre_x, std::int64_t centre_y, Turn turn) {
   const auto r = static_cast<double>(radius);
   const Point centre(static_cast<double>(centre_x), static_cast<double>(centre_y), 0, 0);
@@ -165,7 +166,7 @@ TEST(PathOracle, CirclesPassThroughEveryPulseOfTheMidpointCircle) {
 
 // ---- numeric differentiation -----------------------------------------------------------------------------
 
-/// What rounding may do to a place of the path.
+/// The effect of rounding on a point of the path.
 double rounding_u(const Path& path) {
   const double largest = std::max({path.begin.cwiseAbs().maxCoeff(), path.end.cwiseAbs().maxCoeff(),
                                    path.kind == Path::Kind::arc ? path.centre.cwiseAbs().maxCoeff() : 0.0});
@@ -174,15 +175,15 @@ double rounding_u(const Path& path) {
   return 2e-15 * (largest + path.begin_radius_u + path.length_u + rise_u_rad);
 }
 
-/// How much of `way` counts by the path's measure.
+/// Returns how much of `way` counts by the path's measure.
 double measured(const Path& path, const Point& way) {
   if (path.measure == Measure::vector) return way.norm();
   if (path.kind == Path::Kind::line) return way.cwiseAbs().maxCoeff();
   return std::max(std::abs(way.dot(path.abscissa)), std::abs(way.dot(path.ordinate)));
 }
 
-/// A length in which a path turns by half a thousandth of a radian at most: a chord is short by 1e-7 of
-/// itself, and where the longest axis changes by 1e-3.
+/// A length in which a path turns by half a thousandth of a radian at most: a chord is shorter by 1e-7 of
+/// itself, and if the longest axis changes by 1e-3.
 double short_way_u(const Path& path) {
   if (path.kind == Path::Kind::line) return path.length_u / 2;
   const double end_radius = path.begin_radius_u + path.radius_slope_u_rad * std::abs(path.sweep_rad);
@@ -208,7 +209,7 @@ testing::AssertionResult is_continuous_to_both_ends(const Path& path) {
   if (path.at(path.length_u) != path.end) return testing::AssertionFailure() << "does not end at end";
   if (path.at(-1) != path.begin) return testing::AssertionFailure() << "not clamped to begin";
   if (path.at(path.length_u * 2 + 1) != path.end) return testing::AssertionFailure() << "not clamped to end";
-  // By the longest axis a rise may be many times as long, and so as fast.
+  // By the longest axis a rise can be many times as long, and so as fast.
   const double speed = path.length_u == 0 ? 0 : 3 + path.rise.norm() / path.length_u * 2;
   const double nearly = path.length_u * (1 - 1e-15);
   const double gap = (path.at(nearly) - path.end).norm();
@@ -236,7 +237,7 @@ testing::AssertionResult points_where_it_goes(const Path& path, double along) {
   return testing::AssertionSuccess();
 }
 
-/// The angle about the centre only grows (in the arc's turn), and the radius goes evenly with it.
+/// The angle about the centre only grows (in the arc's direction), and the radius changes evenly with it.
 testing::AssertionResult turns_evenly(const Path& path) {
   constexpr int kPlaces = 16;
   const double noise = rounding_u(path);
@@ -248,7 +249,7 @@ testing::AssertionResult turns_evenly(const Path& path) {
     const double x = out.dot(path.abscissa);
     const double y = out.dot(path.ordinate);
     const double radius = std::sqrt(x * x + y * y);
-    // The whole turns are beyond what one place can tell: take the nearest to a plain arc's.
+    // One point does not determine the whole turns: take those nearest to a plain arc's.
     double angle = std::copysign(1.0, path.sweep_rad) * (std::atan2(y, x) - path.begin_angle_rad);
     const double slack = 1e-9 + 4 * noise / radius;
     double share = 0;
@@ -277,7 +278,7 @@ testing::AssertionResult turns_evenly(const Path& path) {
   return testing::AssertionSuccess();
 }
 
-/// Simpson's rule in long double over the speed for each radian, from what the maker was given.
+/// Simpson's rule in long double over the speed per radian, from the arguments of the call.
 double length_by_quadrature(const ArcCase& arc, const Path& path) {
   const long double sweep = std::abs(path.sweep_rad);
   const long double from = path.begin_radius_u;
@@ -299,7 +300,7 @@ testing::AssertionResult has_its_length(const ArcCase& arc, const Path& path) {
     return testing::AssertionFailure()
            << "length is " << code_of(path.length_u) << ", not " << code_of(should);
   }
-  // A longest axis moves between 2/pi * sqrt(2) of the way on average, and never less than 0.7 or more
+  // A longest axis moves between 2/pi * sqrt(2) of the distance on average, and never less than 0.7 or more
   // than 1.
   const double plane = std::abs(path.sweep_rad) * path.begin_radius_u;
   if (path.measure == Measure::longest_axis &&

@@ -15,7 +15,7 @@
 
 namespace understudy::motion {
 
-/// UNDERSTUDY_SEED overrides; the seed in force is printed with a failure.
+/// UNDERSTUDY_SEED overrides; the present seed is printed with a failure.
 inline std::uint64_t path_seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
@@ -117,7 +117,7 @@ class RandomPaths {
         between(0, 1) == 0 ? 1000.0 * static_cast<double>(between(1, 100)) : of_any_size(1e-3, 1e9);
     for (double& coordinate : arc.centre)
       coordinate = between(0, 2) == 0 ? 0 : within(-10, 10) * arc.radius_u;
-    // The limits keep the arguments well determined by the points: see the comment of each function.
+    // The limits keep the points precise enough to determine the arguments: see the comment of each function.
     switch (maker) {
       case ArcCase::Maker::by_centre: arc.sweep_rad = sweep(1e-6, 6000); break;  // 1e-9 would be a whole turn
       case ArcCase::Maker::by_radius: arc.sweep_rad = sweep(1e-6, 6.28); break;
@@ -138,7 +138,7 @@ class RandomPaths {
     arc.begin = on_ray(arc, arc.radius_u, angle);
     arc.middle = on_ray(arc, arc.radius_u, angle + arc.sweep_rad * within(0.3, 0.7));
     arc.end = on_ray(arc, end_radius, angle + arc.sweep_rad);
-    // Less than 1e-9 rad is left, which is a whole turn to arc_by_centre.
+    // Less than 1e-9 rad is left, which is a whole turn for arc_by_centre.
     arc.more_turns = static_cast<std::int64_t>(std::ceil(std::abs(arc.sweep_rad) / (2 * kPi) - 1e-10)) - 1;
     // Coordinates are rounded, and so are radii.
     arc.options.radius_tolerance_u = 1e-6 + 1e-13 * arc.radius_u;

@@ -12,7 +12,7 @@ namespace path_run_chain_test {
 constexpr double kPi = std::numbers::pi;
 constexpr Tick kBegin = 70;
 
-/// Milliseconds from start() to the tick of the end, less the one tick a start takes.
+/// Milliseconds from start() to the tick of the end, minus the one tick that a start takes.
 Tick duration_ms(PathRun& run, Tick begin = kBegin) {
   run.start(begin);
   return finish(run, begin) - begin - 1;
@@ -107,7 +107,7 @@ TEST(PathRunChain, CornersAreStoppedAtRunThroughOrDecidedByTheirAngle) {
 }
 
 TEST(PathRunChain, AtAnArcItsTangentCounts) {
-  // From the east, round a quarter about (0, 10), and on to the north: straight on at both joints.
+  // From the east, around a quarter about (0, 10), and on to the north: no corner at either joint.
   const Shape first = Shape::line_to(place_of(-20, 0), place_of(0, 0));
   const Shape arc = Shape::arc(place_of(0, 0), place_of(0, 10), kPi / 2);
   const Shape last = Shape::line_to(arc.end, arc.end + place_of(0, 20));
@@ -214,7 +214,7 @@ TEST(PathRunChain, EveryLawsChainTakesTheTimeOfOneMoveOfItsLength) {
   SpeedLaw time{.top_speed_u_s = 80, .up = RampLaw::by_time(0.1), .down = RampLaw::by_time(0.25)};
   SpeedLaw sections{
       .top_speed_u_s = 80, .up = RampLaw::by_sections(1000, 10), .down = RampLaw::by_sections(600, 10)};
-  // Both ramps whole: the length that cruises is what the ramps, each at half the top speed, leave.
+  // Both ramps whole: the cruising length is what the ramps, each at half the top speed, leave.
   const auto closed_s = [](double length, double ramps_s) { return length / 80 + ramps_s / 2; };
   struct Row {
     SpeedLaw law;

@@ -1,4 +1,4 @@
-// Changes of a run on its way: different speeds, override, pause and resume. The path stays the same.
+// Changes of a run in progress: different speeds, override, pause and resume. The path stays the same.
 #include <gtest/gtest.h>
 
 #include "motion/bad_motion.h"
@@ -29,7 +29,7 @@ struct Course {
   void steps(Tick from, Tick to) {
     for (Tick tick = from; tick <= to; ++tick) walk.step(run, tick);
   }
-  /// The last tick; -1 when it does not end.
+  /// Returns the last tick; -1 if it does not end.
   Tick to_the_end(Tick after) {
     for (Tick tick = after + 1; tick < after + 200'000; ++tick) {
       walk.step(run, tick);
@@ -133,7 +133,7 @@ TEST(PathRunChange, AccelerationIsChangedAtRestOnly) {
 }
 
 TEST(PathRunChange, PausedAtAnyTickItStopsAndResumesOnThePath) {
-  // Through the arc and across the corner; slopes and places are held against the shapes at every tick.
+  // Through the arc and across the corner; slopes and positions are compared with the shapes at every tick.
   for (const Joint joint : {kJoin, join_below(89)}) {
     for (Tick at = 0; at < 1500; at += 7) {
       Course course(joint);
@@ -205,7 +205,7 @@ TEST(PathRunChange, PausedOverAChainsEndTheNextWaitsForResume) {
   EXPECT_GT(course.to_the_end(tick + 500), 0);
   EXPECT_LT(course.walk.off_u, 1e-9);
 
-  // While it slows down for the end anyhow: it gets there, or to within roundings.
+  // While it decelerates for the end anyway: it gets there, or to within rounding errors.
   Course late(kStop);
   late.run.start(0);
   late.steps(1, 551);
@@ -251,7 +251,7 @@ TEST(PathRunChange, CommandsInEveryTickDoNotKeepItFromSettingOut) {
 }
 
 TEST(PathRunChange, AtTheVeryEndOfAnSCurveCommandsAreTakenToo) {
-  // Stops that end on a tick but for roundings: there the speed comes out as 0 less a rounding.
+  // Stops that end on a tick except for rounding errors: there the speed is 0 minus a rounding error.
   constexpr std::pair<Tick, Tick> kPausedAndStanding[]{{29, 87}, {99, 297}, {190, 570}, {232, 696}};
   for (const double jerk : {100, 200, 300, 400, 600, 800, 900, 1600, 2300}) {
     for (const auto& [at, later] : kPausedAndStanding) {
@@ -271,8 +271,8 @@ TEST(PathRunChange, AtTheVeryEndOfAnSCurveCommandsAreTakenToo) {
 }
 
 TEST(PathRunChange, ALoweredSpeedOutOfReachStillEndsAtTheEndPoint) {
-  // A stop that the new law would take longer for than is left: slower is refused in motion, so this is the
-  // law that begins slowing down too late (a chip's) and is cut off.
+  // A stop that would take longer with the new law than is left: slower is refused during motion, so this is
+  // the law that starts to decelerate too late (a chip's) and is cut off.
   SpeedLaw law = by_slope(100, 1000);
   law.slow_down_reckoned_by = RampLaw::by_slope(2000);
   Course course(kJoin, law);

@@ -14,7 +14,7 @@ namespace path_run_open_test {
 
 Path piece(double from, double to) { return Shape::line_to(place_of(from, 0), place_of(to, 0)).path(); }
 
-/// Along the x axis, 10,000 u/s by 100,000 u/s2 from 1,000 u/s, as a law of its own.
+/// Along the x axis, 10,000 u/s at 100,000 u/s2 from 1,000 u/s, as a separate law.
 SpeedLaw law() {
   return {.start_speed_u_s = 1'000,
           .top_speed_u_s = 10'000,
@@ -22,7 +22,7 @@ SpeedLaw law() {
           .down = RampLaw::by_slope(1e5)};
 }
 
-/// From rest, never slowing down.
+/// From rest, never decelerating.
 double place_after(double t_s) {
   const double rising_s = 9'000 / 1e5;
   if (t_s <= rising_s) return 1'000 * t_s + 0.5 * 1e5 * t_s * t_s;
@@ -79,7 +79,7 @@ TEST(PathRunOpen, ALatePathBeginsFromRestAgain) {
 }
 
 TEST(PathRunOpen, OneAheadIsEnoughToKeepTheSpeed) {
-  // A stream of short lines, each given when the one before it begins, runs as one long line.
+  // A stream of short lines, each given when the previous one starts, runs like one long line.
   PathRun run;
   run.set_speed(law(), 0);
   run.set_open(true, 0);
@@ -99,7 +99,7 @@ TEST(PathRunOpen, OneAheadIsEnoughToKeepTheSpeed) {
 }
 
 TEST(PathRunOpen, TheLastPathSlowsDownOverThoseBefore) {
-  // 495 u are needed to slow down in. What is too short for that ends at the speed it has.
+  // 495 u are needed to decelerate. A segment that is too short for that ends at its present speed.
   for (const double last : {700.0, 495.0, 200.0, 10.0}) {
     PathRun run;
     run.set_speed(law(), 0);

@@ -12,13 +12,13 @@ namespace path_run_random_test {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A course of shapes, and what is done to its run, at random. `log` is the commands so far.
+/// A course of shapes, and the operations on its run, at random. `log` contains the commands so far.
 class RandomRun {
  public:
   explicit RandomRun(std::uint64_t case_seed) : random_(case_seed) {
     scale_u_ = std::pow(10.0, static_cast<double>(random_.between(-1, 4)));
     top_u_s_ = scale_u_ * within(0.5, 20);
-    // From stops within a shape's part to stops over several.
+    // From stops within a shape's part to stops over several shapes.
     slope_u_s2_ = top_u_s_ * top_u_s_ / (scale_u_ * within(0.2, 8));
     law_ = by_slope(top_u_s_, slope_u_s2_);
     if (random_.between(0, 2) == 0) {
@@ -27,7 +27,7 @@ class RandomRun {
     }
     smooth_ = random_.between(0, 3) == 0;
     if (smooth_) {
-      // Jerk such that the ramp to the top has the slope at most: K = a^2 / v.
+      // Jerk such that the ramp to the top has at most the slope: K = a^2 / v.
       law_.up = law_.down = RampLaw::by_jerk(slope_u_s2_ * slope_u_s2_ / top_u_s_);
     }
     if (random_.between(0, 1) == 0) {
@@ -119,10 +119,10 @@ class RandomRun {
     const double tick_s = 1 / kTicksPerSecond;
     const double size = scale_u_ * 30;  // of coordinates, after some dozens of shapes
     if (walk.off_u > 1e-9 * size) return "off the path by " + number_as_code(walk.off_u);
-    // What a place tells about the length is rounded like the place.
+    // The length derived from a position is rounded like the position.
     const double blur_u_s = 1e-11 * size / tick_s;
-    // Means of a tick: speed may have grown to the end of the one before. By a jerk law it grows while the
-    // acceleration fades, up to the greatest limit there ever was.
+    // Means of a tick: the speed may have grown to the end of the previous one. With a jerk law it grows
+    // while the acceleration fades, up to the largest limit so far.
     const double before = smooth_ ? 3 * top_u_s_ : walk.speed_before_u_s + slope_u_s2_ * tick_s / 2;
     if (walk.speed_u_s > std::max(limit, before) + blur_u_s) {
       return "faster than the limit: " + number_as_code(walk.speed_u_s) + " of " + number_as_code(limit);
@@ -136,7 +136,7 @@ class RandomRun {
     return {};
   }
 
-  /// More than what is left can take, pauses aside.
+  /// More than the rest can take, apart from pauses.
   Tick enough_ticks() const {
     double s = 0;
     for (std::size_t i = walk.done; i < walk.shapes.size(); ++i) {

@@ -6,7 +6,7 @@
 namespace understudy::motion {
 namespace path_run_shorten_test {
 
-/// Five joined lines of 20 at 100 u/s and 1000 u/s^2: 5 u to speed up or stop.
+/// Five joined lines of 20 at 100 u/s and 1000 u/s^2: 5 u to accelerate or stop.
 PathRun five() {
   PathRun run;
   run.set_speed(by_slope(100, 1000), 0);
@@ -22,7 +22,7 @@ TEST(PathRunShorten, EndsAtTheFirstBorderAtWhichItCanStop) {
     double end;
     Tick ms;  // of the whole: end / 100 + 0.1 s
   };
-  // 15 are done after 200 ms: just so. A millisecond later 15.1 are, and 20.1 the soonest.
+  // 15 are done after 200 ms: just enough. A millisecond later 15.1 are done, and 20.1 is the earliest.
   for (const Row& row : {Row{0, 1, 20, 300}, Row{150, 1, 20, 300}, Row{200, 1, 20, 300}, Row{201, 2, 40, 500},
                          Row{260, 1, 40, 500}, Row{1030, 1, 100, 1100}}) {
     PathRun run = five();

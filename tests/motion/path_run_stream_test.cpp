@@ -8,7 +8,7 @@ namespace understudy::motion {
 namespace path_run_stream_test {
 
 TEST(PathRunStream, ThousandsOfShortPathsKeepSpeedDuringRefills) {
-  // A circle in chords of 0.02, refilled every fourth tick; at 1 a second and tick 5 chords pass in 0.1.
+  // A circle in chords of 0.02, refilled every fourth tick; at 1 per second and tick 5 chords pass in 0.1.
   constexpr int kPaths = 20'001;
   constexpr double kChord = 0.02;
   constexpr double kSpeed = 50;
@@ -36,7 +36,7 @@ TEST(PathRunStream, ThousandsOfShortPathsKeepSpeedDuringRefills) {
     if (tick % 4 == 0) refill(tick);
     const double left = length - walk.along_u;
     // A full queue of 0.64 is less than the 2.5 that a stop from top speed takes: the speed is what can be
-    // stopped in the queue's length, but never dips.
+    // stopped within the queue's length, but never dips.
     if (tick > 100 && left > 1) {
       ASSERT_GT(walk.speed_u_s, 23) << tick;
     }
@@ -75,12 +75,13 @@ TEST(PathRunStream, AQueueLongEnoughToStopInKeepsTheTopSpeed) {
 }
 
 struct Late {
-  Tick appended_at;  // the second path of 100, while the first runs (slowing down from tick 1001 on)
+  Tick appended_at;  // the second path of 100, while the first runs (decelerating from tick 1001 on)
   PathRun::LateJoint how;
   Joint joint;
 };
 
-/// Two lines of 100 at speed 100 and slope 1000: ticks until the end, and the least speed between the ramps.
+/// Two lines of 100 at speed 100 and slope 1000: ticks until the end, and the minimum speed between the
+/// ramps.
 std::pair<Tick, double> two_lines(const Late& late) {
   PathRun run;
   run.set_late_joint(late.how);
@@ -113,7 +114,7 @@ TEST(PathRunStream, AnEarlyJointLengthensTheChainWithoutADipInSpeed) {
 }
 
 TEST(PathRunStream, ALateJointSpeedsUpAgainOrBeginsFromRest) {
-  // Slowing down begins 1000 ms after the beginning; t ms later the speed is 100 - t.
+  // Deceleration starts 1000 ms after the beginning; t ms later the speed is 100 - t.
   for (const Tick t : {1, 2, 50, 99}) {
     const auto [ms, least] = two_lines({1001 + t, PathRun::LateJoint::speed_up_again, kJoin});
     const double low = 100 - static_cast<double>(t);
@@ -146,7 +147,7 @@ TEST(PathRunStream, WhatIsAppendedAfterTheEndBeginsInTheNextTick) {
 }
 
 TEST(PathRunStream, WhatWasNotJoinedInTimeIsNotJoinedLater) {
-  // The second comes too late; the third is joined to the second.
+  // The second arrives too late; the third is joined to the second.
   PathRun run;
   run.set_late_joint(PathRun::LateJoint::from_rest);
   run.set_speed(by_slope(100, 1000), 0);

@@ -51,13 +51,13 @@ TEST(PathSpiral, MayEndInItsCentre) {
   expect_near(path.end, kOrigin, 1e-12);
   expect_near(path.at(path.length_u * (1 - 1e-12)), kOrigin, 1e-4);
   expect_near(path.direction_at(path.length_u), {-1, 0, 0, 0}, 1e-12);
-  // A sweep that is a little too long does not go through it.
+  // A sweep that is a little too long does not pass through it.
   expect_near(spiral({100, 0, 0, 0}, kOrigin, 20 * kPi * (1 + 5e-10), -10).end, kOrigin, 1e-12);
 }
 
 TEST(PathSpiral, OfLittleGrowthAndMuchRiseIsExactToo) {
   const Path path = spiral({100, 0, 0, 0}, kOrigin, 2 * kPi, 0.1, {0, 0, 500, 0});
-  // Simpson's rule over the pace: the share of the way is that of the rise.
+  // Simpson's rule over the pace: the fraction of the distance equals the fraction of the rise.
   const auto length_to = [](long double share) {
     const auto pace = [](long double at) {
       const long double round = 2 * std::acos(-1.0L) * (100 + 0.1L * at);

@@ -48,7 +48,7 @@ TEST(PathLine, GoesStraightAndEvenly) {
 }
 
 TEST(PathLine, ByItsLongestAxisIsOnAWholePulseAtEachWholePulse) {
-  // 49 * (1 / 49.0) is not 1: a share of the way, multiplied out, would come a pulse late.
+  // 49 * (1 / 49.0) is not 1: a fraction of the distance, multiplied out, would come a pulse late.
   for (const double length : {3.0, 7.0, 49.0, 107.0, 16'777'213.0}) {
     const Path path = line({0, 5, 0, 0}, {1, 5 - length, 0, 0}, Measure::longest_axis);
     for (double n = 0; n <= std::min(length, 1000.0); ++n) ASSERT_EQ(path.at(n).y(), 5 - n) << length;
@@ -82,7 +82,7 @@ TEST(PathLine, NeverPassesItsEndHoweverUnevenItsCoordinates) {
     before = x;
   }
   EXPECT_EQ(path.at(path.length_u).x(), 1.0 / 3);
-  // The last length before the end, where a share of it rounds to the whole.
+  // The last length before the end, where a fraction of it rounds to the whole.
   for (int i = 1; i < 50; ++i) {
     const Path two = line({0x1p39 + 1, 0x1.b8p39, 0, 0}, {i / 51.0, 0, 0, 0});
     EXPECT_GE(two.at(std::nextafter(two.length_u, 0)).x(), two.end.x());

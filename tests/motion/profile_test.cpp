@@ -171,7 +171,7 @@ TEST(Profile, TheMomentOfAPositionIsFoundToTheLastBit) {
   EXPECT_EQ(time_of(profile, 0, 0, 3.5), 0);
   EXPECT_EQ(time_of(profile, -5, 1, 3), 1) << "already there";
   EXPECT_EQ(time_of(profile, 400, 0.5, 3), 3) << "not reached";
-  EXPECT_NEAR(time_of(profile, 12.5, -1, 3), 0.5, 1e-15) << "from before the beginning";
+  EXPECT_NEAR(time_of(profile, 12.5, -1, 3), 0.5, 1e-15) << "from before the start";
 }
 
 TEST(Profile, TheMomentOfAPositionIsFoundOnAWayDownToo) {

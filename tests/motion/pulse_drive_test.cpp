@@ -18,7 +18,7 @@ std::int64_t run(PulseDrive& drive, Tick first, Tick last) {
   return sent;
 }
 
-/// A constant speed for ever, from `position_u`.
+/// A constant speed without end, from `position_u`.
 Profile cruise(double position_u, double speed_u_s) {
   Profile profile = Profile::from(position_u);
   profile.append(INFINITY, speed_u_s, 0, 0);
@@ -190,7 +190,7 @@ TEST(PulseDrive, SendsAtEachTickTheWholePulsesOfItsProfile) {
     PulseDrive drive;
     drive.start(profile, +1, Instant{.tick = 7, .after_s = after_s});
     std::int64_t sent = 0;
-    // Roundings of time and place: more where it is fast, far or late.
+    // Rounding errors of time and position: more if it is fast, far or late.
     const auto last = static_cast<Tick>(std::min(profile.duration_s, 20.0) * kTicksPerSecond);
     for (Tick t = 8; t <= 7 + last; ++t) {
       const std::int64_t now = drive.step(t);

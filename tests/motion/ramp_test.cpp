@@ -97,7 +97,7 @@ struct Change {
   const char* what;
   RampLaw law;
   double from, acceleration, to;
-  double duration_s, distance, extreme;  // extreme: the speed farthest in the direction of the acceleration
+  double duration_s, distance, extreme;  // extreme: the speed furthest in the direction of the acceleration
 };
 
 void expect_changes(const std::vector<Change>& rows, const SpeedRange& range) {
@@ -158,7 +158,7 @@ TEST(RampChange, ABoundThatWasLoweredIsGoneBackToFirst) {
 }
 
 TEST(RampChange, MoreAccelerationThanTheLawCanHaveDropsAtOnce) {
-  // At 2 u/s jerk 100 can have 20 u/s^2, which fades in 0.2 s, at 4 u/s; from there down to 3 takes 0.2 s,
+  // At 2 u/s, jerk 100 can have 20 u/s^2, which fades in 0.2 s, at 4 u/s; from there down to 3 takes 0.2 s,
   // too.
   const RampLaw law = RampLaw::by_jerk(100);
   expect_changes({{"up", law, 2, 1e9, 3, 0.4, 0.4 + 20 * 0.02 - 100 * 0.008 / 6 + 0.7, 4}},
@@ -166,7 +166,7 @@ TEST(RampChange, MoreAccelerationThanTheLawCanHaveDropsAtOnce) {
 }
 
 TEST(RampChange, SlowingDownNeverPassesTheLeastSpeed) {
-  // Jerk 1 would take 100 s and 5000 u/s to fade 100 u/s^2: with 50 u/s left, jerk 100 is what it takes.
+  // Jerk 1 would take 100 s and 5000 u/s to fade 100 u/s^2: with 50 u/s left, jerk 100 is needed.
   expect_changes(
       {
           {"to the least", RampLaw::by_jerk(1), 70, -100, 20, 1, 20 + 100.0 / 6, 20},
@@ -178,7 +178,7 @@ TEST(RampChange, SlowingDownNeverPassesTheLeastSpeed) {
 }
 
 TEST(RampChange, ASectionLawGoingUpNeverPassesTheGreatestSpeed) {
-  // Sections of 50 at 100 u/s^2 are of jerk 100; from 80 with 100 u/s^2 there are 20 u/s left: jerk 250.
+  // Sections of 50 at 100 u/s^2 have jerk 100; from 80 with 100 u/s^2 there are 20 u/s left: jerk 250.
   expect_changes({{"to the greatest", RampLaw::by_sections(100, 50), 80, 100, 100, 0.4,
                    100 * 0.4 - 250 * 0.064 / 6, 100}},
                  {.least_u_s = 0, .most_u_s = 100});
@@ -192,12 +192,12 @@ TEST(RampChange, TheSpeedWithoutAccelerationIsWhereItFadesAtOnce) {
   const RampLaw sections = RampLaw::by_sections(100, 50);  // jerk 100
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 100}, jerk, slope, range), 120)
-      << "passes the greatest";
+      << "exceeds the maximum";
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = -60}, slope, jerk, range), 52);
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = -100}, jerk, soft, range), 20)
-      << "but not the least";
+      << "but not the minimum";
   EXPECT_DOUBLE_EQ(
       speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 100}, slope, jerk, range), 70);
   EXPECT_DOUBLE_EQ(speed_without_acceleration({.speed_u_s = 70, .acceleration_u_s2 = 0}, jerk, jerk, range),
@@ -258,7 +258,7 @@ TEST(Ramp, WhatIsOutsideALawsDomainIsRefusedByName) {
     EXPECT_NO_THROW(row.make(1e-300));
     EXPECT_NO_THROW(row.make(1e300));
   }
-  EXPECT_THROW(check(RampLaw{}), BadMotion) << "a law that nobody made";
+  EXPECT_THROW(check(RampLaw{}), BadMotion) << "an invalid law";
 }
 
 }  // namespace ramp_test

@@ -72,7 +72,7 @@ class RandomLaws {
 
   RampLaw slope(bool extreme = true) { return RampLaw::by_slope(extreme ? number() : 10 * usual_number()); }
   RampLaw time() { return RampLaw::by_time(of_any_size(1e-3, 100)); }
-  /// Half of them have a bound that changes of speed of about `dv` reach, or just do not.
+  /// Half of them have a bound that changes of speed of about `dv` reach, or just do not reach.
   RampLaw jerk(double dv, bool extreme = true) {
     const double jerk = extreme ? number() : 100 * usual_number();
     if (below(2) == 0) return RampLaw::by_jerk(jerk);

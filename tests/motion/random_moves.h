@@ -13,13 +13,13 @@
 
 namespace understudy::motion {
 
-/// UNDERSTUDY_SEED overrides; print the seed in force with every failure.
+/// UNDERSTUDY_SEED overrides; print the present seed with every failure.
 inline std::uint64_t seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
 }
 
-/// How many random cases a test tries: `usual`, a tenth of it under sanitizers, UNDERSTUDY_MOVES if given.
+/// How many random cases a test tries: `usual`, a tenth of it under sanitizers, or UNDERSTUDY_MOVES if given.
 inline int random_cases(int usual) {
   if (const char* given = std::getenv("UNDERSTUDY_MOVES")) return std::atoi(given);
   return is_address_sanitized() ? usual / 10 : usual;

@@ -16,7 +16,7 @@
 
 namespace understudy::motion {
 
-/// Advances a value by one tick, and returns what came out as numbers.
+/// Advances a value by one tick, and returns its output as numbers.
 using Output = std::vector<double>;
 
 inline Output go_on(Axis& axis, Tick tick) {
@@ -38,7 +38,7 @@ inline Output go_on(PathRun& run, Tick tick) {
 }
 
 inline Output go_on(Coordinated& group, Tick tick) {
-  // Axes that are where the group has them: only its own state is in question here.
+  // Axes at the positions of the group: only the group's own state is tested here.
   std::array<Axis, 4> axes;
   for (Axis& axis : axes) {
     axis.switch_servo(true);

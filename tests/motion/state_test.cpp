@@ -23,7 +23,7 @@ using Saved = testing::Types<Axis, Coordinated, ExternalDrive, Follower, PathRun
                              Environment, SyncTable>;
 TYPED_TEST_SUITE(State, Saved);
 
-/// Checks that bytes are refused as they should be: by name, and without a trace.
+/// Checks that bytes are refused as they should be: by name, and without a change.
 template <class T>
 bool refuses(T value, std::span<const std::byte> bytes) {
   const T before = value;
@@ -38,7 +38,7 @@ bool refuses(T value, std::span<const std::byte> bytes) {
 TYPED_TEST(State, WhatIsRestoredIsWhatWasSaved) {
   const auto value = sample_of<TypeParam>();
   std::vector<std::byte> bytes = save(value);
-  bytes.push_back(std::byte{7});  // what follows in a larger state
+  bytes.push_back(std::byte{7});  // the data that follow in a larger state
   TypeParam restored;
   EXPECT_FALSE(restored == value);
   EXPECT_EQ(restore(restored, bytes), bytes.size() - 1);
@@ -73,7 +73,7 @@ TYPED_TEST(State, EveryBytesChangeIsRefusedOrChangesTheHash) {
     for (const unsigned flip : {0x01U, 0x80U}) {
       std::vector<std::byte> changed = bytes;
       changed[i] ^= static_cast<std::byte>(flip);
-      changed.insert(changed.end(), 300, std::byte{0});  // an optional may now be there
+      changed.insert(changed.end(), 300, std::byte{0});  // an optional may now be present
       TypeParam restored = value;
       try {
         const std::size_t length = restore(restored, changed);
@@ -100,7 +100,8 @@ TYPED_TEST(State, BytesThatEndTooEarlyAreRefused) {
 }
 
 TYPED_TEST(State, WhateverIsRestoredCanGoOn) {
-  // Any bytes at all, and images with a few bytes changed: what is taken either goes on or says BadMotion.
+  // Any bytes at all, and images with a few changed bytes: an accepted state either continues or reports
+  // BadMotion.
   RandomMoves random(seed());
   const std::vector<std::byte> image = save(sample_of<TypeParam>());
   int taken = 0;
@@ -145,9 +146,9 @@ std::vector<std::byte> saved_run() {
   return save(run);
 }
 
-/// Returns the first byte of a field in that.
+/// Returns the first byte of a field in that state.
 std::size_t place_of(const std::string& field) {
-  static std::map<std::string, std::size_t> known;  // a search reads the whole state once for each byte
+  static std::map<std::string, std::size_t> known;  // a search reads the whole state once per byte
   if (const auto it = known.find(field); it != known.end()) return it->second;
   const std::vector<std::byte> bytes = saved_run();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -227,7 +228,7 @@ TEST(StateRefusal, WhatATypeCannotHoldIsRefusedByName) {
   follower.denominator = 0;
   EXPECT_TRUE(refuses(Follower{}, save(follower)));
   Axis axis;
-  axis.homing.program.phase_count = 1;  // a row whose speed was never given
+  axis.homing.program.phase_count = 1;  // a row whose speed was never set
   EXPECT_TRUE(refuses(Axis{}, save(axis)));
   Coordinated group;
   group.axis_of[0] = -2;

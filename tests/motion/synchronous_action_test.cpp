@@ -163,8 +163,8 @@ TEST(SyncFactor, AComparatorFiresOnceEachTimeItBecomesTrue) {
 struct DriveCase {
   const char* what;
   Do drive;
-  std::int64_t standing;  // travel 200 ticks later, of an axis that stood
-  std::int64_t running;   // ... and of one that ran on at 2 pulses a tick, and was at 20
+  std::int64_t standing;  // travel 200 ticks later, of an axis that was at rest
+  std::int64_t running;   // ... and of one that moved on at 2 pulses per tick, and was at 20
 };
 
 TEST(SyncDrive, EachDriveOnAnAxisThatStandsAndOnOneThatRuns) {
@@ -226,7 +226,7 @@ TEST(SyncOrder, AnAxisActivatedTwiceInATickBeginsOnce) {
 }
 
 TEST(SyncOrder, AnEventThatAnActionCausesActsInTheNextTick) {
-  // X's end starts Y, Y's start stops Z, and Z's end notes where X is.
+  // X's end starts Y, Y's start stops Z, and Z's end records the position of X.
   SyncBench bench;
   bench.on(0, bit(Event::ended), 0b0010);
   bench.on(1, bit(Event::started), 0b0100);
@@ -236,7 +236,7 @@ TEST(SyncOrder, AnEventThatAnActionCausesActsInTheNextTick) {
   bench.table.actions[2].drive = Do::stop_at_once;
   bench.axes[2].run(-1, at_speed(1000), bench.tick);
   bench.axes[0].move(5, at_speed(1000), bench.tick);
-  bench.steps(6);  // begun in tick 1, ended in tick 6
+  bench.steps(6);  // started in tick 1, ended in tick 6
   EXPECT_EQ(bench.last.fired, (std::array<Events, 4>{bit(Event::ended), 0, 0, 0}));
   EXPECT_TRUE(bench.axes[1].moving());
   EXPECT_TRUE(bench.axes[2].moving());
@@ -258,7 +258,7 @@ TEST(SyncOrder, OneAxisEndStartsTheNextWhoseComparatorStopsAThird) {
   bench.axes[0].move(20, at_speed(1000), bench.tick);
   bench.axes[2].run(-1, at_speed(1000), bench.tick);
   bench.steps(200);
-  // X ends in tick 21; Y is at its beginning in 22 and at 30 in 52; Z began in 1.
+  // X ends in tick 21; Y is at its beginning in 22 and at 30 in 52; Z started in 1.
   EXPECT_EQ(bench.axes[0].travel_pulses, 20);
   EXPECT_EQ(bench.axes[2].travel_pulses, -51);
   EXPECT_EQ(bench.axes[1].travel_pulses, 200 - 22);
@@ -286,7 +286,7 @@ TEST(SyncPreset, PresetsAreTakenBeforeTheDriveOfTheSameAction) {
       .drive = Do::fixed_plus, .preset = SyncAction::Preset::speed, .preset_value = 10'000};
   bench.environment[0].set_steady(Signal::mark, true);
   bench.steps(1 + 1 + 6);
-  EXPECT_EQ(bench.axes[2].travel_pulses, 50);  // at ten a tick, within six ticks
+  EXPECT_EQ(bench.axes[2].travel_pulses, 50);  // at ten per tick, within six ticks
   bench.steps(10);
   EXPECT_EQ(bench.axes[1].travel_pulses, -7);
   EXPECT_EQ(bench.table.distance_pulses, (std::array<std::int64_t, 4>{50, 7, 50, 50}));

@@ -30,7 +30,7 @@ struct LatchBench final : EdgeOwner {
   void at_edge(SharedTick& now, std::size_t axis, Events events) override {
     if (act(table, axis, events, now).fired != 0) has_fired[axis] = true;
   }
-  /// Steps until the trigger fires; false when it does not within `most` ticks.
+  /// Steps until the trigger fires; false if it does not within `most` ticks.
   bool fires(std::size_t trigger, Tick most) {
     for (const Tick last = tick + most; tick < last;) {
       ++tick;
@@ -66,8 +66,8 @@ TEST(SyncLatch, AtAComparatorsEdgeItIsThePulseOfBothAxes) {
     const std::string what = "x " + std::to_string(x_pps * x_way) + " y " + std::to_string(y_pps * y_way) +
                              " edge " + std::to_string(edge) + " UNDERSTUDY_SEED=" + std::to_string(seed());
     ASSERT_EQ(bench.latched(0), x_way * edge) << what;
-    // X sends its pulse n at n / x; by then Y has sent floor(n y / x). Where Y's is sent at that very
-    // moment, either is right.
+    // X sends its pulse n at n / x; by then Y has sent floor(n y / x). If Y's is sent at that very moment,
+    // either is right.
     const std::int64_t y = bench.latched(1) * y_way;
     const bool together = edge * y_pps % x_pps == 0;
     ASSERT_TRUE(y == edge * y_pps / x_pps || (together && y == edge * y_pps / x_pps - 1))
@@ -81,7 +81,7 @@ TEST(SyncLatch, DuringARampTheOtherAxisIsLatchedByTheRampsTime) {
   RandomMoves random(seed() + 1);
   for (int i = 0; i < random_cases(5000); ++i) {
     LatchBench bench;
-    // X from rest by slope a: its pulse n at sqrt(2 n / a).
+    // X from rest with slope a: its pulse n at sqrt(2 n / a).
     const std::int64_t slope = random.of_any_size(10'000, 100'000'000);
     const std::int64_t edge = random.of_any_size(1, 1 + slope / 200);  // within 0.1 s
     const std::int64_t y_pps = random.of_any_size(500, 1'000'000);
@@ -118,7 +118,7 @@ TEST(SyncLatch, AtAMarksPlaceItIsThePulseOfTheMark) {
 }
 
 TEST(SyncLatch, ExtraEdgesInATickDoNotCountAndTheLastLatchStays) {
-  // 100 pulses a tick; C+ at 10, and C- at 90 in the same tick.
+  // 100 pulses per tick; C+ at 10, and C- at 90 in the same tick.
   for (const std::uint8_t factor : {std::uint8_t{1}, std::uint8_t{8}, std::uint8_t{9}}) {
     LatchBench bench;
     bench.axes[0].set_comparator(0, {.relation = Comparator::Relation::at_least, .value = 10});

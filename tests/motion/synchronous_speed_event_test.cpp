@@ -1,4 +1,5 @@
-// PULSE, C-STA and C-END: which pulses are the first and the last at constant speed, against closed forms.
+// PULSE, C-STA and C-END: which pulses are the first and the last at constant speed, compared with closed
+// forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace synchronous_speed_event_test {
 
 constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_ended);
 
-/// An axis, and where it was at its events.
+/// An axis, and its positions at its events.
 struct EventBench {
   std::array<Axis, 1> axes{};
   Environment environment;
@@ -54,7 +55,7 @@ struct EventBench {
 
 using Seen = EventBench::Seen;
 
-/// The pulse that is the first one at or beyond `place`; roundings do not make it another.
+/// The pulse that is the first one at or beyond `place`; rounding errors do not make it another.
 std::int64_t first_pulse_at(double place) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(place - 1e-6)));
 }
@@ -86,13 +87,13 @@ TEST(SyncSpeedEvent, ATrapezoidHasOneOfEachAtItsPulse) {
       wanted = {{Event::constant_started, first_pulse_at(rise)},
                 {Event::constant_ended, first_pulse_at(fall)}};
     }
-    // Where the drive ended in the tick of the event, its pulse can be told no more.
+    // If the drive ended in the tick of the event, its pulse cannot be determined any more.
     if (!bench.seen.empty() && bench.last_seen_at_end && !wanted.empty()) {
       for (Seen& one : bench.seen) {
         if (one.event == Event::constant_ended) one.at_pulse = wanted[1].at_pulse;
       }
     }
-    // Both in one tick are seen in another order.
+    // Two in one tick are reported in another order.
     if (bench.seen.size() == 2 && bench.seen[0].event == Event::constant_ended) {
       std::swap(bench.seen[0], bench.seen[1]);
     }
@@ -124,7 +125,7 @@ TEST(SyncSpeedEvent, ATriangleHasNone) {
 }
 
 TEST(SyncSpeedEvent, EachChangeOfSpeedHasItsOwn) {
-  // 100 pulses a tick at first. 10,000 pps more or less take 10 ms, and so 1050 or 950 pulses... in pairs.
+  // 100 pulses per tick at first. 10,000 pps more or less take 10 ms, and so 1050 or 950 pulses... in pairs.
   EventBench bench;
   bench.axis().run(+1, constant(100'000), 0);
   ASSERT_NO_FATAL_FAILURE(bench.run(10));

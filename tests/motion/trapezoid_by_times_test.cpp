@@ -126,18 +126,18 @@ TEST(TrapezoidByTimes, TheFarthestMoveAtTheCappedSpeedIsRightToThePulse) {
 }
 
 TEST(TrapezoidByTimes, TheFarthestMoveAtTheLowestSpeedEndsOnTarget) {
-  const RegisterMove move{1LL << 32, 1, 1, 3000, 3000};  // one pulse a minute
+  const RegisterMove move{1LL << 32, 1, 1, 3000, 3000};  // one pulse per minute
   const Profile profile = move.plan();
   EXPECT_EQ(end_tick(profile), ((1LL << 32) * 60 + 30) * 1000);
   EXPECT_EQ(pulses_at(profile, end_tick(profile)), 1LL << 32);
-  // One second before the end 1/3600 of a pulse is missing: doubles still tell, at 2^32.
+  // One second before the end 1/3600 of a pulse is missing: doubles still distinguish it, at 2^32.
   EXPECT_EQ(pulses_at(profile, end_tick(profile) - 1000), (1LL << 32) - 1);
   // A year into it: (t - TA/2) / 60.
   EXPECT_EQ(pulses_at(profile, 365LL * 86'400'000), (365LL * 86'400 - 15) / 60);
 }
 
 TEST(TrapezoidByTimes, OnePulseWithTheLongestRampsTakesAMinute) {
-  // 2 pulses a minute is exactly the top speed that ramps of 30 s lead to; 1 a minute lengthens the move.
+  // 2 pulses per minute is exactly the top speed that ramps of 30 s lead to; 1 per minute lengthens the move.
   const Profile profile = RegisterMove{1, 2, 1, 3000, 3000}.plan();
   EXPECT_EQ(end_tick(profile), 60'000);
   EXPECT_EQ(pulses_at(profile, 59'000), 0);
@@ -180,8 +180,8 @@ TEST(TrapezoidByTimes, WhatIsOutsideTheDomainIsRefusedByName) {
 }
 
 TEST(TrapezoidByTimes, TheLastPulseOfASlowLongRampIsNotSentEarly) {
-  // The missing distance near the end is R*u*u/(2*TD): with slow speeds and 30 s ramps a whole tick is
-  // worth less than a millionth of a pulse.
+  // The missing distance near the end is R*u*u/(2*TD): with slow speeds and 30 s ramps a whole tick is less
+  // than a millionth of a pulse.
   struct {
     std::int64_t distance_pulses;
     double top_speed_pps;

@@ -10,7 +10,7 @@ namespace trapezoid_property_test {
 
 constexpr std::int64_t kLongestMs = 1'000'000'000;  // eleven days
 
-/// How early a pulse may be sent: a few roundings of doubles as large as the distance.
+/// How early a pulse can be sent: a few rounding errors of doubles as large as the distance.
 int pulse_slack_billionths(std::int64_t distance_pulses) {
   return 1 + static_cast<int>(distance_pulses / 200'000);
 }
@@ -69,7 +69,7 @@ TEST(TrapezoidProperty, EveryMoveMatchesExactArithmeticAndEndsOnItsTick) {
       ASSERT_TRUE(is_where_it_must_be(move, profile, std::clamp<Tick>(t, 0, end)));
     }
   }
-  // The mix is what it is meant to be.
+  // The mix is as intended.
   EXPECT_GT(triangles, moves / 10);
   EXPECT_LT(triangles, moves * 9 / 10);
 }

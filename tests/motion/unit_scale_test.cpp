@@ -51,7 +51,7 @@ TEST(UnitScale, MayCutPulsesOff) {
   UnitScale scale = UnitScale::of(INT32_MAX, 1);
   scale.truncates = true;
   EXPECT_EQ(scale.to_pulses(INT64_MAX), std::nullopt);
-  EXPECT_EQ(scale.to_units(INT32_MAX / 2 + 1), 1) << "what is shown is the nearest one";
+  EXPECT_EQ(scale.to_units(INT32_MAX / 2 + 1), 1) << "the displayed value is the nearest one";
 }
 
 TEST(UnitScale, RoundsHalfAwayFromZero) {
@@ -93,7 +93,7 @@ TEST(UnitScale, IsTheNearestWholeNumberWhateverTheFactors) {
       ASSERT_GE(size / scale.divider, Wide{INT64_MAX} - 1) << report();
       continue;
     }
-    // Twice the rest is at most the divider, and where it is as much, the pulses are the farther ones.
+    // Twice the rest is at most the divider, and if it is equal, the pulses are the ones further away.
     const Wide rest = exact - Wide{*pulses} * scale.divider;
     const Wide size = rest < 0 ? -rest : rest;
     ASSERT_LE(2 * size, scale.divider) << report();

@@ -229,7 +229,7 @@ class Schemas(unittest.TestCase):
                          ['Incorrect type. Expected "array".'])
 
     def test_the_language_configuration_is_valid(self):
-        """The newest schema wants an object for a line comment; all versions of VS Code read a text."""
+        """The newest schema expects an object for a line comment, but all versions of VS Code read a string."""
         text = read("language-configuration.json").replace('"lineComment": ";"', '"lineComment": { "comment": ";" }')
         self.assertEqual(self.findings("language-configuration.json", "language-configuration", text), [])
 
@@ -248,7 +248,7 @@ class Colours(unittest.TestCase):
         return json.loads(said.stdout)
 
     def test_each_word_of_the_projects_listings(self):
-        """Also none is invalid: `check` accepts the listings."""
+        """Also, no token is marked as invalid, because `check` accepts the listings."""
         shipped = list(listings.all_of(PROJECT))
         counted = dict.fromkeys(MODELS, 0)
         cases = []

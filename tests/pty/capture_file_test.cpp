@@ -1,4 +1,4 @@
-// The file: whose it may be, and what is in it when the disk does not keep up.
+// The capture file: who can own it, and its contents when the disk does not keep up.
 #include "pty/capture_file.h"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST_F(CaptureFileTest, TwoCapturesNeverShareAFile) {
   EXPECT_EQ(contents_of(folder_ / "a.txt"), kHead + "0.000000001 in  L 01 03 00 01 00 01 D5 CA\n");
 }
 
-/// A disk that is full, as a limit on the size of files.
+/// A full disk, simulated by a limit on the size of files.
 class SizeLimit {
  public:
   explicit SizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {

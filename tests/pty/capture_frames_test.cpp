@@ -1,4 +1,4 @@
-// What a line's observer makes of what goes over it.
+// How a line's observer splits its traffic into packets.
 #include "pty/capture_frames.h"
 
 #include <gtest/gtest.h>
@@ -172,7 +172,7 @@ TEST(CaptureFrames, WhatIsOnItsWayAtTheEndIsAPacketToo) {
   EXPECT_EQ(rig.lines, (Lines{"in  L 01 03 00  # dropped: incomplete"}));
 }
 
-/// Every byte of the host is in exactly one packet, in its order, whatever it sends.
+/// Every byte of the host is in exactly one packet, in order, whatever it sends.
 TEST(CaptureFrames, NothingIsMissingAndNothingIsThereTwice) {
   for (const RtuFraming& framing : {kFraming, kStrict}) {
     for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -1,4 +1,4 @@
-// Read back by a reader of its own; tshark has its say in tests/acceptance/capture_test.cpp.
+// Read back by the tests' own reader; tests/acceptance/capture_test.cpp uses tshark.
 #include "pty/capture_pcapng.h"
 
 #include <gtest/gtest.h>

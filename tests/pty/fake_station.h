@@ -1,4 +1,4 @@
-// Stations for the line's tests: one that answers requests, one that talks when told to.
+// Stations for the line's tests: one that answers requests, and one that sends when it is told to.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace understudy::pty {
 
-/// Serves every frame with its own address, and answers with the bytes it was given.
+/// Serves every frame with its own address, and replies with the bytes it was given.
 class FakeSlave : public Station {
  public:
   FakeSlave(std::uint8_t address, Bytes reply,
@@ -53,7 +53,7 @@ class FakeSlave : public Station {
   Bytes reply_;
 };
 
-/// Says what it was told to, at the times it was told to.
+/// Sends what it was given, at the given times.
 class FakeTalker : public Station {
  public:
   LineSettings settings() const override { return {}; }
@@ -74,7 +74,7 @@ class FakeTalker : public Station {
   int others = 0;
 };
 
-/// A line and what came out of it, with times.
+/// A line and its output, with times.
 struct LineRig {
   explicit LineRig(LineOptions options = {})
       : line("rs485", options, [this](const std::string& what) { warnings.push_back(what); }) {}

@@ -1,4 +1,4 @@
-// A host that has gone: what it wrote is served, and what is said to it never reaches the next host.
+// A host that has disconnected: what it wrote is served, and replies to it never reach the next host.
 #include <gtest/gtest.h>
 
 #include "pty/line.h"
@@ -70,7 +70,7 @@ TEST_P(LineDeparted, ItsSpeedHoldsForWhatItLeftBehind) {
   rig_.line.host_closed();
   open(0s);
   rig_.run(1s);
-  // In wire timing the first character had begun, and was judged, before it closed.
+  // In wire timing the first character had started, and was judged, before it closed.
   EXPECT_TRUE(slave_.served_at.empty());
 }
 
@@ -92,7 +92,7 @@ TEST_P(LineDeparted, ARequestItDidNotFinishDoesNotSilenceTheNextHost) {
   rig_.run(4ms);
   rig_.line.host_closed();
   open(4ms);
-  rig_.run(30ms);  // patience has ended
+  rig_.run(30ms);  // the timeout has expired
   rig_.send(kRequest, 30ms);
   rig_.run(1s);
   EXPECT_EQ(rig_.out.size(), kReply.size());

@@ -1,4 +1,4 @@
-// What a host's settings, closing and not reading do to a line.
+// The effect of a host's settings, of closing and of not reading on a line.
 #include <gtest/gtest.h>
 
 #include "pty/line.h"
@@ -34,7 +34,7 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
        false,
        "line rs485: the host set 19200 baud, 2 stop bits; the station expects 19200 8E1, so it receives "
        "nothing"},
-      // What a pseudo-terminal hides.
+      // Differences that a pseudo-terminal hides.
       {{.baud = 19200, .data_bits = 8, .parity = Parity::even}, true, ""},
       {{.baud = 19200, .data_bits = 8}, true, ""},
       {{.baud = 19200, .data_bits = 8, .parity = Parity::none},
@@ -149,7 +149,7 @@ TEST(LineHost, TakesBackWhatIsNotOnTheWire) {
   EXPECT_EQ(rig.out, kReply);
 }
 
-// What the host before has left is not the next one's to take back.
+// The next host cannot take back what the previous one has left.
 TEST(LineHost, TakesBackNothingOfTheHostBefore) {
   LineRig rig(kEnforcing);
   FakeSlave slave(1, kReply);
@@ -163,7 +163,7 @@ TEST(LineHost, TakesBackNothingOfTheHostBefore) {
   EXPECT_EQ(values_of(slave.heard), kRequest);
 }
 
-// 0x41 is of a length that only silence tells.
+// The length of 0x41 is only known after silence.
 TEST(LineHost, NothingMoreIsServedAtThatMoment) {
   LineRig rig({.settings = {}, .timing = Timing::instant});
   FakeSlave slave(1, kReply, {.patience = 10ms});
@@ -269,7 +269,7 @@ TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
     rig.line.take_output(10);
     EXPECT_EQ(rig.line.output().size(), 4086u);
     talker.says[200s] = {Bytes(20, 0xEE)};
-    EXPECT_EQ(rig.line.due(), std::nullopt);  // it came by itself to say more: the line is told
+    EXPECT_EQ(rig.line.due(), std::nullopt);  // it sent more without being asked: the line is told
     rig.line.due_changed();
     EXPECT_EQ(rig.line.due(), 200s);
     rig.line.run(300s);
@@ -279,7 +279,7 @@ TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
   }
 }
 
-/// Takes all there is, when nothing more has room.
+/// Takes all there is, when nothing else has room.
 class Taker final : public LineObserver {
  public:
   explicit Taker(Line& line) : line_(line) { line_.add_observer(*this); }
@@ -308,7 +308,7 @@ TEST(LineHost, NothingIsLostToAnObserverThatTakesIt) {
     Taker taker(rig.line);
     for (int i = 0; i < 40; ++i) talker.says[i * 1s] = {Bytes(256, static_cast<std::uint8_t>(i))};
     rig.line.run(100s);
-    EXPECT_EQ(taker.taken.size(), 8192u) << "twice what the line keeps";
+    EXPECT_EQ(taker.taken.size(), 8192u) << "twice what the line stores";
     EXPECT_EQ(rig.line.output().size(), 40u * 256 - 8192);
     EXPECT_EQ(rig.line.output().back(), 39);
     EXPECT_EQ(rig.line.counters().bytes_discarded, 0u);
@@ -333,7 +333,7 @@ TEST(LineHost, AClosedHostGetsNothingMoreButIsServed) {
   rig.line.attach(slave);
   rig.line.host_opened();
   rig.send(kRequest, 0s);
-  rig.line.run(6ms);  // the reply is on the wire, its first character is out
+  rig.line.run(6ms);  // the reply is on the wire, its first character has been sent
   EXPECT_EQ(rig.line.output().size(), 1u);
   rig.send(kRequest, 6ms);
   rig.line.host_closed();

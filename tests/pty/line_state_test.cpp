@@ -1,4 +1,4 @@
-// A line's state, and a framer's, as values: what is restored goes on as it did, at any moment of an
+// The state of a line, and of a framer, as values: a restored one continues as before, at any moment of an
 // exchange.
 #include <gtest/gtest.h>
 
@@ -13,7 +13,8 @@ namespace line_state_test {
 
 using namespace std::chrono_literals;
 
-/// A slave that answers every frame to it with as many bytes as the frame has, and whose state is a value.
+/// A slave that replies to every frame for it with as many bytes as the frame has, and whose state is a
+/// value.
 class Echo final : public Station {
  public:
   explicit Echo(std::uint8_t address, bool strict)
@@ -27,7 +28,7 @@ class Echo final : public Station {
   std::optional<SimTime> due() const override { return framer.due(); }
   void run(SimTime now, Transmitter& out) override {
     const auto frame = framer.take(now);
-    // Address 0 makes all of them speak at once.
+    // Address 0 makes all of them send at once.
     if (!frame || (frame->bytes[0] != address_ && frame->bytes[0] != 0)) return;
     out.answer(std::span(frame->bytes).first(frame->size), frame->last_character);
   }
@@ -43,7 +44,7 @@ struct State {
   RtuFramer::State first, second;
 };
 
-/// Two slaves, and what came out.
+/// Two slaves, and their output.
 struct Rig {
   Rig(Timing timing, bool strict)
       : first(1, strict), second(2, strict), wire({.settings = {}, .timing = timing}) {
@@ -89,7 +90,7 @@ Bytes random_bytes(std::mt19937_64& random) {
     case 0:  // noise
       for (auto n = random() % 20; n > 0; --n) bytes.push_back(static_cast<std::uint8_t>(random()));
       return bytes;
-    case 1: {  // a function whose length only silence tells
+    case 1: {  // a function whose length is only known after silence
       bytes = {static_cast<std::uint8_t>(random() % 3), 0x41};
       for (auto n = random() % 40; n > 0; --n) bytes.push_back(static_cast<std::uint8_t>(random()));
       break;
@@ -102,7 +103,7 @@ Bytes random_bytes(std::mt19937_64& random) {
     }
   }
   append_rtu_crc(bytes);
-  if (random() % 8 == 0) bytes.resize(bytes.size() - random() % bytes.size());  // cut
+  if (random() % 8 == 0) bytes.resize(bytes.size() - random() % bytes.size());  // truncated
   return bytes;
 }
 
@@ -130,7 +131,7 @@ std::vector<Event> random_events(std::mt19937_64& random) {
   return events;
 }
 
-/// What came out from here on, with times and warnings, and what it has counted.
+/// The output from here on, with times and warnings, and the counts.
 struct Outcome {
   Bytes out;
   std::vector<SimTime> out_at;
@@ -168,7 +169,7 @@ TEST(LineState, WhatIsRestoredGoesOnAsItDid) {
     const bool strict = seed % 4 == 0;
     const std::vector<Event> events = random_events(random);
     Rig rig(timing, strict);
-    // Up to somewhere after some event, in the middle of whatever is under way.
+    // Up to a moment after some event, in the middle of whatever is in progress.
     const std::size_t stop = 1 + random() % (events.size() - 1);
     for (std::size_t i = 0; i < stop; ++i) {
       rig.wire.run(events[i].at);
@@ -202,13 +203,13 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
   rig.wire.send(hex("01 03 00 01 00 01 D5 CA"), 1s);
   rig.wire.run(1s + 2ms);
   const Line::State good = rig.wire.line.save();
-  ASSERT_EQ(good.input.size(), 5u);  // 3.5 characters have passed at 573 us each; the fourth is under way
+  ASSERT_EQ(good.input.size(), 5u);  // 3.5 characters have passed at 573 us each; the fourth is in progress
   const auto refused = [&](const std::string& what, auto spoil) {
     Line::State bad = good;
     spoil(bad);
     try {
       rig.wire.line.restore(bad);
-      ADD_FAILURE() << "was taken, though " << what;
+      ADD_FAILURE() << "was accepted, though " << what;
     } catch (const std::invalid_argument& error) {
       EXPECT_EQ(error.what(), "line rs485: " + what);
     }

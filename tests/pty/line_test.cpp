@@ -1,4 +1,4 @@
-// Time on the wire, several stations, collisions, bounds.
+// Time on the wire, several stations, collisions, limits.
 #include "pty/line.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(LineSettings, AreWrittenAsEngineersWriteThem) {
   EXPECT_EQ(to_string(LineSettings{.baud = 115200, .data_bits = 7, .parity = Parity::odd}), "115200 7O1");
 }
 
-/// It wants to be called at once, whatever is done.
+/// It wants to be called at once, whatever happens.
 class AlwaysDue final : public Station {
  public:
   LineSettings settings() const override { return {}; }
@@ -142,8 +142,8 @@ TEST(Line, ABurstBeginsWhenTheBytesComeAndNotBefore) {
 }
 
 TEST(Line, AStrictStationSeesGapsShorterThanACharacter) {
-  // At 19200 baud the silence is little longer than a character: a gap of 749,999 ns is heard only
-  // 1.3 ms after the last stop bit, and must not end the frame all the same.
+  // At 19200 baud the silence is little longer than a character: a gap of 749,999 ns is only detected 1.3 ms
+  // after the last stop bit, and still must not end the frame.
   for (const SimTime gap : {749'999ns, 750'000ns}) {
     LineRig rig(kQuietWire);
     FakeSlave slave(1, kReply, {.strict = true, .silence = 750us});
@@ -213,7 +213,7 @@ TEST(Line, TwoStationsAtOnceAreGarbled) {
       {0us, "0F F0 FF", "33 33 33", "03 30 33", true},
       {300us, "0F F0 FF", "33", "03 F0 FF", true},            // within the first character
       {600us, "0F F0 FF", "33", "0F 30 FF", true},            // within the second
-      {600us, "0F F0 FF", "33 33 33", "0F 30 33 33", true},   // and goes on after it
+      {600us, "0F F0 FF", "33 33 33", "0F 30 33 33", true},   // and continues after it
       {1'718'750ns, "0F F0 FF", "33", "0F F0 FF 33", false},  // right after it
       {1'718'749ns, "0F F0 FF", "33", "0F F0 33", true},      // a nanosecond earlier
   };

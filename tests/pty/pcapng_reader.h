@@ -1,5 +1,5 @@
-// Reads pcapng by its specification alone, nothing in common with what writes it; complains by gtest about
-// whatever is not well-formed.
+// Reads pcapng by its specification alone, with nothing in common with the writer; reports anything that is
+// not well-formed through gtest.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ inline std::uint64_t big(std::string_view bytes, std::size_t at, int size) {
   return number;
 }
 
-/// Throws std::out_of_range where the file ends inside a block.
+/// Throws std::out_of_range if the file ends inside a block.
 inline std::vector<PcapngBlock> pcapng_blocks(std::string_view file) {
   std::vector<PcapngBlock> blocks;
   while (!file.empty()) {
@@ -96,7 +96,7 @@ inline std::map<int, std::string> pcapng_options(std::string_view options) {
     found[code] = options.substr(0, length);
     options.remove_prefix(padded);
   }
-  ADD_FAILURE() << "the options have no end";
+  ADD_FAILURE() << "the options are unlimited";
   return found;
 }
 

@@ -1,4 +1,4 @@
-// Which paths may become a port's link, and what stays of it.
+// Which paths can become a port's link, and what remains of it.
 #include "pty/port_link.h"
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ TEST(PortLink, IsAWorkingPathAndGoesWithThePort) {
 TEST(PortLink, ReplacesStaleLinks) {
   const ScratchDirectory directory;
   const std::string link = directory / "feeder.port";
-  // One that dangles, one of a run that was killed, and one whose number is another program's by now.
+  // A dangling link, one of a run that was killed, and one whose number belongs to another program by now.
   const int other = ::posix_openpt(O_RDWR | O_NOCTTY);
   ASSERT_GE(other, 0);
   ASSERT_EQ(::unlockpt(other), 0);
@@ -138,7 +138,7 @@ TEST(PortLink, OfAnUnderstudyThatRunsIsNotTaken) {
 TEST(PortLink, CannotBeBlockedByWhoMayNotMakeIt) {
   const ScratchDirectory directory;
   const std::string link = directory / "feeder.port";
-  // What 0.1.0 took for a sign of another run: an abstract socket, which anybody may bind.
+  // The sign of another run for 0.1.0: an abstract socket, which anybody can bind.
   std::uint64_t hash = 0xCBF29CE484222325;
   for (const char c : fs::canonical(directory / "").string() + "/feeder.port") {
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
@@ -162,7 +162,7 @@ TEST(PortLink, TakesOverTheLockThatAKilledRunHasLeft) {
     EXPECT_TRUE(fs::exists(lock));
   }
   EXPECT_FALSE(fs::exists(lock));
-  // What has something in it is somebody's file.
+  // A file with contents belongs to somebody.
   std::ofstream(lock) << "precious";
   EXPECT_NE(error_of(directory / "feeder.port").find(lock + ": File exists"), std::string::npos);
   EXPECT_EQ(fs::file_size(lock), 8U);
@@ -178,7 +178,7 @@ TEST(PortLink, CanPointToAnother) {
     std::filesystem::remove(path);
     std::filesystem::create_symlink("/dev/pts/3", path);
     link.point_to("/dev/pts/4");
-    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/3") << "another's by now";
+    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/3") << "it belongs to another by now";
   }
   EXPECT_TRUE(std::filesystem::is_symlink(path));
 }

@@ -45,7 +45,7 @@ TEST_F(TwoTerminals, MayGoOneByOne) {
   EXPECT_FALSE(is_readable(watch->descriptor(), 0));
 }
 
-// A line that nobody serves for long keeps little, and then looks itself.
+// A line that is not served for a long time stores little, and then checks itself.
 TEST_F(TwoTerminals, ForgetNoHostAmongThousands) {
   for (int i = 0; i < 2000; ++i) {
     Host(other->path()).close();
@@ -78,7 +78,7 @@ TEST(UnwatchedTerminal, LooksWhoIsThereWheneverItIsAsked) {
   const ScratchDirectory folder;
   const OrdinaryUser user(folder / ".");
   const AllInstances all;
-  if (!all.are_taken()) GTEST_SKIP() << "this machine has no limit to meet";
+  if (!all.are_taken()) GTEST_SKIP() << "this machine has no such limit";
   WatchedTerminal terminal;
   PseudoTerminal& port = terminal.port;
   EXPECT_LT(terminal.watch->descriptor(), 0);
@@ -97,7 +97,7 @@ TEST(UnwatchedTerminal, LooksWhoIsThereWheneverItIsAsked) {
     EXPECT_TRUE(port.poll_presence().closed) << i;
     EXPECT_FALSE(port.host_present()) << i;
   }
-  // Bytes tell of a host, too.
+  // Bytes also show that a host is present.
   Host host(port.path());
   host.write(hex("01"));
   EXPECT_EQ(read_some(port), hex("01"));

@@ -66,7 +66,7 @@ TEST(PseudoTerminal, TellsWhoComesAndGoes) {
     EXPECT_FALSE(presence.opened);
     EXPECT_TRUE(presence.closed);
     EXPECT_FALSE(port.host_present());
-    EXPECT_TRUE(terminal.is_quiet());  // our own looking makes no news, and nothing hangs up
+    EXPECT_TRUE(terminal.is_quiet());  // our own check causes no event, and nothing hangs up
     presence = port.poll_presence();
     EXPECT_FALSE(presence.opened || presence.closed);
   }
@@ -105,7 +105,7 @@ TEST(PseudoTerminal, StaysTakenUntilTheLastOfSeveralHostsHasGone) {
   first.close();
   EXPECT_FALSE(port.poll_presence().closed);
   EXPECT_TRUE(port.host_present());
-  EXPECT_TRUE(port.is_in_doubt());  // the count says that nobody is there, the kernel says the contrary
+  EXPECT_TRUE(port.is_in_doubt());  // the count says that there is no host, the kernel says the contrary
   EXPECT_EQ(port.write(kReply), kReply.size());
   EXPECT_FALSE(port.is_in_doubt());
   EXPECT_EQ(second.read(kReply.size()), kReply);
@@ -287,7 +287,8 @@ TEST(PseudoTerminal, KeepsTheReplyToAHostThatReopenedBeforeAnyoneLooked) {
   first.close();
   Host second(port.path());
   second.write(kRequest);
-  // The server has seen the bytes only: the old host's leaving must not flush the answer to the new one.
+  // The server has only seen the bytes: when the old host disconnects, the reply to the new one must not be
+  // flushed.
   EXPECT_EQ(read_some(port), kRequest);
   EXPECT_EQ(port.write(kReply), kReply.size());
   port.poll_presence();
@@ -317,7 +318,7 @@ TEST(PseudoTerminal, SurvivesAHostThatIsKilled) {
   EXPECT_TRUE(host.set_even_parity(B19200));
 }
 
-// --- with a server in a thread of its own ----------------------------------------------------------
+// --- with a server in a separate thread ------------------------------------------------------------
 
 TEST(PseudoTerminalServed, LetsAHostReopenAtOnceWithParityAgainAndAgain) {
   WatchedTerminal terminal;

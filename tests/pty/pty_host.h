@@ -19,7 +19,7 @@
 
 namespace understudy::pty {
 
-inline constexpr int kTimeoutMs = 10000;  // of a test that fails; one that passes waits for events only
+inline constexpr int kTimeoutMs = 10000;  // of a failing test; a passing one only waits for events
 
 inline bool is_readable(int descriptor, int timeout_ms) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
@@ -32,7 +32,7 @@ class Host {
     EXPECT_TRUE(descriptor_) << path;
   }
 
-  /// Raw, with even parity: what nearly every Modbus host asks for. False if libc refused it.
+  /// Raw, with even parity: the settings of nearly every Modbus host. Returns false if libc refused them.
   bool set_even_parity(speed_t speed, int stop_bits = 1) {
     termios settings = {};
     if (::tcgetattr(descriptor_.get(), &settings) != 0) return false;
@@ -46,7 +46,7 @@ class Host {
   void write(const Bytes& bytes) {
     EXPECT_EQ(::write(descriptor_.get(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  /// Exactly `count` bytes, or fewer if they do not come in time.
+  /// Returns exactly `count` bytes, or fewer if they do not arrive in time.
   Bytes read(std::size_t count, int timeout_ms = kTimeoutMs) {
     Bytes bytes;
     std::array<std::uint8_t, 4096> buffer{};
@@ -65,7 +65,7 @@ class Host {
   Descriptor descriptor_;
 };
 
-/// A directory that goes away with the test.
+/// A directory that is removed with the test.
 class ScratchDirectory {
  public:
   ScratchDirectory() {
@@ -81,7 +81,7 @@ class ScratchDirectory {
   std::string path_;
 };
 
-/// A terminal with a watch of its own.
+/// A terminal with its own watch.
 struct WatchedTerminal {
   bool has_news(int timeout_ms = 0) {
     if (is_readable(watch->descriptor(), timeout_ms)) watch->collect();
@@ -93,7 +93,7 @@ struct WatchedTerminal {
   PseudoTerminal port{"", watch};
 };
 
-/// Reads what comes within the time-out, at least one byte.
+/// Reads what arrives within the time-out, at least one byte.
 inline Bytes read_some(PseudoTerminal& port) {
   if (!is_readable(port.data_descriptor(), kTimeoutMs)) return {};
   std::array<std::uint8_t, 4096> buffer{};

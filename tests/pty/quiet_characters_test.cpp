@@ -1,5 +1,5 @@
-// Characters that come at one moment are given in one go as long as nobody is due between them: what comes of
-// them is the same as one by one.
+// Characters that arrive at one moment are passed on together if nothing is due between them: the result is
+// the same as one by one.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,4 +1,4 @@
-// What a framer says was wrong with what it drops: once for a lump, and the same under both rules.
+// The error that a framer reports for data that it drops: once per lump, and the same under both rules.
 #include <gtest/gtest.h>
 
 #include <algorithm>

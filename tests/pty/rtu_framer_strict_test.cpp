@@ -37,7 +37,7 @@ struct StrictWire {
       if (const auto frame = framer.take(*due)) {
         frames.emplace_back(frame->bytes.begin(), frame->bytes.begin() + frame->size);
       } else if (framer.due() == due) {
-        FAIL() << "it is due, and nothing comes of it";
+        FAIL() << "it is due, but has no effect";
       }
     }
   }

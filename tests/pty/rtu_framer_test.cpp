@@ -62,7 +62,7 @@ struct Wire {
         served_at.push_back(due);
         EXPECT_GE(due, frame->end + kSilence);
       } else if (framer.due() == due) {
-        FAIL() << "it is due, and nothing comes of it";
+        FAIL() << "it is due, but has no effect";
       }
     }
   }
@@ -72,13 +72,13 @@ TEST(RtuFramer, GivesAllThatIsDueAndThenNothing) {
   Wire wire;
   wire.send(hex("FF FF") + hex(kRequestExamples.front()));
   RtuFramer& framer = wire.framer;
-  EXPECT_FALSE(framer.take_due(wire.now));  // the silence is not over
+  EXPECT_FALSE(framer.take_due(wire.now));  // the silence has not ended
   const auto frame = framer.take_due(wire.now + kPatience);
   ASSERT_TRUE(frame);
   EXPECT_EQ(bytes_of(*frame), hex(kRequestExamples.front()));
   EXPECT_FALSE(framer.take_due(wire.now + 1s));
   EXPECT_EQ(framer.due(), std::nullopt);
-  // A character that is under way: nothing is due, however long one waits.
+  // A character in progress: nothing is due, however long one waits.
   wire.send(hex("01"));
   framer.start_bit(wire.now);
   EXPECT_FALSE(framer.take_due(wire.now + 1s));
@@ -185,7 +185,7 @@ TEST(RtuFramer, DropsACutFrameAfterPatience) {
   EXPECT_EQ(wire.framer.dropped_bytes(), 5u);
 }
 
-// Wherever it is stopped, however often, for as long as it may be.
+// Wherever it is paused, however often, for as long as allowed.
 TEST(RtuFramer, AwaitsTheRestOfAFrameWhoseLengthIsKnown) {
   for (const std::string_view text : kRequestExamples) {
     const Bytes frame = hex(text);
@@ -248,7 +248,7 @@ TEST(RtuFramer, DropsACutFrameAfterItsPatience) {
   EXPECT_EQ(wire.framer.due(), std::nullopt);
 }
 
-// What begins a lump and is no beginning of a frame of known length has the usual patience.
+// A lump that does not begin with a frame of known length gets the usual timeout.
 TEST(RtuFramer, GivesUpAllElseAfterTheUsualPatience) {
   for (const auto* text :
        {"01 41 07", "01 03 00 01 00 01 D5 CB", "01 83 02", "FF FF FF 01 03 00", "00 00 00 01"}) {
@@ -284,7 +284,7 @@ TEST(RtuFramer, ServesPipelinedFramesEachAtItsOwnEnd) {
 
 TEST(RtuFramer, FindsAGoodFrameRightAfterNoise) {
   const Bytes frame = hex(kRequestExamples[6]);
-  // Nothing here can still become a frame once the good one is in.
+  // Nothing here can still become a frame once the valid one has arrived.
   for (const auto* noise : {"FF FF", "00", "00 00 00", "01 83 02 C0 F1", "01 03 00 03 00 01 74 0B",
                             "01 10 10 00 00 02 04 FE 0C FF FF CE 35"}) {
     Wire wire;

@@ -9,7 +9,7 @@ namespace text_lines_test {
 
 using What = HeardText::What;
 
-/// What comes of characters, one after another: "[text]" for a line, "<long>", "<esc>"; echoes beside it.
+/// The result of characters, one after another: "[text]" for a line, "<long>", "<esc>"; echoes next to it.
 struct Heard {
   std::string events;
   std::string echo;
@@ -53,13 +53,13 @@ TEST(TextLines, WhereALineEnds) {
       {"\r\r", "[][]"},
       {"\n", ""},
       {"\r\n\n", "[]"},
-      {"A\n\r", "[A][]"},  // LF ends A, the CR behind it an empty line
+      {"A\n\r", "[A][]"},  // LF ends A, the CR after it an empty line
       {"A", ""},
       {"A\x1B"
        "B\r",
        "<esc>[B]"},
       {"\x1B\x1B", "<esc><esc>"},
-      {"A\bB\r", "[A\bB]"},  // nothing is edited where nothing is echoed
+      {"A\bB\r", "[A\bB]"},  // without an echo there is no editing
       {std::string("A\0B\r", 4), std::string("[A\0B]", 5)},
       {"\xFF\x80\r", "[\xFF\x80]"},
   };
@@ -87,7 +87,7 @@ TEST(TextLines, WhatIsTypedIsEchoedAndCanBeTakenBack) {
   const TextLineRules typed{.longest = 5, .echoes = true};
   const Heard heard = hear("AC\bB\x7F\x7F\x7F\bMA\r\n", typed);
   EXPECT_EQ(heard.events, "[MA]");
-  // A, C, back over C, B, back over B and over A, and twice nothing is left; LF behind CR is not echoed.
+  // A, C, back over C, B, back over B and over A, and twice nothing is left; LF after CR is not echoed.
   EXPECT_EQ(heard.echo, "AC\b \bB\b \b\b \bMA\r\n");
   EXPECT_EQ(hear("A\n", typed).echo, "A\r\n");
   EXPECT_EQ(hear("A\x1B", typed).echo, "A");
@@ -110,12 +110,12 @@ TEST(TextLines, WhatSteersTheFlowIsInNoLine) {
   EXPECT_EQ(heard.events, "<hold><go on><go on>[MA]");
   EXPECT_EQ(heard.echo, "MA\r");
   EXPECT_EQ(heard.dropped, 0u);
-  EXPECT_EQ(hear("\r\x13\nA\r", rules).events, "[]<hold>[A]");  // the LF is still behind the CR
+  EXPECT_EQ(hear("\r\x13\nA\r", rules).events, "[]<hold>[A]");  // the LF still follows the CR
   EXPECT_EQ(hear("M\x13"
                  "A\r")
                 .events,
             "[M\x13"
-            "A]");  // where nobody heeds it
+            "A]");  // where it has no effect
 }
 
 TEST(TextLines, WhatIsForgottenIsInNoLine) {

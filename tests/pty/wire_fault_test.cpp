@@ -1,4 +1,4 @@
-// What each stage makes of a message, byte by byte, and what they make of it in a row.
+// The effect of each stage on a message, byte by byte, and of several stages in a row.
 #include "pty/wire_fault.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(WireFault, EachStageDoesItsOwn) {
            {{.kind = Kind::duplicate, .time = 5ms}, {{0ms, kMessage}, {5ms, kMessage}}},
            {{.kind = Kind::noise, .before = {0xFF, 0x00}, .after = {0x55}},
             {{0ms, {0xFF, 0x00, 0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84, 0x55}}}},
-           // 0x55 is 01010101: what it leaves of 01 03 02 C0 01 29 84.
+           // 0x55 is 01010101: its effect on 01 03 02 C0 01 29 84.
            {{.kind = Kind::collision}, {{0ms, {0x01, 0x01, 0x00, 0x40, 0x01, 0x01, 0x04}}}},
            {{.kind = Kind::collision, .before = {0x02, 0x0F}},
             {{0ms, {0x00, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84}}}},

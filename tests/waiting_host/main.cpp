@@ -1,5 +1,5 @@
-// A host of three threads that waits in every way that has an end. It prints for each how long it took, by
-// its own clock, and whether it ended as it should.
+// A host of three threads that waits in every way that ends. For each it prints how long it took, by its own
+// clock, and whether it ended as it should.
 #include <pthread.h>
 #include <semaphore.h>
 #include <signal.h>

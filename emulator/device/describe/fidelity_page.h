@@ -1,4 +1,4 @@
-// Makes docs/fidelity/MODEL.md, which tells how faithful a model is, from the model's tables.
+// Makes docs/fidelity/MODEL.md, which says how faithful a model is, from the model's tables.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Models the memory behind a register image: an EEPROM, and beside it a battery-backed RAM or an FRAM. A
+// Models the memory behind a register image: an EEPROM, and in addition a battery-backed RAM or an FRAM. A
 // write to a persistent register waits its turn and takes time; afterwards the value survives power-off. A
 // register in battery RAM or FRAM survives from the write on. It is a value: it can be copied and compared.
 #pragma once
@@ -19,8 +19,8 @@ namespace understudy::emulator {
 class Eeprom {
  public:
   Eeprom() = default;
-  /// `factory` has the factory's value of each slot; `is_kept` tells which slots are persistent. `at_once`
-  /// tells which of those a battery or an FRAM keeps without delay; by default none.
+  /// `factory` has the factory value of each slot; `is_kept` says which slots are persistent. `at_once` says
+  /// which of those a battery or an FRAM keeps without delay; by default none.
   Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
          std::span<const bool> at_once = {});
 
@@ -72,12 +72,12 @@ class Eeprom {
   /// With `even_at_once`, also stores the registers that need no time.
   void keep_all(std::span<const std::uint32_t> image, bool even_at_once);
 
-  Tick done_at_ = kNever;  // first: each tick looks at it
+  Tick done_at_ = kNever;  // first, because each tick reads it
   std::uint64_t revision_ = 0;
   std::vector<std::uint32_t> kept_;  // by slot
   std::vector<Slot> slots_;
   std::vector<Job> jobs_;                 // the first is being done
-  std::vector<std::uint32_t> rewriting_;  // by slot, while everything is; else empty
+  std::vector<std::uint32_t> rewriting_;  // by slot, during an erasure; otherwise empty
 };
 
 }  // namespace understudy::emulator

@@ -46,7 +46,7 @@ std::size_t line_of(const std::string& text, std::size_t byte) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// An iterator that reports the parser's place. When the parser has read a key, that is right behind it.
+/// An iterator that reports the parser's position. When the parser has read a key, that is right after it.
 struct JsonPlace {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;

@@ -1,5 +1,5 @@
 // Named texts that a device stores at once, such as its files, recipes and macros. It is a value; copies
-// share the texts. The model's table tells which kinds there are and what fits in them.
+// share the texts. The model's table lists the kinds, and what fits in them.
 #pragma once
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "emulator/device/model.h"
-#include "pty/receive_error.h"  // IWYU pragma: export: devices are told of them
+#include "pty/receive_error.h"  // IWYU pragma: export: devices are notified of them
 
 namespace understudy::emulator {
 

@@ -94,10 +94,10 @@ void extend_sign(Change& change) {
   change.high = true;
 }
 
-/// Judges the value that a request gives to a register. Brings it into range if the policy says so.
+/// Checks the value that a request gives to a register. Brings it into range if the policy says so.
 Objection judge(Change& change, const MapPolicy& policy) {
   if (policy.halves == MapPolicy::Halves::low_gives_the_sign) extend_sign(change);
-  // Half of a value cannot be judged.
+  // Half of a value cannot be checked.
   if (!complete(change) && policy.halves == MapPolicy::Halves::may_be_written_alone) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::stored || in_range(change)) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::refused) {
@@ -107,7 +107,7 @@ Objection judge(Change& change, const MapPolicy& policy) {
   return {};
 }
 
-/// Collects the changes to all registers that the request can write, and judges its addresses.
+/// Collects the changes to all registers that the request can write, and checks its addresses.
 Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   const MapPolicy& policy = bank.map_policy();
   const bool low_first = bank.low_word_first();
@@ -145,7 +145,7 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
   return {};
 }
 
-/// Collects the changes and judges addresses first, then values. After a refusal, `changes` keeps only those
+/// Collects the changes and checks addresses first, then values. After a refusal, `changes` keeps only those
 /// that are made nevertheless.
 Objection gather(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   Objection refused = gather_addresses(bank, request, changes);

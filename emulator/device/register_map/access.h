@@ -13,7 +13,7 @@
 
 namespace understudy::emulator {
 
-/// Reads consecutive 16-bit words from `first` on in the order of the wire, or bits, one a word.
+/// Reads consecutive 16-bit words from `first` on in the order of the wire, or bits, one per word.
 Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
                        std::span<std::uint16_t> words);
 Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
@@ -55,10 +55,9 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Judges a write as if it came from the wire, and makes its words. Other writes before it do not make the
+/// Checks a write as if it came from the wire, and makes its words. Other writes before it do not make the
 /// words wrong (except a write that changes the order of words), but the device may refuse them by then,
-/// because it is busy or fails (RegisterBank::admits). A bit is written through its register as it is at
-/// this moment.
+/// because it is busy or fails (RegisterBank::admits). A bit is written through its present register.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
 /// Like a write of the device itself: the device is not asked whether it admits it.

@@ -26,7 +26,7 @@ bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
   return false;
 }
 
-/// Judges whether the word at an address can be read. Leaves `place` empty if it reads as zero.
+/// Checks whether the word at an address can be read. Leaves `place` empty if it reads as zero.
 Objection readable(const RegisterBank& bank, Table table, std::size_t address, Place& place) {
   if (!place) {
     return may_read_hole(bank, table, address) ? Objection{}

@@ -1,4 +1,4 @@
-// Reasons why a request for registers was not carried out: coarse ones that a protocol answers, and detailed
+// Reasons why a request for registers was not executed: coarse ones that a protocol answers, and detailed
 // ones that a device may record.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace understudy::emulator {
 /// The coarse reason. Each protocol translates it (Modbus: an exception code).
 enum class Refusal : std::uint8_t {
   none,
-  no_register,  // nothing at that address, a register cut in half where that is not allowed,
+  no_register,  // nothing at that address, or half a register if that is not allowed,
                 // or a write to what can only be read
   bad_value,    // outside the register's range, or a message that the device does not take
   busy,         // the device cannot take it now
@@ -58,7 +58,7 @@ struct Objection {
 /// A request that was answered with an exception, as reported to the device.
 struct RefusedRequest {
   std::uint8_t function = 0;
-  std::uint16_t first = 0;  // address and count as they were asked for; 0 where the request has none, or is
+  std::uint16_t first = 0;  // address and count of the request; 0 if it has none, or is
   std::size_t count = 0;    // too short to say so
   int exception = 0;        // the exception code in the answer
   Objection objection{};    // why

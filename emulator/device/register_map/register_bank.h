@@ -63,7 +63,7 @@ class RegisterBank {
   virtual bool takes_whole(const RegisterRequest& /*request*/) const { return false; }
   /// Takes the message after admits() has agreed, or refuses it without changing anything.
   virtual DeviceAnswer take_whole(const RegisterRequest& /*request*/) { return Refusal::none; }
-  /// Returns true if a message may begin behind its window's first word, because the device accepts such a
+  /// Returns true if a message can begin after its window's first word, because the device accepts such a
   /// part.
   virtual bool takes_parts() const { return false; }
   /// Asked for each register of a good write in ascending order, before anything is stored. If it returns

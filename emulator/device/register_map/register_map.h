@@ -75,8 +75,8 @@ class RegisterMap {
   /// Returns the number of slots in a device's register image.
   int slot_count() const { return slot_count_; }
 
-  /// Returns the register at an address; `part` tells which word of it (the order of words may change while
-  /// a device runs). The place is empty if this firmware has nothing there.
+  /// Returns the register at an address; `part` says which word of it (the order of words may change while a
+  /// device runs). The place is empty if this firmware has nothing there.
   Place at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const;
 
   /// Returns the sources by address, up to the last bit of a table of bits; none for other tables.

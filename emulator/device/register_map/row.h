@@ -133,7 +133,7 @@ struct BitField {
   int bit = 0;  // the lowest of them
   std::string_view name;
   int width = 1;
-  Reader reader = nullptr;  // their present value, where it is not simply the register's
+  Reader reader = nullptr;  // their present value, if it is not simply the register's
   Varies varies = Varies::in_ticks;
 
   template <auto function, Varies when>
@@ -155,7 +155,7 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
 
 struct RegisterRow {
   std::uint16_t address = 0;
-  std::string_view name;   // as the manual prints it, without _L/_RegL; "{}" stands for the number
+  std::string_view name;   // as printed in the manual, without _L/_RegL; "{}" stands for the number
   std::string_view alias;  // a second spelling in the manual, or an additional name of the first of several
                            // registers; empty if there is none
   Type type = Type::u16;
@@ -355,15 +355,15 @@ constexpr RegisterRow window(std::uint16_t address, std::string_view name, int w
   return row.times(words, 1, 0);
 }
 
-/// The model's answers where the map or the Modbus standard leaves them open.
+/// The model's answers to what the map or the Modbus standard leaves open.
 struct MapPolicy {
   /// `holes_read_zero` is for addresses before the last register of a table; reads beyond it, and writes,
   /// are refused.
   enum class Unmapped : std::uint8_t { refused, reads_zero, holes_read_zero } unmapped = Unmapped::refused;
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
-  /// A write of half a 32-bit register alone is accepted whatever the whole becomes, judged together with
-  /// the other half as it is, never accepted, or (for the low half) accepted as the whole, with its sign.
+  /// A write of half a 32-bit register alone is accepted whatever the whole becomes, checked together with
+  /// the present other half, never accepted, or (for the low half) accepted as the whole, with its sign.
   enum class Halves : std::uint8_t {
     may_be_written_alone,
     judged_with_the_other,
@@ -374,9 +374,9 @@ struct MapPolicy {
     may_be_read_alone,
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
-  /// The refusal of a request that cuts a register where that is not allowed.
+  /// The refusal of a request that cuts a register if that is not allowed.
   Refusal cut_pair = Refusal::no_register;
-  /// `stored`: the value is stored as it is and limited on use; the range is the manual's.
+  /// `stored`: the value is stored unchanged and limited on use; the range is the manual's.
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
   /// What a request with one value out of range leaves written: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
@@ -384,7 +384,7 @@ struct MapPolicy {
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
   /// The holding register that sets the order of words, if it can change; 1 is low word first. It is for our
-  /// own hosts; the device tells the order in force (RegisterBank::low_word_first).
+  /// own hosts; the device reports the order in effect (RegisterBank::low_word_first).
   std::string_view word_order_in{};
 };
 

@@ -48,14 +48,14 @@ Answer answer_to(Command command, Activity activity, WhileBusy while_busy);
 
 /// Returns the current value of a quantity, in counts.
 using CountsOf = std::function<double(const Quantity& quantity)>;
-/// Gives the current numbers of an axis, in their units (seconds, pulses a second). The result is empty for a
-/// number that is not bound.
+/// Gives the current numbers of an axis, in their units (seconds, pulses per second). The result is empty for
+/// a number that is not bound.
 class AxisNumbers {
  public:
   AxisNumbers(const AxisBinding& binding, const CountsOf& counts_of)
       : binding_(binding), counts_of_(counts_of) {}
   std::optional<double> counts(Number which) const;
-  /// Returns a speed or acceleration in pulses a second.
+  /// Returns a speed or acceleration in pulses per second.
   std::optional<double> pps(Number which) const;
   double speed_pps() const { return pps(Number::speed).value_or(0); }
   /// Converts a count of positions to pulses, rounded.

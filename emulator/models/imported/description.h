@@ -177,7 +177,7 @@ struct Following {
   std::optional<Condition> as_long_as{};  // condition for following; none: always
   Quantity rest;                          // the value that it approaches otherwise
   double time_constant_s = 0;             // 0: at once, limited only by `most_per_s`
-  double most_per_s = 0;                  // counts a second; 0: no limit
+  double most_per_s = 0;                  // counts per second; 0: no limit
   Tick every = 100;                       // period of its updates
 };
 

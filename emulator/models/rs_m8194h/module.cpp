@@ -68,7 +68,7 @@ void Module::sample_inputs(Tick tick, bool inputs_changed) {
 void Module::update_outputs(Tick tick) {
   if (machine_options().pause_holds_axes && !state_.paused) stops.resume();
   stops.start_held();
-  // Macros first; what they leave of the tick is the FIFO's.
+  // Macros come first; the rest of the tick is for the FIFO.
   programs.run_tick(tick);
   triggers.start_queued();
   queue.run();

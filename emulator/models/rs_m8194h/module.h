@@ -85,7 +85,7 @@ class Module final : public Part, private lang::Machine {
   /// RESET_CARD and LOAD_INITIAL.
   void reset_card();
   void load_initial();
-  /// Goes on from a restored state.
+  /// Continues from a restored state.
   void take_over(const State& restored);
 
  private:

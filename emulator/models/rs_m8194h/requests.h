@@ -1,5 +1,5 @@
-// RS-M8194H: requests before and after the module has them: what is admitted, writes to the tables that
-// become lines of a macro or are one message by choice, and what of an exception is kept.
+// RS-M8194H: requests before and after the module has them: which are admitted, writes to the tables that
+// become lines of a macro or are one message by choice, and what is stored of an exception.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// What the RS-M8194H itself remembers of requests.
+/// What the RS-M8194H itself stores about requests.
 struct RequestState {
   std::uint16_t illegal_reason = 0;                      // input 102
   std::array<std::uint16_t, kWindowWords> parameters{};  // by choice: parameters written before their command

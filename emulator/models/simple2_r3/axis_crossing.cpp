@@ -100,7 +100,7 @@ void remember_skip(AxisState& axis, const Crossing& crossing, Tick tick) {
     axis.encoder_history[ring_place(each)] = last == first ? last : counts_ahead(axis, crossing, each);
   }
   if (last == first) return;
-  // Counts go one way: the first tick that has the last one.
+  // Counts have one direction: the first tick that has the last one.
   Tick before = next;
   Tick since = tick;
   while (since - before > 1) {

@@ -125,7 +125,7 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
 /// Returns 0 for a move that is being stopped, and for homing.
 std::int64_t remaining_pulses(const AxisState& axis);
 
-/// Keeps the running move's target coordinate, which is `pulses` farther from now on.
+/// Keeps the running move's target coordinate, which is `pulses` further away from now on.
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now);
 
 /// The settings by which pulses follow an encoder.
@@ -145,7 +145,7 @@ struct SpeedMeter {
   bool wraps = false;  // true: wraps beyond 16 bits; false: stays at their limits
 };
 
-/// Returns the revolutions a minute over the last ticks, as 16 bits with a sign.
+/// Returns the revolutions per minute over the last ticks, as 16 bits with a sign.
 std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& meter);
 
 /// Returns the speed in the commanded direction, at the end of tick `now`.

@@ -26,8 +26,8 @@ class AxisView {
   const AxisSlots& slots() const { return kAxisSlots[index()]; }
   bool alarm() const { return signals().alarm(number_); }
 
-  /// Returns the pulses a revolution, never 0, by which the caller divides. A host may write half of a 32-bit
-  /// register alone, so the register can hold anything.
+  /// Returns the pulses per revolution, never 0, by which the caller divides. A host may write half of a
+  /// 32-bit register alone, so the register can hold anything.
   std::uint32_t resolution() const;
   std::uint32_t velocity_step_urpm() const;
   /// Returns true if DIR_Polarity reverses the pulses.
@@ -59,12 +59,12 @@ class AxisView {
   bool is_refused_as_too_fast(std::int64_t milli_rpm) const;
   /// Returns the axis's reaction to an event, in its present state and under the chosen options.
   Outcome reaction(Event event) const;
-  /// Returns `towards` if a limit that is on forbids that direction, else `away`.
+  /// Returns `towards` if a limit that is on forbids that direction, otherwise `away`.
   Event event_by_direction(int direction, Event towards, Event away) const;
   /// Returns the law of a position move: appendix A and the 100 kHz limit.
   motion::SpeedLaw law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                           std::uint32_t deceleration_10ms) const;
-  /// Returns the speed in velocity and sync mode, signed as the axis goes: 0 where a limit is in the way.
+  /// Returns the speed in velocity and sync mode, signed by the axis's direction: 0 if a limit blocks it.
   double speed_of_pulses() const;
   motion::Follower sync_follower() const;
   /// Returns the count of the encoder that sync mode follows.
@@ -95,7 +95,7 @@ inline std::uint32_t AxisView::velocity_step_urpm() const {
   return setup_.velocity_unit_urpm * (written == 0 ? 1 : written);
 }
 
-// Called for each axis in every tick; with two callers the compiler would not inline it by itself.
+// Called for each axis in every tick; with two callers the compiler would not inline it automatically.
 [[gnu::always_inline]] inline DriveSettings AxisView::drive_settings() const {
   DriveSettings settings{.encoder_counts = followed_count(),
                          .stops_with_encoder = setup_.stops_with_encoder,

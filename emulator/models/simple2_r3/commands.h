@@ -1,6 +1,6 @@
-// What an axis is told to do: moves, homing, modes, servo and STOP. Registers and program lines come here
-// alike. What a command is dropped for, and what it does to the one before it, is said in commands.cpp and
-// transitions.h.
+// Commands to an axis: moves, homing, modes, servo and STOP. Registers and program lines use them alike.
+// commands.cpp and transitions.h define for which reasons a command is dropped, and what it does to the
+// previous one.
 #pragma once
 
 #include <cstdint>

@@ -91,7 +91,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // switched by commands, in ticks of their own
+  }  // switched by commands, in separate ticks
   std::int64_t pulses_this_tick(int number) const override { return axis(number).state().pulses_this_tick; }
   double speed_pps(int number) const override { return axis(number).speed_pps(); }
   std::int64_t pulses_to_come(int number) const override { return axis(number).pulses_to_come(); }

@@ -274,7 +274,7 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
-  // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
+  // The note that it takes effect is next to the high word, so a lone low word only waits for it.
   if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
   device.axis(cell.argument).run_velocity(milli_rpm);
 }

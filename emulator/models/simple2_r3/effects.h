@@ -39,7 +39,7 @@ Value read_eeprom_busy(const Simple2R3& device, Cell);
 Value read_cell(const Simple2R3& device, Cell cell);  // as write_cell
 Value read_unlocked(const Simple2R3& device, Cell);
 Value read_password(const Simple2R3& device, Cell);
-Value read_zero(const Simple2R3& device, Cell);  // for triggers that are over at once
+Value read_zero(const Simple2R3& device, Cell);  // for triggers that end at once
 
 // Effects.
 void write_output(Simple2R3& device, Cell cell, Value level);

@@ -3,9 +3,9 @@
 // this table alone; marks_test.cpp checks it in every cell. (stop_drive() clears for `leaves`, `ends` and
 // `begins` alike.)
 //
-// A position move or a homing that ends by itself takes its command along (step_drive()). What is only asked
-// about a running command (has_own_speed, by_trigger), and how the last one ended (cut_short, homed), is set
-// anew by the next one.
+// A position move or a homing that ends on its own takes its command along (step_drive()). Marks that are
+// only read during a running command (has_own_speed, by_trigger), and how the last one ended (cut_short,
+// homed), are set again by the next one.
 #pragma once
 
 #include <array>

@@ -38,8 +38,7 @@ bool is_failure(interpreter::simple2::Ending ending) {
          ending == interpreter::simple2::Ending::undefined_operand;
 }
 
-/// The line of the listing that shows this line of the program, and what it says. A line of zeros may have
-/// none.
+/// The line of the listing that shows this line of the program, and its text. A line of zeros may have none.
 std::pair<int, std::string> listed(const interpreter::simple2::Program& program, std::size_t number) {
   interpreter::simple2::Lines lines = program.lines();
   if (lines[number] == interpreter::simple2::Line{}) return {0, "NOP"};

@@ -93,7 +93,7 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   if (!place.place || place.place.row->access == Access::read) return;
   const RegisterRow& row = *place.place.row;
   const bool is_counter = row.name == "Counter1_Value" || row.name == "Counter2_Value";
-  // A timer's 32 bits have no sign; what has one, or 16 bits, is brought into its range.
+  // A timer's 32 bits are unsigned; a signed or 16-bit value is brought into its range.
   Value wanted = value;
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);

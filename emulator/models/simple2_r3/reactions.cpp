@@ -42,7 +42,7 @@ void meet_in_velocity(AxisState& axis, Outcome outcome) {
 }
 
 void meet_in_pwm(AxisState& axis, Outcome outcome) {
-  take_off(axis, outcome);  // what waits is held by the alarm itself
+  take_off(axis, outcome);  // waiting commands are held by the alarm itself
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void AxisReactions::apply_signals(motion::Signals on) {
   axis.signals.steady = on;
   ++axis.signals.version;
   if (axis.mode == Mode::position) return;
-  // The signals act one after the other: each one meets the axis as the previous one has left it.
+  // The signals act one after another: each one finds the axis as the previous one has left it.
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
     if ((changed & motion::bit(signal)) == 0 || setup().ignores(signal)) continue;
@@ -128,8 +128,8 @@ void AxisReactions::apply_signals(motion::Signals on) {
     }
   }
   axis.motor.signals = on;
-  // The motor's way is that of its last pulse; before the first one of a new way it must not stop for the old
-  // one.
+  // The motor's direction is that of its last pulse; before the first one in a new direction it must not stop
+  // for the old one.
   if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
 }
 

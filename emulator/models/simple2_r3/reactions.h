@@ -30,7 +30,7 @@ class AxisReactions : public AxisView {
   void power_up();
   void stop(Stopping how = Stopping::forcibly);
   void servo_off();
-  /// Looks at the limits and the alarm, at the beginning of a tick.
+  /// Checks the limits and the alarm, at the beginning of a tick.
   void sample_signals();
 
  protected:
@@ -53,7 +53,7 @@ class AxisReactions : public AxisView {
   State& state_;
 };
 
-/// Runs one tick of an axis. As a call of its own it would cost a tenth of a tick.
+/// Runs one tick of an axis. As a separate call it would cost a tenth of a tick.
 [[gnu::always_inline]] inline void step_axis(State& state, const Setup& setup, int number, Tick tick) {
   if (state.touched || setup.alarm_latches || setup.alarm_takes_servo) {
     AxisReactions(state, setup, number).sample_signals();

@@ -102,7 +102,7 @@ std::uint8_t Setup::switch_levels() const {
 }
 
 std::uint16_t Setup::adc(int number) const {
-  // Millivolts. As the factory's calibration has it: 4000 at 10 V, or 1000.
+  // Millivolts. With the factory calibration: 4000 at 10 V, or 1000.
   const std::int32_t level = device.input(kFirstAnalog + number);
   const std::int32_t adc = adc_10_bits ? std::min(level / 10, 1023) : std::min(level * 2 / 5, 4095);
   return static_cast<std::uint16_t>(std::max(adc, 0));

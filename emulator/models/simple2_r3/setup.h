@@ -1,11 +1,12 @@
-// What a Simple2-R3 is made from, beside its state: its device, which has time, inputs and choices, and what
-// firmware and choices give, computed once. All parts of the controller are functions on a State and a Setup:
+// What a Simple2-R3 is made from, besides its state: its device, which has time, inputs and choices, and
+// everything that follows from firmware and choices, computed once. All parts of the controller are functions
+// on a State and a Setup:
 //
 //   setup.h, state.h    choices, terminals, time; the state
 //   signals.h           inputs, outputs and the functions that registers give them; STATUS
 //   axis_view.h         an axis as registers and choices make it
 //   reactions.h         the tick of an axis, and what stops it
-//   commands.h          what an axis is told to do
+//   commands.h          commands to an axis
 //   program_machine.h   the controller as its program sees it
 //   programs.h          the program
 //   memory.h            what is kept, and the password

@@ -46,7 +46,8 @@ class Signals {
  private:
   /// Returns true if no tick has been run since power-up.
   bool is_just_up() const { return setup_.now() + 1 + setup_.boot_ticks == state_.first_tick; }
-  /// Returns an input's level if the register at `assignment_slot` gives it its special function, else false.
+  /// Returns an input's level if the register at `assignment_slot` gives it its special function, otherwise
+  /// false.
   bool assigned_input(std::size_t assignment_slot, int number) const {
     return assigned(assignment_slot) && input(number);
   }

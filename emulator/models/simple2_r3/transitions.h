@@ -23,7 +23,7 @@ enum class Phase : std::uint8_t {
   slowing,    // slows down in its direction
   turning,    // slows down to reverse
   leaving,    // moves away from a limit that is on
-  at_limit,   // stands while a limit is on, or was stopped by it; PWM: with or without duty
+  at_limit,   // at rest while a limit is on, or stopped by it; PWM: with or without duty
   in_alarm,   // no output while the alarm lasts
   servo_off,  // no output while the servo is off; for commands
 };
@@ -57,7 +57,7 @@ enum class Outcome : std::uint8_t {
   leaves,           // like stops, and returns to position mode
   waits,            // sends no pulses and no duty until the cause is gone
   turns,            // stops at once and reverses
-  slows,            // slows down by its ramp and stands; the target is dropped
+  slows,            // decelerates along its ramp and stops; the target is dropped
   slows_and_waits,  // like slows, until the cause is gone
   blocked,          // follows only in the other direction
   resumes,          // continues with the target that has waited

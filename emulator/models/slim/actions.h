@@ -51,7 +51,8 @@ Error perform(Order& order, Action action);
 /// chosen otherwise) for the end of a pause.
 lang::Outcome perform_stored(Order& order);
 
-/// Returns true for a move of a module that is busy. A command that is refused for another reason is none.
+/// Returns true for a move of a module that is busy. A command that is refused for another reason does not
+/// count.
 bool would_wait(const State& state, const lang::Command& command);
 
 }  // namespace understudy::emulator::models::slim

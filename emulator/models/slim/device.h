@@ -89,7 +89,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // outputs that change by position or time have ticks of their own
+  }  // outputs that change by position or time have separate ticks
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.module_at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
   std::optional<bool> servo_on(int axis) const override {

@@ -1,4 +1,4 @@
-// The dialogue: what becomes of a line, and what is answered.
+// The dialogue: what happens to a line, and the reply.
 #pragma once
 
 #include <string_view>
@@ -12,8 +12,8 @@
 namespace understudy::emulator::models::slim {
 
 TextRules text_rules(const Setup& setup);
-/// Enters a line of a program, gives a number to GETI or GETR, or executes a command. The state has what is
-/// answered.
+/// Enters a line of a program, gives a number to GETI or GETR, or executes a command. The reply is in the
+/// state.
 void hear_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
 void hear_overlong(State& state, const Setup& setup);
 /// Executes a command past the line, without a word.

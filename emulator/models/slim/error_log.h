@@ -21,8 +21,8 @@ void remember_late_errors(State& state, const Setup& setup);
 /// ?ERC: "4,1", or "0".
 std::string history_text(const Setup& setup, const Errors& errors);
 
-/// The history in a memory image: the errors of each module, the last one first, ERC(0), ERC(1) ...,
-/// T1ERC(0) ... Reading takes them out of the image; it throws NvError for numbers that are no errors.
+/// The history in a memory image: the errors of each module, the last one first, ERC(0), ERC(1) ..., T1ERC(0)
+/// ... Reading removes them from the image; it throws NvError for numbers that are not errors.
 void write_history(const std::array<Errors, kModules>& errors, NvImage& image);
 std::array<Errors, kModules> read_history(const Setup& setup, NvImage& image);
 

@@ -83,7 +83,7 @@ Names make_names() {
   return names;
 }
 
-/// Where a command may be given, as bits of Place, in words.
+/// Where a command can be given, as bits of Place, in words.
 constexpr std::array<std::string_view, 8> kWhere{
     "nowhere", "program",          "typed",          "program, typed",
     "running", "program, running", "typed, running", "program, typed, running"};

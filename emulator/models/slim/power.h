@@ -13,7 +13,7 @@ void power_down(State& state, const Setup& setup);
 void reboot(State& state, const Setup& setup);
 
 void sample_inputs(State& state, const Setup& setup, Tick tick);
-/// Returns true if an input is not as it was when a tick last looked.
+/// Returns true if an input has changed since a tick last read it.
 bool sees_something_new(const State& state, const Setup& setup);
 
 }  // namespace understudy::emulator::models::slim

@@ -77,7 +77,7 @@ std::uint64_t mark_of(const lang::Program& program) {
   std::uint64_t mark = hash_of({});
   for (int i = 0; i < program.size(); ++i) {
     const std::string& text = program.line(i).text;
-    // The null at its end tells lines apart.
+    // The null at its end separates lines.
     mark = hash_of(std::as_bytes(std::span(text.c_str(), text.size() + 1)), mark);
   }
   return mark;

@@ -22,7 +22,7 @@ struct ReadProgram {
 };
 ReadProgram read_program(const Setup& setup, std::string_view text);
 
-/// Returns the program as its onlookers count it.
+/// Returns the program as its observers count it.
 ProgramPart part_of(const ReadProgram& read);
 /// Returns a number that another program does not have.
 std::uint64_t mark_of(const lang::Program& program);

@@ -1,4 +1,4 @@
-// What queries answer.
+// The replies to queries.
 #pragma once
 
 #include <optional>

@@ -1,10 +1,10 @@
-// What a SLIM is made from, beside its state: its device, which has time, inputs and a log, and the options
+// What a SLIM is made from, besides its state: its device, which has time, inputs and a log, and the options
 // that its bench has chosen. All parts of the controller are functions on a State and a Setup:
 //
 //   setup.h             choices, terminals, time
 //   error_log.h         ?ERR and ?ERC
-//   speech.h            what is sent, and how a failure is told
-//   parameters_set.h    parameters and axis letters; what is kept
+//   speech.h            what is sent, and how a failure is reported
+//   parameters_set.h    parameters and axis letters; what is persistent
 //   variables.h         N#, R#, NS(), RS() and the clock
 //   power.h             power-up, power-down, inputs
 //   kept_image.h        the retentive memory as a file
@@ -12,7 +12,7 @@
 //   queries.h           what queries answer
 //   actions.h           what commands do (commands.cpp)
 //   by_name.h           queries and assignments past the line
-//   dialogue.h          what becomes of a line
+//   dialogue.h          what happens to a line
 //
 // Each may know those above it. device.h joins them to a device.
 #pragma once
@@ -51,7 +51,7 @@ struct Setup {
   explicit Setup(const Device& of);
 
   const Device& device;
-  const int modules;  // so many are linked from the factory
+  const int modules;  // this many are linked in the factory settings
   const ChainOptions options;
   const lang::FlowOptions flow;
 

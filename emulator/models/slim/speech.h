@@ -15,7 +15,7 @@ void say(State& state, const Setup& setup, std::string_view text);
 bool has_room_to_speak(const State& state, const Setup& setup);
 /// Acknowledges a successful command that has no reply of its own.
 void acknowledge(State& state, const Setup& setup);
-/// Sends and stores an error. Returns the module that has it in the end.
+/// Sends and stores an error. Returns the module that stores it in the end.
 int fail(State& state, const Setup& setup, int module, Error error);
 /// Sends the prompt, after each completed line.
 void conclude(State& state, const Setup& setup);

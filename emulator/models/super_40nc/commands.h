@@ -1,5 +1,5 @@
 // What a scan does with command contacts, in this order: emergency, resets, STOP keys, pages of the panel,
-// M8008, ZERO SET, HOME, ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop,
+// M8008, ZERO SET, HOME, ZERO, jog, hand wheel. Levels that stay ON after they were void, or after a stop,
 // need to go OFF first.
 #pragma once
 
@@ -39,7 +39,7 @@ class Commands : protected Chips {
 
   /// The scan's step of contacts, if anything was written since the last one.
   void look_at_contacts();
-  /// Returns true if axes have errors that fall at the next tick, where that is chosen.
+  /// Returns true if axes have errors that are cleared at the next tick, if that is chosen.
   bool has_errors_for_a_scan() const;
 
  private:

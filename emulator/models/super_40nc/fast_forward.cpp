@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// Signals have ticks of their own, and a PLC that reads moving values scans in each tick.
+/// Signals have separate ticks, and a PLC that reads moving values scans in each tick.
 bool Super40nc::output_moves(int /*terminal*/) const { return false; }
 
 Tick Super40nc::next_timed_tick(Tick done) const {

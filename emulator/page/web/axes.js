@@ -1,4 +1,4 @@
-// Axes: for each a rail with what lies along it, where it is, and what can be done to it.
+// Axes: a rail for each axis, with its switches and positions, and controls for its machine.
 import { html, useEffect } from './preact.js';
 import { ask, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Lamp, grouped, inTenths, isOn, spaced } from './small.js';
@@ -26,7 +26,7 @@ async function stick(device, terminal, level) {
 }
 
 async function loosen(device, terminal) {
-  // Not the last status: that may be older than the fault.
+  // Do not use the last status: it may be older than the fault.
   for (const { number, fault } of (await ask({ do: 'list' })).faults ?? []) {
     if (`${fault} `.startsWith(`stuck ${device}.${terminal} `)) await ask({ do: 'clear', number });
   }

@@ -1,4 +1,5 @@
-// The bus: what goes over the lines, in words; send by hand; drop the next like this; keep as a capture.
+// The bus: describes the frames on the lines, sends frames by hand, drops the next frame of a kind, and saves a
+// capture.
 import { html } from './preact.js';
 import { ask, isLocked, store, withHoles } from './store.js';
 import { Button, Choice, Field, Missed, grouped, save, seconds } from './small.js';
@@ -9,7 +10,7 @@ const kShown = 200;
 
 const lineNamed = (name) => store.bench?.lines.find((line) => line.name === name);
 
-/// Of a request: it is not heard. Of a reply: the request was carried out, and its reply does not come.
+/// A dropped request does not reach the device. A dropped reply does not reach the host, but its request is executed.
 function dropNext(frame) {
   const fault = { drop: frame.line, of: frame.way === 'in' ? 'request' : 'reply', nth: 1, times: 1 };
   if (!lineNamed(frame.line)?.text && frame.bytes?.length >= 4) {
@@ -50,7 +51,7 @@ function ByHand() {
     <small>only while no host has the line open; stations: ${some.join(', ')}</small></div>`;
 }
 
-/// Drops that wait for a request, with what became of them.
+/// Drops that wait for a request, with their results.
 function Drops() {
   const drops = (store.status?.faults ?? []).filter(({ fault }) => fault.startsWith('drop '));
   if (drops.length === 0) return null;

@@ -1,10 +1,10 @@
-// A fault, put together from what the program itself says about faults.
+// The form for a fault, built from the program's own description of faults.
 import { html } from './preact.js';
 import { ask, store } from './store.js';
 import { Button, Choice, spaced } from './small.js';
 import { useKept } from './kept.js';
 
-/// Where a kind may be, as names.
+/// Returns the names of the places that a kind of fault can have.
 function placesFor(place) {
   const lines = (store.bench?.lines ?? []).map((line) => line.name);
   return Object.values(store.devices).flatMap((device) => {
@@ -23,7 +23,7 @@ function placesFor(place) {
 
 function Line({ field, values, setValues }) {
   const set = (event) => setValues({ ...values, [field.name]: event.target.value });
-  const isBounded = field.lowest !== undefined && field.highest < 1e9;  // more is as good as no bound
+  const isBounded = field.lowest !== undefined && field.highest < 1e9;  // a higher limit is no limit in practice
   const range = isBounded ? ` (${field.lowest} to ${field.highest})` : field.lowest > 0 ? ` from ${field.lowest}` : '';
   const label = `${spaced(field.name)}${field.required ? ' *' : ''}`;
   if (field.words) {
@@ -38,7 +38,7 @@ function Line({ field, values, setValues }) {
       spellcheck=${false} autocomplete="off" /></label>`;
 }
 
-/// `places`: the kinds to offer, all without it. `place`: where, if it is settled.
+/// `places` are the kinds of places to offer; without it, all of them. `place` is set if the place is already chosen.
 export function FaultForm({ places, place, done }) {
   const kinds = store.kinds.filter((kind) => !places || places.includes(kind.place));
   const [kindName, setKind] = useKept(`fault at ${place}`, kinds[0]?.name);

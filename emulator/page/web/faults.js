@@ -1,4 +1,4 @@
-// Faults in force, power, snapshots, and what has happened.
+// Active faults, power, snapshots, and recent events.
 import { html, useEffect, useState } from './preact.js';
 import { ask, askQuietly, isLocked, store, withHoles } from './store.js';
 import { Button, Field, Missed, seconds } from './small.js';

@@ -1,9 +1,9 @@
-// What hosts speak of: which addresses of which device, out of the requests that they send.
+// Which addresses of which device hosts use, taken from their requests.
 const kTables = { 1: 'coil', 2: 'discrete', 3: 'holding', 4: 'input', 5: 'coil', 6: 'holding', 15: 'coil', 16: 'holding',
                   22: 'holding', 23: 'holding' };
-const kOne = [5, 6, 22];  // functions of one register
+const kOne = [5, 6, 22];  // functions that access one register
 
-/// `heard`: by device a set of "holding 4096", and of words of its lines of text.
+/// `heard` contains, for each device, a set of "holding 4096", or of the words of its lines of text.
 export function hear(heard, bench, frame) {
   if (frame.way !== 'in' || !bench) return;
   const line = bench.lines.find((it) => it.name === frame.line);
@@ -28,7 +28,7 @@ export function hear(heard, bench, frame) {
 
 const kWords = { u32: 2, s32: 2, f32: 2 };
 
-/// Whether hosts have spoken of it, whole or in part.
+/// Returns whether hosts have used any part of the row.
 export function isHeard(words, row) {
   if (!words) return false;
   if (row.address === undefined) return words.has(row.name);

@@ -1,9 +1,9 @@
-// What somebody has typed, chosen or armed. It outlives the panel where that was done, and, but for what is large, a
-// reload of the page; the tab's own storage has it until the tab is closed.
+// What the user has typed, chosen or armed. It survives a change of the panel and, unless it is large, a reload of the
+// page: the tab's session storage keeps it until the tab is closed.
 import { draw, store } from './store.js';
 
 const kPlace = 'understudy';
-const benches = new Map();  // by socket; '': the page's own
+const benches = new Map();  // by socket; '' is the page's own
 let lasting = {};
 try {
   lasting = JSON.parse(sessionStorage.getItem(kPlace)) ?? {};
@@ -24,7 +24,7 @@ function storeAway() {
 }
 addEventListener('pagehide', storeAway);
 
-/// Of the bench that is shown; `of` '': of the page.
+/// Values belong to the bench that is shown, or to the page if `of` is ''.
 export function kept(name, initial, of = socketShown()) {
   const all = keptOf(of);
   return all.has(name) ? all.get(name) : initial;
@@ -41,7 +41,7 @@ export function keep(name, value, { of = socketShown(), isLasting = true } = {})
   draw();
 }
 
-/// Like useState, but it is still there when the panel comes back.
+/// Like useState, but the value is still there when the panel is shown again.
 export const useKept = (name, initial, isLasting = true) => {
   const of = socketShown();
   return [kept(name, initial, of), (value) => keep(name, value, { of, isLasting })];

@@ -1,4 +1,4 @@
-// The page: a head with time, tabs, and the panel in view.
+// The page: a header with the time, tabs, and the visible panel.
 import { html, render } from './preact.js';
 import { ask, complain, draw, drawBy, hasPower, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, seconds } from './small.js';
@@ -15,9 +15,9 @@ import { keep, kept } from './kept.js';
 const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
                  ['Program', Program], ['Faults', Faults]];
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
-const kMaxNamed = 3;  // devices in the head
+const kMaxNamed = 3;  // devices in the header
 
-/// Where time runs it is stopped first, as run-until asks for.
+/// Stops time first if it runs, because run-until requires it.
 async function runUntil(condition) {
   const { look } = store;
   if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
@@ -33,7 +33,7 @@ function Time() {
   const clock = html`<output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>`;
   if (store.timeline) return html`<div class="time" role="group" aria-label="time">${clock}<span class="badge">recording</span></div>`;
   const stands = look.paused || look.speed === 'manual';
-  const isRunning = !stands || look.advancing;  // what a pause ends
+  const isRunning = !stands || look.advancing;  // a pause ends either
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
   const step = (ticks, name) => html`<${Button} kind="small" title=${`advance by ${name}`} disabled=${locked || isRunning}
@@ -66,7 +66,7 @@ function Devices() {
     ${dark.length > 0 && html`<span class="badge">no power: ${dark.join(', ')}</span>`}</span>`;
 }
 
-/// By its file; where two have the same, by their sockets as well.
+/// Returns the name of its file; if two benches have the same name, the socket is added.
 function nameOf({ socket }, number) {
   const name = store.labels[number] ?? socket.split('/').at(-1);
   const others = store.hello.benches.filter((it, i) => i !== number && (store.labels[i] ?? it.socket.split('/').at(-1)) === name);
@@ -113,4 +113,4 @@ drawBy(() => {
   render(html`<${Page} />`, document.getElementById('page'));
 });
 draw();
-setInterval(draw, 1000);  // flashes end though nothing comes
+setInterval(draw, 1000);  // flashes end even if no message arrives

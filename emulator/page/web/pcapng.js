@@ -1,7 +1,7 @@
-// Frames as a capture that Wireshark opens: a block a frame, an interface a line. As the program's own captures
-// (pty/capture_pcapng.h): each packet names its dissector, so that Modbus RTU is decoded without a flag.
+// Writes frames as a capture for Wireshark, one block per frame and one interface per line. As in the program's own
+// captures (pty/capture_pcapng.h), each packet names its dissector, so Wireshark decodes Modbus RTU without a flag.
 const kUpperPdu = 252;  // "Wireshark upper PDU": tags, then the bytes
-const kStationPort = 19200;  // by which Wireshark can tell requests from replies
+const kStationPort = 19200;  // lets Wireshark distinguish requests from replies
 const [kDissector, kPortType, kSourcePort, kDestinationPort] = [12, 24, 25, 26];
 const kTcp = 2;
 const kNanoseconds = 9;
@@ -41,7 +41,7 @@ function numbers(write, size, ...values) {
   return new Uint8Array(view.buffer);
 }
 const words = (...values) => numbers((view, at, value) => view.setUint32(at, value, true), 4, ...values);
-const halves = (...values) => numbers((view, at, value) => view.setUint16(at, value), 2, ...values);  // of tags: big-endian
+const halves = (...values) => numbers((view, at, value) => view.setUint16(at, value), 2, ...values);  // tags are big-endian
 const tag = (code, value) => joined(halves(code, 4), numbers((view, at, it) => view.setUint32(at, it), 4, value));
 const text = (it) => new TextEncoder().encode(it);
 const bytesOf = (hex) => Uint8Array.from((hex ?? '').match(/../g) ?? [], (pair) => parseInt(pair, 16));
@@ -55,8 +55,8 @@ function dataOf(frame, number, isText) {
     tag(kDestinationPort, ports[1]), halves(0, 0), bytes);
 }
 
-/// `frames` and `lines` as the server tells them, with `{ missed }` where some are missing. What each is in words, what
-/// became of it, and how many before it are not here, is its comment.
+/// `frames` and `lines` are as the server sends them, with `{ missed }` where frames are missing. The comment of a
+/// packet describes the frame and its result, and says how many frames before it are missing.
 export function pcapng(frames, lines) {
   const names = lines.map((line) => line.name);
   const section = block(0x0A0D0D0A, joined(words(0x1A2B3C4D), new Uint8Array([1, 0, 0, 0]), words(0xFFFFFFFF, 0xFFFFFFFF),

@@ -1,4 +1,4 @@
-// Two axes of a device against each other, with the path behind them.
+// Plots two axes of a device against each other, with the path behind them.
 import { html, useEffect, useRef } from './preact.js';
 import { onLook, valueOf } from './store.js';
 import { Button, Choice, grouped } from './small.js';
@@ -49,7 +49,7 @@ function drawTrail(canvas, trail) {
     return [Math.min(...all), Math.max(...all)];
   };
   const [[left, right], [low, high]] = [span(0), span(1)];
-  const size = Math.max((right - left) / width, (high - low) / height, 1 / width) * 1.15;  // pulses a dot, both ways
+  const size = Math.max((right - left) / width, (high - low) / height, 1 / width) * 1.15;  // pulses per pixel, in both directions
   const x = (pulses) => width / 2 + (pulses - (left + right) / 2) / size;
   const y = (pulses) => height / 2 - (pulses - (low + high) / 2) / size;
   context.strokeStyle = look.getPropertyValue('--line');

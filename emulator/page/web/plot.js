@@ -1,4 +1,4 @@
-// A plot of any names over time, and an oscilloscope with every tick around a moment.
+// Plots any names over time, and shows an oscilloscope with every tick around a trigger.
 import { html, useEffect, useRef, useState } from './preact.js';
 import { ask, askQuietly, complain, isLocked, onLook, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped, save } from './small.js';
@@ -8,16 +8,16 @@ const kMax_s = 60;
 const kMaxNames = 8;
 const kHeight = 340;
 
-// Kept while other panels are in view.
+// These values are kept while other panels are visible.
 const names = [];
 const times = [];
-const rows = new Map();  // by name: values beside `times`
-let of = null;           // which bench they are of
+const rows = new Map();  // by name: values at `times`
+let of = null;           // the bench that they belong to
 
 onLook((look) => {
   if (names.length === 0) return;
   const now = look.time_ns / 1e9;
-  if (times.length > 0 && now < times.at(-1)) forget();  // restored, or another daemon
+  if (times.length > 0 && now < times.at(-1)) forget();  // after a restore, or from another daemon
   if (times.at(-1) === now) return;
   times.push(now);
   for (const name of names) rows.get(name).push(numberOf(valueOf(name)));
@@ -47,7 +47,7 @@ function drop(name) {
   names.length > 0 ? want('plot', [...names]) : unwant('plot');
   keep('plotted', [...names]);
 }
-/// Of another bench there are the names that were plotted before; at first its first axis is offered.
+/// For another bench, restores the names that were plotted before; at first, offers its first axis.
 function beginWith(bench) {
   if (of === bench) return;
   names.length = 0;
@@ -57,7 +57,7 @@ function beginWith(bench) {
   for (const name of kept('plotted', suggestions().slice(0, 1))) add(name);
 }
 
-/// Names to offer: of axes, terminals and the registers that tell a device's state.
+/// Returns the names to offer: of axes, terminals and the registers that show a device's state.
 function suggestions() {
   return Object.values(store.devices).flatMap((device) => [
     ...device.axes.flatMap((axis) => ['position', 'speed', 'pulses', 'target', 'home'].map((it) => `${device.name}.${axis.name}.${it}`)),
@@ -72,7 +72,7 @@ const colour = (name) => getComputedStyle(document.documentElement).getPropertyV
 const kTwoLevels = ['digital_in', 'digital_out', 'dip_switch', 'pulse_out'];
 const kContacts = ['home', 'near_home', 'mark', 'lower_limit', 'upper_limit', 'index', 'servo', 'ready', 'alarm'];
 
-/// What is on or off: by the bench's own tables, or because it has been both and nothing else.
+/// Returns whether the curve is on or off: the bench's tables say so, or it has had both values and no other.
 function isLevel(label, row) {
   const [name, ...rest] = label.split('.');
   const device = store.devices[name];
@@ -84,11 +84,11 @@ function isLevel(label, row) {
   return seen.size === 2 && seen.has(0) && seen.has(1);
 }
 
-/// A lane at the foot of the drawing, from off to on a twentieth of its height.
+/// A lane at the bottom of the plot; the step from off to on is a twentieth of the plot's height.
 const lane = (number) => ({ range: () => [-(0.4 + 1.4 * number), 20 - (0.4 + 1.4 * number)] });
 
-/// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed. What is on or off has a lane of
-/// its own; `isApart`: so have all others their scale.
+/// A uPlot drawing of changing columns. Once the user has zoomed, it keeps its range. Each on/off curve has a lane of
+/// its own. With `isApart`, each of the other curves has a scale of its own.
 function Drawing({ columns, labels, window_s, isShot, isApart }) {
   const place = useRef(null);
   const plot = useRef(null);
@@ -108,7 +108,7 @@ function Drawing({ columns, labels, window_s, isShot, isApart }) {
     const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
     const size = (_, shown) => 16 + 8 * Math.max(3, ...(shown ?? []).map((text) => String(text).length));
     const lanes = scales.filter((_, i) => levels[i]);
-    const fits = Math.max(1, Math.floor(width() / 350));  // more would leave no room for the curves
+    const fits = Math.max(1, Math.floor(width() / 350));  // more would leave no space for the curves
     const upright = [...new Set(scales.filter((_, i) => !levels[i]))].slice(0, fits).map((scale, number) => ({ ...axis, scale, size,
       stroke: isApart ? colour(`--c${scale.slice(1)}`) : ink, grid: { ...axis.grid, show: number === 0 } }));
     zoomed.current = false;
@@ -141,7 +141,7 @@ function asCsv(labels, columns) {
   return [['time_s', ...labels].join(','), ...lines, ''].join('\n');
 }
 
-/// The drawing on its ground, with what the curves are.
+/// Saves the drawing on its background, with the names of the curves.
 function savePicture(labels) {
   const drawn = document.querySelector('.drawing canvas');
   if (!drawn) return;
@@ -164,7 +164,7 @@ function savePicture(labels) {
   picture.toBlob((bytes) => save('plot.png', [bytes], 'image/png'));
 }
 
-/// All samples of a shot, as columns: seconds from its moment, then each name.
+/// Returns all samples of a shot as columns: seconds from its trigger, then each name.
 async function samplesOf(scope) {
   const columns = [[], ...scope.names.map(() => [])];
   for (let from = 0; from !== undefined && from < scope.count;) {
@@ -178,7 +178,7 @@ async function samplesOf(scope) {
   return columns;
 }
 
-// What the daemon says of its scope: it stays armed whichever panel is in view, and whoever has armed it.
+// The daemon's state of the scope. It stays armed whichever panel is visible, and whoever armed it.
 let isWatched = false;
 const sayScope = (state) => keep('state of the scope', state, { isLasting: false });
 async function watchScope(isWanted) {

@@ -1,13 +1,13 @@
-// The program: its listing with the line that runs, what it waits for, values beside it; started, stopped and loaded.
+// The program: its listing with the running line, what it waits for, and values beside it; starts, stops and loads it.
 import { html, useEffect, useRef, useState } from './preact.js';
 import { ask, askQuietly, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped } from './small.js';
 import { useKept } from './kept.js';
 
 const kLook_ms = 150;
-const kMaxLines = 4000;  // of a listing; more would make the page slow
+const kMaxLines = 4000;  // in a listing; more would make the page slow
 
-// Since when each program waits for the same thing at the same line, in simulated time.
+// The simulated time since which each program has been waiting for the same thing at the same line.
 const waits = new Map();
 function waited_ns(key, program) {
   const what = `${program.line} ${program.waits_for}`;
@@ -31,8 +31,8 @@ function Waits({ device, program }) {
     ${program.why && html` <span class=${program.state === 'failed' ? 'bad' : ''}>${program.why}</span>`}</li>`;
 }
 
-/// What a host would do: write registers one after the other, give a command, or a line of text. None of it touches the
-/// line, where a host may be.
+/// Does what a host would do: writes registers one after another, executes a command, or sends a line of text. None of
+/// these uses the line, which a host may have open.
 async function act(device, control, number) {
   const fill = (text) => text.replace('{}', number);
   const text = control.command ?? control.text;
@@ -61,7 +61,7 @@ function Listing({ lines, running }) {
     const line = box?.children[first - 1];
     if (!line) return;
     const isOut = line.offsetTop < box.scrollTop || line.offsetTop + line.offsetHeight > box.scrollTop + box.clientHeight;
-    if (isOut) box.scrollTop = line.offsetTop - box.clientHeight / 3;  // the box alone, never the page
+    if (isOut) box.scrollTop = line.offsetTop - box.clientHeight / 3;  // scrolls only the box, never the page
   }, [first]);
   return html`<ol class="listing" ref=${list} tabindex="0" aria-label="listing">${lines.map((line, i) => html`<li key=${i}
     class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code></li>`)}</ol>`;
@@ -103,7 +103,7 @@ export function Program() {
     setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : '');
     setUnread(reply.ok ? '' : reply.error);
   };
-  // Whoever has loaded another program: it is read again.
+  // Reads the program again after anyone has loaded another one.
   const loaded = store.events.filter((it) => it.what === 'program' || it.what === 'power').at(-1)?.number ?? 0;
   useEffect(() => { if (device) read(); }, [device?.name, store.bench, loaded]);
   useEffect(() => {

@@ -1,4 +1,5 @@
-// The rail of an axis: its travel, what lies along it, where it is, where it goes, and where it is taken to be.
+// The rail of an axis shows its travel, its switches, its position and target, and where the controller believes it to
+// be.
 import { html, useState } from './preact.js';
 import { store, valueOf } from './store.js';
 import { grouped, isOn, spaced } from './small.js';
@@ -6,7 +7,7 @@ import { grouped, isOn, spaced } from './small.js';
 export const kSwitches = ['lower_limit', 'near_home', 'home', 'mark', 'upper_limit'];
 const kZoneTop = { lower_limit: 42, upper_limit: 42, home: 42, near_home: 55, mark: 55 };
 
-// The stretch that each rail shows; it only grows, so that nothing jumps.
+// The range that each rail shows. It only grows, so the picture does not jump.
 const stretches = new Map();
 
 function stretchOf(key, machine, places) {
@@ -27,7 +28,7 @@ function stretchOf(key, machine, places) {
   return made;
 }
 
-/// Where a switch is on, as drawn: a limit is on from its place outwards.
+/// Returns where a switch is on in the drawing: a limit is on from its position outwards.
 function zoneOf(name, machine, stretch) {
   const it = machine[name];
   if (!it) return null;
@@ -35,17 +36,17 @@ function zoneOf(name, machine, stretch) {
   return name === 'lower_limit' ? [stretch.low, it.at] : [it.at, stretch.high];
 }
 
-/// Round numbers along it, three to five.
+/// Returns three to five round numbers along the rail.
 function marksOf({ low, high }) {
   const rough = (high - low) / 5;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((it) => it >= rough);
   const all = [];
-  for (let at = Math.ceil(low / step) * step; at <= high; at += step) all.push(Math.round(at) + 0);  // no -0
+  for (let at = Math.ceil(low / step) * step; at <= high; at += step) all.push(Math.round(at) + 0);  // avoids -0
   return all;
 }
 
-/// Where the encoder has the machine to be, in pulses; nothing where it has none on the motor.
+/// Returns where the encoder puts the machine, in pulses, or nothing if there is no encoder on the motor.
 function encoderPlace(machine, counts) {
   const { encoder } = machine;
   if (!encoder || encoder.wheel || typeof counts !== 'number') return null;
@@ -53,9 +54,10 @@ function encoderPlace(machine, counts) {
   return (machine.start ?? 0) + (encoder.reversed ? -pulses : pulses);
 }
 
-/// The carriage: whoever drags it pushes the machine so far, as when it slips. `perDot`: pulses a dot, of a rail so wide.
+/// The carriage. Dragging it pushes the machine by that distance, as when it slips. `perDot` is pulses per pixel for a
+/// rail of this width.
 function Carriage({ x, slip, perDot }) {
-  const [drag, setDrag] = useState(null);  // where it was taken, and how far it is from there, in dots
+  const [drag, setDrag] = useState(null);  // where it was grabbed, and how far it is from there, in pixels
   const rail = (event) => event.currentTarget.closest('.rail');
   const pulses = drag && drag.rail ? Math.round((drag.to - drag.from) * perDot(drag.rail.clientWidth)) : 0;
   const take = (event) => {
@@ -76,7 +78,8 @@ function Carriage({ x, slip, perDot }) {
   </svg>`;
 }
 
-/// `press(contact)`: what a click on its zone does, if anything. `slip(pulses)`: pushes the machine, if it may.
+/// `press(contact)` is the action of a click on the contact's zone, if there is one. `slip(pulses)` pushes the machine,
+/// if that is allowed.
 export function Rail({ device, axis, press, slip }) {
   const name = `${device.name}.${axis.name}`;
   const value = (what) => valueOf(`${name}.${what}`);
@@ -96,7 +99,7 @@ export function Rail({ device, axis, press, slip }) {
                 differs(pulses) ? `commanded ${grouped(pulses)}` : '', isOff ? `encoder at ${grouped(Math.round(encoder))}` : '']
     .filter(Boolean).join(', ');
   const marks = marksOf(stretch);
-  const anchor = (at) => (share(at) <= 8 ? 'start' : share(at) >= 92 ? 'end' : 'middle');  // at its ends a rail has half the room
+  const anchor = (at) => (share(at) <= 8 ? 'start' : share(at) >= 92 ? 'end' : 'middle');  // at its ends a rail has half the space
   return html`<svg class="rail" role="img" aria-label=${says}>
     <rect class="bed" x="0" y="32" width="100%" height="8" />
     ${marks.map((at) => html`<g key=${at}><rect class="tick" x=${x(at)} y="68" width="1" height="4" />

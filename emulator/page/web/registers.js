@@ -1,4 +1,5 @@
-// Registers by the manual's sections: values, ranges, bits, who changed them; written with the range check's own words.
+// Registers by the manual's sections, with values, ranges, bits, and who changed them. A write reports the program's
+// own range check.
 import { html, useEffect, useState } from './preact.js';
 import { ask, askQuietly, complain, flashOf, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped, save } from './small.js';
@@ -59,7 +60,7 @@ async function allOf(message, key) {
   return all;
 }
 
-// Every row of a device's tables, asked for once: of the bench that is shown.
+// Requests every row of a device's tables once, for the bench that is shown.
 const tables = new Map();
 function tableOf(device) {
   if (tables.get(device.name)?.device !== device) {

@@ -1,4 +1,4 @@
-// Signals: every terminal, its level, and who drives it. A click holds an input, another lets it go.
+// Signals: every terminal, its level, and what drives it. A click holds an input, another click releases it.
 import { html, useEffect } from './preact.js';
 import { ask, complain, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Field, Lamp, Slider, isOn } from './small.js';
@@ -11,7 +11,7 @@ const kTitles = {
   dip_switch: 'DIP switches, read at power-up', counted_in: 'Counted inputs', analog_out: 'Analog outputs',
   pulse_out: 'Pulse outputs',
 };
-const kMaxTerminals = 900;  // two names each, of 2,000 that a page may watch
+const kMaxTerminals = 900;  // two names each; a page may watch 2,000
 
 function numberFrom(text) {
   const number = Number(text);
@@ -19,7 +19,7 @@ function numberFrom(text) {
   return Number.isFinite(number) ? number : null;
 }
 
-/// Inputs are buttons; outputs are only shown.
+/// Inputs are buttons; outputs are only displayed.
 function Digital({ device, terminal }) {
   const name = `${device}.${terminal.name}`;
   const [level, by] = [valueOf(name), valueOf(`${name}@by`) ?? ''];

@@ -1,17 +1,18 @@
-// Small things that several panels are made of.
+// Small parts that several panels use.
 import { html, useRef, useState } from './preact.js';
 import { useKept } from './kept.js';
 
 export const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
 export const grouped = (number) =>
   typeof number === 'number' ? number.toLocaleString('en', { maximumFractionDigits: 1, minimumFractionDigits: Number.isInteger(number) ? 0 : 1 }) : '–';
-/// What changes all the time keeps its places.
+/// A changing number always has the same number of decimals.
 export const inTenths = (number) =>
   typeof number === 'number' ? number.toLocaleString('en', { minimumFractionDigits: 1, maximumFractionDigits: 1 }) : '–';
 export const isOn = (value) => value === 1 || value === true;
 export const spaced = (name) => name.replaceAll('_', ' ');
 
-/// Calls `act` once at a time; of what is wished meanwhile only the last counts, so that dragging makes no queue.
+/// Runs one call of `act` at a time. Of the calls that arrive meanwhile only the last one counts, so dragging builds no
+/// queue.
 export function latest(act) {
   let isUnderWay = false;
   let wish = null;
@@ -28,17 +29,18 @@ export function latest(act) {
   };
 }
 
-/// A button that is only a picture to sighted people says to others what it does.
+/// A button that shows only a picture still has a label for screen readers.
 export function Button({ does, title, pressed, disabled, kind = '', children }) {
   return html`<button type="button" class=${kind} title=${title} aria-label=${title} aria-pressed=${pressed}
     disabled=${disabled} onClick=${does}>${children}</button>`;
 }
 
-/// A text field that hands over what was typed at Enter. `of`: whose it is, where several have the same label.
+/// A text field that passes on its text when Enter is pressed. `of` is its owner, if several fields have the same
+/// label.
 export function Field({ label, of = '', placeholder, takes, list, size = 12, disabled }) {
   const [text, keepText] = useKept(`field ${of} ${label}`, '');
   const setText = (to) => keepText(to === '' ? undefined : to);
-  // What stands there, not what was drawn last: who types fast is ahead of the drawing.
+  // Uses the present text, not the text of the last drawing: a fast typist is ahead of the drawing.
   const send = async ({ value }) => {
     if (value.trim() !== '' && await takes(value.trim()) !== false) setText('');
   };
@@ -57,7 +59,7 @@ export function Choice({ label, value, options, takes, disabled }) {
     })}</select>`;
 }
 
-/// Under a hand it shows what the hand says, not what the bench has said last.
+/// While it is dragged, it shows the dragged value, not the last value from the bench.
 export function Slider({ label, lowest, highest, value, takes, disabled }) {
   const [dragged, setDragged] = useState(null);
   const kept = useRef({});
@@ -79,7 +81,7 @@ export function Lamp({ on, says }) {
     role="img" aria-label=${`${says}: ${isOn(on) ? 'on' : 'off'}`}></span>`;
 }
 
-/// Gives the browser a file to keep.
+/// Offers the browser a file to save.
 export function save(name, parts, type) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob(parts, { type }));
@@ -88,7 +90,7 @@ export function save(name, parts, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/// A row of a list where some are missing that have been.
+/// A row that stands for missing items of a list.
 export function Missed({ count, what, columns }) {
   return html`<tr class="missed"><td colspan=${columns}>${grouped(count)} ${what} not shown</td></tr>`;
 }

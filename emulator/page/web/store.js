@@ -1,4 +1,4 @@
-// What the page knows of the bench that it shows. Panels read it; nothing but this file writes what the server told.
+// The page's knowledge of the bench that it shows. Panels read it; only this file writes what the server sends.
 import { Wire } from './wire.js';
 import { hear } from './heard.js';
 
@@ -7,15 +7,15 @@ const kMaxEvents = 500;
 const kFlash_ms = 1200;
 
 export const store = {
-  link: 'connecting to the server',  // '' while all is well
+  link: 'connecting to the server',  // '' if all is well
   hello: null,
-  number: 0,        // which bench is shown
-  states: [],       // of each: there, silent, gone, unknown
-  epochs: [],       // of each: another daemon has another
-  labels: [],       // of each, where there are several: its bench file
+  number: 0,        // the bench that is shown
+  states: [],       // of each bench: there, silent, gone, unknown
+  epochs: [],       // of each bench; a new daemon has a new one
+  labels: [],       // of each bench, if there are several: its file
   bench: null,      // the reply to `bench`
   devices: {},      // by name: the reply to `bench` with a device
-  kinds: [],        // of faults
+  kinds: [],        // kinds of faults
   trigger: [],
   values: {},
   frames: [],
@@ -24,9 +24,9 @@ export const store = {
   eventsLost: 0,
   status: null,
   look: null,       // time_ns, paused, speed, advancing
-  changes: {},      // by name: when it changed last, and by whom
-  heard: new Map(), // by device: what its hosts have spoken of (heard.js)
-  said: null,       // the last thing that went wrong: { text, at }
+  changes: {},      // by name: time and author of the last change
+  heard: new Map(), // by device: what its hosts have used (heard.js)
+  said: null,       // the last error: { text, at }
   timeline: null,   // of a recording: { begin_ns, end_ns, marks }
 };
 
@@ -42,7 +42,7 @@ export function draw() {
   requestAnimationFrame(() => { asked = false; drawn(); });
 }
 
-// Names that the panels in view want, by panel.
+// The names that the visible panels want, by panel.
 const wanted = new Map();
 let watched = new Set();
 let lastWatch = '';
@@ -50,7 +50,7 @@ export function want(panel, names) {
   wanted.set(panel, names);
   watch();
 }
-/// The next panel may want the same names: it has a moment to say so.
+/// Waits a moment, because the next panel may want the same names.
 export function unwant(panel) {
   wanted.delete(panel);
   setTimeout(watch, 100);
@@ -61,7 +61,7 @@ function watch() {
   if (wish === lastWatch) return;
   lastWatch = wish;
   watched = new Set(names);
-  // What is not told any more grows old: whoever wants it later must not take it for the present value.
+  // Values that are no longer sent become outdated. Delete them, so that no panel takes them for present values.
   for (const name of Object.keys(store.values)) if (!watched.has(name)) delete store.values[name];
   wire.watch(store.number, { names, frames: true, events: true, status: true });
 }
@@ -72,7 +72,7 @@ const wire = new Wire({
     store.hello = hello;
     store.states = hello.benches.map((bench) => bench.state);
     store.epochs = hello.benches.map((bench) => bench.epoch);
-    isKnown = false;  // whatever was told before is told again
+    isKnown = false;  // the server sends everything again
     show(Math.min(store.number, hello.benches.length - 1));
     hello.benches.forEach((_, number) => learnLabel(number));
   },
@@ -99,7 +99,8 @@ const wire = new Wire({
 function take(look) {
   if (look.bench !== store.number) return;
   const now = performance.now();
-  // Back to a snapshot: what came after has not happened. Elsewhere in a recording: what led there is told anew.
+  // Time went back to a snapshot, so what came after it has not happened; or a recording moved, and the server sends
+  // its past again.
   const moved = store.look ? look.time_ns - store.look.time_ns : 0;
   if (moved < 0 || (store.timeline && moved !== 0)) Object.assign(store, { frames: [], events: [], changes: {} });
   store.look = look;
@@ -114,7 +115,7 @@ function take(look) {
   for (const event of look.events ?? []) {
     if (event.what === 'write' && event.name) store.changes[event.name] = { at: now, by: event.by };
   }
-  // What a host has spoken of is only understood when the bench is known, which takes a few questions.
+  // Frames can only be interpreted when the bench is known, which takes some requests.
   unheard.push(...(look.frames ?? []));
   hearAll();
   store.frames = joined(store.frames, look.frames, kMaxFrames);
@@ -133,7 +134,7 @@ function hearAll() {
   unheard = [];
 }
 
-/// The last of both, each with how many before it were `missed`.
+/// Returns the last items of both lists. An item has the number of `missed` ones before it.
 function joined(list, more, most) {
   const all = [...list];
   for (const one of more ?? []) {
@@ -143,7 +144,7 @@ function joined(list, more, most) {
   return all.slice(-most);
 }
 
-/// Those that fit, and `{ missed, key }` where some were missed.
+/// Returns the items that fit, with `{ missed, key }` where some were missed.
 export function withHoles(list, fits = () => true) {
   const shown = [];
   let missed = 0;
@@ -158,7 +159,7 @@ export function withHoles(list, fits = () => true) {
   return shown;
 }
 
-/// Another bench, or the same once more.
+/// Shows another bench, or the same one again.
 export function show(number) {
   const isOther = number !== store.number;
   store.number = number;
@@ -169,14 +170,14 @@ export function show(number) {
   draw();
 }
 
-let isKnown = false;  // what is told goes on from what was told of this daemon before
+let isKnown = false;  // whether messages continue the previous ones of this daemon
 function forget() {
   unheard = [];
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
                          changes: {}, framesLost: 0, eventsLost: 0, heard: new Map(), timeline: null });
 }
 
-/// Of several benches, what to call each.
+/// Finds a label for each of several benches.
 async function learnLabel(number) {
   if (store.hello.benches.length < 2) return;
   const { daemon } = await wire.ask(number, { do: 'identify' });
@@ -185,7 +186,7 @@ async function learnLabel(number) {
   draw();
 }
 
-/// A recording has a timeline; a bench that runs refuses the question.
+/// A recording has a timeline; a running bench refuses the request.
 async function timelineOf(number) {
   let timeline = null;
   for (let from = 0; from !== undefined;) {
@@ -226,25 +227,25 @@ export function complain(text) {
   draw();
 }
 
-/// A message to the bench that is shown; what is refused is said in the page's own words line.
+/// Sends a message to the bench that is shown. A refusal is displayed in the page's status line.
 export async function ask(message) {
   const reply = await wire.ask(store.number, message);
   if (!reply.ok) complain(reply.error ?? 'refused');
   else store.said = null;
   return reply;
 }
-/// The same for those who look for themselves whether it worked.
+/// Like ask(), for callers that check the result themselves.
 export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
-/// Whether nothing may be changed here: a recording shows what happened.
+/// Returns whether changes are disabled: a recording only shows what happened.
 export const isLocked = () => isReadOnly() || store.timeline !== null;
 export const valueOf = (name) => store.values[name];
 export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';
-/// Whether a device runs a program of its own.
+/// Returns whether a program runs in the device.
 export const runsProgram = (device) => store.status?.devices.find((it) => it.name === device)?.runs ?? false;
-/// 'host', 'page', 'control', 'program', 'device' for a moment after a change; '' otherwise. What changes without an event
-/// was changed by its device: by its program, if one runs and programs may write it.
+/// Returns 'host', 'page', 'control', 'program' or 'device' for a moment after a change, otherwise ''. A change without
+/// an event comes from the device, or from its program if one is running and programs may write the register.
 export function flashOf(name, device, isWritable) {
   const change = store.changes[name];
   if (!change || performance.now() - change.at > kFlash_ms) return '';

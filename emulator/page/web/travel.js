@@ -1,4 +1,4 @@
-// The bar of a recording: any moment of it, by hand, by steps, by what stands out.
+// The timeline of a recording, which moves to any moment: by dragging, by steps, or to its marks.
 import { html, useRef, useState } from './preact.js';
 import { ask, draw, isReadOnly, store } from './store.js';
 import { Button, Choice, seconds } from './small.js';
@@ -11,11 +11,11 @@ const kKeys = { ',': ['tick', -1], '.': ['tick', 1], '[': ['frame', -1], ']': ['
 
 const sayMark = (mark) => [seconds(mark.time_ns), mark.what, mark.device ?? mark.line ?? '', mark.text ?? ''].filter(Boolean).join(' ');
 
-// One question at a time; while it is under way only the last wish is kept, so that dragging never makes a queue.
+// Sends one request at a time. Meanwhile only the last wish is kept, so dragging never builds a queue.
 let isUnderWay = false;
 let wish = null;
 async function seek(message) {
-  // Steps asked for meanwhile are gone together.
+  // Steps that arrive meanwhile are added up.
   const isMore = wish?.by && wish.by === message.by;
   wish = isMore ? { by: wish.by, steps: wish.steps + message.steps } : message;
   if (isUnderWay) return;

@@ -1,6 +1,6 @@
-// The WebSocket to the page's server (docs/page.md): asks, watches, and connects again when it breaks.
-const kQuiet_ms = 2500;  // then the server is asked whether it is there,
-const kDead_ms = 5000;   // and then taken to be gone
+// The WebSocket to the page's server (docs/page.md): sends requests, watches benches, and reconnects after a failure.
+const kQuiet_ms = 2500;  // then the client pings the server,
+const kDead_ms = 5000;   // and then gives it up
 
 export class Wire {
   constructor(hears) {
@@ -14,7 +14,7 @@ export class Wire {
     setInterval(() => this.listen(), 500);
   }
 
-  // A server that is stuck, or a tunnel that has broken, closes nothing: it is only quiet.
+  // A hung server or a broken tunnel closes nothing; it only falls silent.
   listen() {
     const quiet_ms = performance.now() - this.heardAt;
     if (!this.isKnown || quiet_ms < kQuiet_ms) return;
@@ -68,13 +68,13 @@ export class Wire {
     if (this.isKnown) this.socket.send(JSON.stringify(message));
   }
 
-  // What this browser wants to be told of a bench from now on: { names: [...], frames, events, status }.
+  // Sets what this browser wants to receive of a bench from now on: { names: [...], frames, events, status }.
   watch(bench, wanted) {
     this.watched.set(bench, wanted);
     this.say({ do: 'watch', bench, ...wanted });
   }
 
-  // A message of docs/control.md; resolves with its reply.
+  // Sends a message of docs/control.md, and resolves to its reply.
   ask(bench, message) {
     if (!this.isKnown) return Promise.resolve({ ok: false, error: 'the page has no server' });
     const id = ++this.lastId;

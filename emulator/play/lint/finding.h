@@ -24,7 +24,7 @@ struct Finding {
   SimTime first{0};
   SimTime last{0};
   SimTime extreme{0};     // the shortest silence, the longest gap
-  std::string command{};  // that the first one was, where it has a name
+  std::string command{};  // with the name of the first one, if it has one
 
   void add(SimTime at, const std::string& its_command = {}) {
     if (count == 0) {

@@ -104,7 +104,7 @@ void HostLint::begin_anew() {
 
 void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_heard) begin_anew();  // a host that nobody hears has other problems
+  if (!follows || !is_heard) begin_anew();  // a host that no device receives has other problems
   last_number_ = character.number;
   under_way_.reset();
   if (!is_heard) return;

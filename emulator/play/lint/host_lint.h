@@ -55,8 +55,8 @@ class HostLint final : public pty::LineObserver {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
-    std::string command{};          // its name, where it has one
-    std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is carried out
+    std::string command{};          // its name, if it has one
+    std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is executed
   };
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }

@@ -32,7 +32,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// To read a case again costs less than a tenth of a run, but suites of an ordinary size need not do so.
+// Reading a case again costs less than a tenth of a run, but suites of an ordinary size need not do so.
 constexpr std::size_t kMaxHeld = 1000;
 constexpr std::size_t kMaxShared = 256;  // benches and files of steps
 constexpr std::size_t kTrimEvery = 256;  // files

@@ -58,7 +58,7 @@ bool names_peaks(const Steps& steps) {
                      [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
 }
 
-/// Tells whether a step advances time or sets it back.
+/// Returns whether a step advances time or sets it back.
 struct MovesTime {
   bool operator()(const WriteStep&) const { return true; }
   bool operator()(const CommandStep&) const { return true; }

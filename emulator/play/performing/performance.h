@@ -58,7 +58,7 @@ class Performance {
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
 
-  /// Executes the first of `steps`, which must not be a snapshot, a restore or a fork. The steps behind it
+  /// Executes the first of `steps`, which must not be a snapshot, a restore or a fork. The steps after it
   /// show what will be waited for.
   std::optional<Failure> play(std::span<const Step> steps);
 
@@ -80,7 +80,7 @@ class Performance {
     SpanWatch spans;
     world::FrameLog frames;
     std::unique_ptr<world::OutcomeHash> hash;
-    std::map<std::string, ConditionHistory> histories;  // by the condition that a `wait` after a write has
+    std::map<std::string, ConditionHistory> histories;  // for the condition of a `wait` after a write
   };
   struct Place {
     std::size_t line = 0;
@@ -94,7 +94,7 @@ class Performance {
   void perform(const ExpectStep& step);
   void perform(const SendStep& step);
   void perform(const TextStep& step);  // performance_text.cpp
-  /// Reads the words of each target, one after the other.
+  /// Reads the words of each target, one after another.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          const Answer& answer, const Via& via);
   /// Returns the line and the present station number of a device.
@@ -146,7 +146,7 @@ class Performance {
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<Eyes> eyes_;
   bool keeps_peaks_ = false;
-  const Step* step_ = nullptr;                               // the one that is played
+  const Step* step_ = nullptr;                               // the one that runs
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
   Tick last_write_ = 0;                                      // at a checkpoint, until the next write
 };

@@ -1,4 +1,4 @@
-// Plays a scenario on a bench whose lines belong to another host program: it acts on the world from outside,
+// Runs a scenario on a bench whose lines belong to another host program: it acts on the world from outside,
 // and checks it meanwhile.
 #pragma once
 

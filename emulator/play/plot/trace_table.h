@@ -14,7 +14,7 @@ namespace understudy::emulator::play {
 struct TraceTable {
   std::vector<std::string> names;
   std::vector<Tick> ticks;                   // they ascend
-  std::vector<std::vector<double>> columns;  // one a name, each as long as `ticks`
+  std::vector<std::vector<double>> columns;  // one per name, each as long as `ticks`
 };
 
 /// Both throw FileError with the line.

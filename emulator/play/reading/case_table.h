@@ -36,7 +36,7 @@ class CaseTable {
   world::YamlFields place_of(std::uint64_t number) const;
 
   /// Returns cases that have each row and each listed value at least once, and both ends and some more values
-  /// of each range. It returns all cases of a few, and hardly more than necessary of many.
+  /// of each range. It returns all cases if there are few, and hardly more than necessary if there are many.
   std::vector<std::uint64_t> typical() const;
 
  private:

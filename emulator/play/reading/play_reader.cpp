@@ -264,7 +264,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   scenario.file = file_.path;
   scenario.which = which;
   scenario.name = std::filesystem::path(file_.path).stem().string();
-  // Without its bench, the steps cannot be judged.
+  // Without its bench, the steps cannot be checked.
   scenario.bench = read_its_bench(root);
   choose(number, scenario.bench);
   for (const world::DeviceSetup& device : scenario.bench.devices) {

@@ -19,7 +19,7 @@
 
 namespace understudy::emulator::play {
 
-/// What all plays of a file share.
+/// Data that all plays of a file share.
 struct FilePlays {
   std::string path;
   std::string save_below;             // what is saved must be below this folder
@@ -28,7 +28,7 @@ struct FilePlays {
   FileReading reading;
   /// What the cases so far save, while all of them are read.
   std::optional<std::vector<FileClaim>> saved_before{};
-  /// Of the file's own parameters those that a play has used.
+  /// The file's own parameters that a play has used.
   std::set<std::string> used_parameters{};
 };
 
@@ -36,13 +36,14 @@ class PlayReader {
  public:
   /// A file that is one play.
   PlayReader(const world::YamlFields& root, FilePlays& file);
-  /// One of several; `common` is what the file says of all of them. Throws FileError.
+  /// Reads one of several plays; `common` is the part of the file that applies to all of them. Throws
+  /// FileError.
   PlayReader(const world::YamlFields& play, const world::YamlFields& common, FilePlays& file);
 
   const CaseTable& cases() const { return cases_; }
   Case case_of(std::uint64_t number) const;
   std::string name_of(std::uint64_t number) const;
-  /// The name without any case's values; empty where the file's stands for it.
+  /// The name without any case's values; empty if the file's name applies.
   std::string written_name() const;
   /// Reads a case and checks everything in it. Throws FileError.
   Scenario read(std::uint64_t number);
@@ -59,7 +60,7 @@ class PlayReader {
   void require_own_paths(const StepsReader& steps, Scenario& scenario);
 
   world::YamlFields own_;   // as it is written
-  world::YamlFields root_;  // with what the file says of all
+  world::YamlFields root_;  // with the common part of the file
   FilePlays& file_;
   bool is_one_of_several_ = false;
   CaseTable cases_;

@@ -9,7 +9,7 @@ namespace understudy::emulator::play {
 
 inline constexpr std::array<const world::Schema*, 2> kBenchWays{&world::kText, &world::kInlineBenchSchema};
 inline constexpr world::Schema kBenchOrFileSchema = world::any_of_schemas(kBenchWays);
-/// What a play changes of the file's bench need not be a bench by itself.
+/// A play's changes to the file's bench need not be a bench on their own.
 inline constexpr world::Schema kBenchPartSchema = world::part_form(world::kInlineBenchSchema);
 inline constexpr std::array<const world::Schema*, 2> kBenchPartWays{&world::kText, &kBenchPartSchema};
 inline constexpr world::Schema kBenchOrPartSchema = world::any_of_schemas(kBenchPartWays);
@@ -74,7 +74,8 @@ inline constexpr world::Key kChoiceKey{
 inline constexpr world::Key kVaryKey{
     "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};
 
-/// A play has the keys of a scenario. It may leave out `bench`, and what else the file gives to all of them.
+/// A play has the keys of a scenario. It can omit `bench`, and everything else that the file gives to all of
+/// them.
 inline constexpr std::array kPlayKeys{
     world::Key{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
     world::Key{kBenchKey.key, "The bench; if the file also has one, the differences from it.",

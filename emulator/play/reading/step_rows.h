@@ -21,8 +21,8 @@ struct StepRow {
   /// Adds the step that `value` describes. Its map `step` may have no other keys than those of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::Key> beside{};
-  /// Tells, for a step that cannot be read, whether other steps may need a name that it defines, or it needs
-  /// one of theirs.
+  /// Returns, for a step that cannot be read, whether other steps may need a name that it defines, or it
+  /// needs one of theirs.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 

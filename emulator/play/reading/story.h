@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 /// The names that are valid at one moment, and again after a restore to it.
 struct StoryMoment {
-  std::vector<std::string> faults;  // in force
+  std::vector<std::string> faults;  // in effect
   std::vector<std::string> spans;   // open
 };
 

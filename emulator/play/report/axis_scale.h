@@ -13,10 +13,10 @@ struct AxisScale {
   int decimals = 0;           // that the marks need
 };
 
-/// Returns a scale from the least to the greatest value, and a little beyond so that lines do not touch the
+/// Returns a scale from the smallest to the largest value, and a little beyond so that lines do not touch the
 /// frame, with at most this many marks (at least 2). A constant value is in the middle.
 AxisScale scale_for(double least, double greatest, int most_marks);
-/// Like the above, from exactly the least to exactly the greatest value.
+/// Like the above, from exactly the smallest to exactly the largest value.
 AxisScale exact_scale_for(double low, double high, int most_marks);
 
 /// Returns "32000" or "10666.67": whole numbers in full, others with seven digits.

@@ -1,5 +1,5 @@
-// One signal over time in a bounded number of points. If there are too many values, the first, the least,
-// the greatest and the last of each stretch of time are kept, each at its own time.
+// One signal over time in a bounded number of points. If there are too many values, the first, the smallest,
+// the largest and the last of each stretch of time are kept, each at its own time.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class Envelope {
   /// Repeats the last value at every tick up to `last`. The cost is one step for each stretch.
   void stay(Tick last);
 
-  /// Returns the points in the order of time. While a value stays the same only its first and last points
+  /// Returns the points in chronological order. While a value stays the same only its first and last points
   /// are kept. A line through the points is the signal, or encloses it.
   std::vector<Point> points() const;
   /// Returns true if there were at least two different values.

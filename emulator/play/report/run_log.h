@@ -15,7 +15,7 @@ struct SeenSignal {
   enum class Kind : std::uint8_t {
     position,  // of the machine, in pulses
     pulses,    // that an axis has sent
-    speed,     // by plan, in pulses a second
+    speed,     // by plan, in pulses per second
     duty,      // of an axis that drives by PWM, in percent
     voltage,   // of an analog input or output, in volts
     level,     // an analog input without a unit, a group of terminals, or a count
@@ -47,7 +47,7 @@ struct Stretch {
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
-  std::vector<SeenFrame> frames;  // in the order of time; the first and the last ones if there were many
+  std::vector<SeenFrame> frames;  // in chronological order; the first and the last ones if there were many
   std::size_t frames_left_out = 0;
   std::size_t left_out_at = 0;  // before this one
 };

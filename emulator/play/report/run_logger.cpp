@@ -161,7 +161,7 @@ void RunLogger::end_stretch() {
     stretch.frames_left_out += more;
   }
   stretch.left_out_at = kFramesKept;
-  // Bytes that are no frame are reported once that is certain, which may be after the next frame.
+  // Bytes that are not a frame are reported once that is certain, which may be after the next frame.
   std::stable_sort(stretch.frames.begin(), stretch.frames.end(),
                    [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });
   const bool is_empty = stretch.begin == stretch.end && stretch.frames.empty();

@@ -43,7 +43,7 @@ class RunLogger final : public Observer, private world::TickWatcher {
   world::World& world_;
   world::Probes probes_;
   std::vector<Sight> sights_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   std::vector<std::vector<std::uint8_t>>
       requests_;  // by line: the requests, which are needed to decode replies
   Stretch stretch_;

@@ -1,4 +1,4 @@
-// What a suite has exercised of the devices, for people.
+// A report for people: what a suite has exercised of the devices.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::play {
 
-/// Returns an HTML page that needs neither files nor a network: what no run has touched, the worst first,
-/// and then the tables of each model with their counts. Equal reports make equal pages.
+/// Returns an HTML page that needs neither files nor a network: what no run has exercised, the largest gaps
+/// first, and then the tables of each model with their counts. Equal reports make equal pages.
 std::string touched_page(const world::TouchedReport& report, std::string_view version);
 
 /// Returns a line for each model and for the worst gaps:

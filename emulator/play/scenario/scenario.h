@@ -26,9 +26,9 @@ struct Target {
   std::size_t device = 0;
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
-  Table table = Table::holding;  // where there is no place, and
+  Table table = Table::holding;  // if there is no place, and
   std::uint16_t address = 0;     // the number in it
-  bool is_value = false;         // of a device without registers: looked at past the line
+  bool is_value = false;         // of a device without registers: read directly, not over the line
 };
 
 /// How a device must answer each request of a step: normally, with an exception, or not at all.
@@ -38,7 +38,7 @@ struct Answer {
   bool is_good() const { return !exception && !silence; }
 };
 
-/// The line on which a step talks to its devices (`via: LINE` beside the step); none: the first line of
+/// The line on which a step talks to its devices (`via: LINE` next to the step); none: the first line of
 /// each.
 using Via = std::optional<std::size_t>;
 
@@ -48,7 +48,7 @@ using Via = std::optional<std::size_t>;
 struct WriteStep {
   struct Entry {
     Target target;
-    std::string value;  // an expression, evaluated when the step is played
+    std::string value;  // an expression, evaluated when the step runs
   };
   std::vector<Entry> entries;
   Answer answer{};
@@ -145,9 +145,9 @@ struct SendStep {
 };
 
 /// send: { line: serial, text: "?PE", reply: "100", within: 100ms } sends a line of text, given without its
-/// line end. reply is one line, or a list of them, or nothing if none may come in that time; without reply
+/// line end. reply is one line, or a list of them, or nothing if none may arrive in that time; without reply
 /// any answer is accepted. hear: { line: serial, text: "DONE", within: 2s } expects lines that the device
-/// sends unasked since the last `send`.
+/// sends without a request since the last `send`.
 struct TextStep {
   std::size_t line = 0;
   std::optional<std::string> text;                // none: only receives
@@ -189,8 +189,8 @@ struct RestoreStep {
   std::string name;
 };
 
-/// fork: { NAME: [ steps ], NAME: [ steps ] }: each branch begins in the state at this moment; the steps
-/// behind the fork also continue from it.
+/// fork: { NAME: [ steps ], NAME: [ steps ] }: each branch starts in the state at this moment; the steps
+/// after the fork also continue from it.
 struct ForkStep {
   struct Branch {
     std::string name;
@@ -199,7 +199,7 @@ struct ForkStep {
   std::vector<Branch> branches;
 };
 
-/// reset: peaks starts the greatest speeds and accelerations again.
+/// reset: peaks starts the maximum speeds and accelerations again.
 struct ResetPeaksStep {};
 
 /// say: TEXT is a message for the reader.

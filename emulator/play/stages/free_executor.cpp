@@ -79,7 +79,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
   void discard() { take_output(line().output().size()); }
   void take_output(std::size_t count) { world_.take_output(number_, count); }
 
-  /// Returns how many frames have been carried out so far.
+  /// Returns how many frames have been executed so far.
   std::uint64_t requests() const {
     std::uint64_t sum = 0;
     for (const auto& station : world_.line(number_).stations) sum += station->counters().requests;
@@ -198,7 +198,7 @@ void FreeExecutor::send_text(std::size_t line, const std::string& text) {
   Host& host = *hosts_[line];
   const std::uint64_t before = host.requests();
   put_text(host, text);
-  // A line that is too long, or that a fault drops, is never carried out.
+  // A line that is too long, or that a fault drops, is never executed.
   const SimTime limit = host.quiet_since() + options_.timeout;
   while (host.requests() == before && world_.now() < limit) advance_to_next(limit);
 }
@@ -271,7 +271,7 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Advances to the next event, at most to `limit`. A write is carried out at such a moment.
+/// Advances to the next event, at most to `limit`. A write is executed at such a moment.
 void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;

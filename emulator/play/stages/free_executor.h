@@ -58,8 +58,8 @@ class FreeExecutor final : public Executor {
 
   world::World world_;
   FreeExecutorOptions options_;
-  std::vector<std::unique_ptr<Host>> hosts_;  // one a line
-  const Host* writing_ = nullptr;             // the host whose write is being carried out
+  std::vector<std::unique_ptr<Host>> hosts_;  // one per line
+  const Host* writing_ = nullptr;             // the host whose write is being executed
   std::uint64_t requests_before_ = 0;         // of its stations
   Tick tick_of_last_write_ = 0;
 };

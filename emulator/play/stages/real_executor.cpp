@@ -260,7 +260,7 @@ void RealExecutor::send_text(std::size_t line, const std::string& text) {
   const std::uint64_t before = requests();
   const SimTime sending = time_to_send(line, text);
   on_line.send_text(text);
-  // A line that is too long, or that a fault drops, is never carried out.
+  // A line that is too long, or that a fault drops, is never executed.
   const serve::WallTime limit = serve::wall_now() + sending + options_.timeout;
   while (requests() == before && serve::wall_now() < limit) {
     throw_if_given_up();

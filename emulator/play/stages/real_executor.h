@@ -37,7 +37,7 @@ class RealExecutor final : public Executor {
   /// Another thread runs the daemon. Once the daemon has ended, that thread must leave the world alone as
   /// long as this executor lives. Throws pty::PortError.
   RealExecutor(serve::Daemon& daemon, RealExecutorOptions options);
-  /// Like the above, with a daemon of its own, which has been started.
+  /// Like the above, with its own daemon, which has been started.
   RealExecutor(std::unique_ptr<serve::DaemonThread> thread, RealExecutorOptions options);
   ~RealExecutor() override;
   RealExecutor(const RealExecutor&) = delete;
@@ -76,7 +76,7 @@ class RealExecutor final : public Executor {
   RealExecutorOptions options_;
   std::unique_ptr<WriteClock> writes_;
   std::vector<pty::LineOptions> lines_;                // at the beginning; hosts do not follow a DIP switch
-  std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one a line
+  std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one per line
   std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
 };
 

@@ -1,4 +1,4 @@
-// Records when the last write of any host was carried out, from the traffic on a world's lines.
+// Records when the last write of any host was executed, from the traffic on a world's lines.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class WriteClock {
   void hear(std::size_t line, const pty::CapturedPacket& packet);
 
   world::World& world_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   Tick last_ = 0;
   Tick before_ = 0;  // of the write before
   static constexpr std::size_t kNone = SIZE_MAX;

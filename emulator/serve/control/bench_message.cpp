@@ -172,9 +172,9 @@ Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
   return axis;
 }
 
-/// Returns the register that tells the controller whether to use a terminal for its function: a persistent
-/// switch that the manual names after the terminal (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if
-/// there is none.
+/// Returns the register that makes the controller use a terminal for its function: a persistent switch that
+/// the manual names after the terminal (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if there is
+/// none.
 std::string_view register_using(const Model& model, const TerminalRow& terminal) {
   std::string begin(terminal.name);
   std::erase(begin, '_');

@@ -1,4 +1,4 @@
-// Tells which lines of the devices' programs have run.
+// Reports which lines of the devices' programs have run.
 #include <cstddef>
 #include <string>
 #include <utility>

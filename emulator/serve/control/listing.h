@@ -1,4 +1,4 @@
-// Writes frames or events into a reply, one after the other.
+// Writes frames or events into a reply, one after another.
 #pragma once
 
 #include <cstddef>

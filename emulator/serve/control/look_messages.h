@@ -11,8 +11,8 @@
 namespace understudy::emulator::serve {
 
 /// {"do":"look","names":[...],"frames":17,"events":3,"status":true}: everything that an observer wants at
-/// once, cheap enough for many requests a second. A name without a value is null. {"do":"look","look":5,...}
-/// refers to the names of an earlier look by its number.
+/// once, cheap enough for many requests per second. A name without a value is null.
+/// {"do":"look","look":5,...} refers to the names of an earlier look by its number.
 ReplyTask look_message(Daemon& daemon, Json message);
 
 /// {"do":"bench"}: lines, devices, wires. {"do":"bench","device":"feeder"}: that device's axes and

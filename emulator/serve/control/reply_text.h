@@ -15,7 +15,7 @@ std::string text_of(const Json& json);
 
 class ReplyText {
  public:
-  /// Begins an object that says that the message was obeyed.
+  /// Begins an object that confirms that the message was obeyed.
   ReplyText() : text_("{\"ok\":true") {}
 
   /// Adds a member to an object.

@@ -56,7 +56,7 @@ int connect_to(const std::string& path) {
   return descriptor;
 }
 
-/// Removes the socket at `path` if nobody answers there, to make room for ours.
+/// Removes the socket at `path` if nothing answers there, to make room for ours.
 void remove_dead_socket(const std::string& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) < 0) return;
@@ -86,7 +86,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   remove_dead_socket(path_);
   Descriptor listener(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener) throw ControlError(path_ + ": " + std::strerror(errno));
-  // Nobody but the owner may open the socket, not even for a moment.
+  // Only the owner may open the socket, even for a moment.
   const mode_t before = umask(0177);
   const bool bound = bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
   const int error = errno;
@@ -233,7 +233,7 @@ std::string ask_control(const std::string& path, const std::string& message,
   while (sent < line.size()) {
     const ssize_t count = ::send(descriptor, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) break;  // the reply may still tell why
+    if (count < 0) break;  // the reply may still say why
     sent += static_cast<std::size_t>(count);
   }
   std::array<char, 4096> bytes;

@@ -15,7 +15,7 @@ class StatusParts {
  public:
   explicit StatusParts(Daemon& daemon) : daemon_(daemon) {}
 
-  /// Adds the members of an object, one after the other. Returns false if nothing is left.
+  /// Adds the members of an object, one after another. Returns false if nothing is left.
   bool add_next(ReplyText& text);
 
  private:

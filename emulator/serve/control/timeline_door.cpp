@@ -144,7 +144,7 @@ class Travel {
     }
     for (const auto& event : daemon_.observers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
-      // The first restore is no part of the recording.
+      // The first restore is not part of the recording.
       if (event.what != "restored") stretch.events.push_back(event);
       if (!is_mark(event.what)) continue;
       if (marks_.size() == kMaxMarks) {

@@ -63,7 +63,7 @@ Json resume_message(Daemon& daemon, const Json& message);
 /// {"do":"advance","by":"250ms"}. The reply follows when simulated time has got there.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply follows at the end of the
-/// first tick at which it is true, or when the time is over; "reached" tells which.
+/// first tick at which it is true, or when the time has passed; "reached" says which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 }  // namespace understudy::emulator::serve

@@ -6,10 +6,10 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns lines of text: time and lateness, each line of the bench with its frames a second since the
-/// previous reply, each device with its axes, registers, inputs and outputs. `before` may be empty; rates
-/// are then left out. `between_s` is the wall time between the two. Words side by side take at most this
-/// many columns. Throws ControlError if the reply is not a status.
+/// Returns lines of text: time and lateness, each line of the bench with its frames per second since the
+/// previous reply, each device with its axes, registers, inputs and outputs. `before` may be empty; rates are
+/// then left out. `between_s` is the wall time between the two. Words side by side take at most this many
+/// columns. Throws ControlError if the reply is not a status.
 std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s,
                                      std::size_t columns = 100);
 

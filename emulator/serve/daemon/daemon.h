@@ -34,7 +34,7 @@ namespace understudy::emulator::serve {
 struct DaemonOptions {
   Speed speed;
   bool strict_framing = false;
-  std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
+  std::optional<SimTime> patience{};  // with half a frame; if empty, as the speed requires
   bool enforce_settings = true;
   DoorMaker door{};        // empty: it accepts no control messages
   std::string bench_path;  // the bench's file; empty if there is none
@@ -172,7 +172,7 @@ class Daemon {
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_there_;  // may be none
-  std::function<void()> advance_done_;      // set while an advance is under way
+  std::function<void()> advance_done_;      // set while an advance is in progress
 };
 
 }  // namespace understudy::emulator::serve

@@ -8,8 +8,8 @@ namespace understudy::emulator::serve {
 /// Returns true if the command's program exists and may be started, as far as can be seen from here.
 bool can_be_started(const std::string& command);
 
-/// Returns why the command cannot live in simulated time, or an empty text. For a script its interpreter is
-/// looked at. A command that does not exist is no matter of this.
+/// Returns why the command cannot run in simulated time, or an empty text. For a script its interpreter is
+/// checked. A command that does not exist is handled elsewhere.
 std::string why_not_in_host_time(const std::string& command);
 
 }  // namespace understudy::emulator::serve

@@ -1,6 +1,6 @@
 // The processes of a host, and whether the kernel runs any of their threads. A thread may wait for another
-// one (a lock, a pipe, a child) without telling the bench: the kernel knows that it sleeps. The kernel wakes
-// such a thread before the one that wakes it goes on, so a host of which all threads sleep stays asleep.
+// one (a lock, a pipe, a child) without notifying the bench: the kernel knows that it sleeps. The kernel
+// wakes such a thread before the one that wakes it continues, so a host whose threads all sleep stays asleep.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ class HostTasks {
 
   /// Returns true if the host has a single thread.
   bool is_one_thread() const;
-  /// Returns true if no thread of any process can go on by itself. `waiting` are threads of which that is
-  /// known.
+  /// Returns true if no thread of any process can continue on its own. `waiting` are threads that are known
+  /// to wait.
   bool are_all_asleep(const std::set<int>& waiting) const;
 
   /// A thread that the kernel runs, in words: "thread 2 of my_host (1234)".
@@ -50,7 +50,7 @@ class HostTasks {
 
   EventLoop& loop_;
   std::function<void(int)> ended_;
-  std::map<int, Descriptor> processes_;  // each with a descriptor that tells its end
+  std::map<int, Descriptor> processes_;  // each with a descriptor that reports its end
 };
 
 }  // namespace understudy::emulator::serve

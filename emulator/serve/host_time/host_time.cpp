@@ -40,13 +40,13 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A host of several threads that is not asleep is looked at again after this time, then ever more rarely.
+// A host of several threads that is not asleep is checked again after this time, then less and less often.
 constexpr WallTime kFirstLook = std::chrono::microseconds(20);
 constexpr WallTime kRarestLook = std::chrono::milliseconds(1);
 // Time moves for this long before others have their turn: the control socket, signals.
 constexpr WallTime kSlice = std::chrono::milliseconds(5);
 constexpr WallTime kWatch = std::chrono::milliseconds(500);
-// A thread that has not waited for so many watches is told.
+// A thread that has not waited for this many watches is reported.
 constexpr int kLooksBeforeTelling = 4;
 
 Descriptor make_timer() {
@@ -220,7 +220,7 @@ void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thre
 
 // --- time ----------------------------------------------------------------------------------------
 
-/// Looks again soon, as no message tells that a thread has gone to sleep.
+/// Checks again soon, because no message reports that a thread has gone to sleep.
 void HostTime::look_again() {
   patience_ = std::clamp(patience_ * 2, kFirstLook, kRarestLook);
   set_timer(next_look_, patience_);
@@ -345,7 +345,7 @@ void HostTime::host_ended() {
   consider();
 }
 
-/// Tells of a thread that does not wait, once.
+/// Reports a thread that does not wait, once.
 void HostTime::watch_over() {
   idle_looks_ = std::exchange(has_moved_, false) ? 0 : idle_looks_ + 1;
   if (has_told_of_spinning_ || idle_looks_ < kLooksBeforeTelling) return;

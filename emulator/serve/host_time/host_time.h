@@ -1,6 +1,6 @@
 // Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library answers its clocks
-// and waits, and asks here. Simulated time stands while any thread of the host can go on; when all wait, it
-// goes to whatever comes first: the end of a wait, or something on a line that a thread waits for.
+// and waits, and asks here. Simulated time stops while any thread of the host can continue; when all wait, it
+// advances to whatever comes first: the end of a wait, or data on a line that a thread waits for.
 // docs/host-time.md describes the order in which bytes and time move.
 #pragma once
 
@@ -69,7 +69,7 @@ class HostTime {
   std::optional<SimTime> next_stop() const;
   void watch_over();
 
-  /// What a line was like when the host was told last.
+  /// The state of a line when the host was last notified.
   struct Seen {
     int terminal = -1;
     std::uint64_t bytes_out = 0;
@@ -92,7 +92,7 @@ class HostTime {
   std::vector<Seen> lines_;
   Descriptor next_look_;    // a timer
   Descriptor watch_;        // a timer
-  WallTime patience_{0};    // before the next look at a host that is not asleep
+  WallTime patience_{0};    // before the next check of a host that is not asleep
   bool must_look_ = false;  // a timer may have woken a thread that the bench takes for waiting
   bool was_greeted_ = false;
   int first_process_ = -1;

@@ -25,7 +25,7 @@ class HostTimers {
     bool operator==(const Expired&) const = default;
   };
 
-  /// Sets the timer that the message names, or takes it away. `counter` is none for a signal.
+  /// Sets the timer that the message names, or removes it. `counter` is none for a signal.
   void set(const host_time::Message& message, Descriptor counter);
   /// Forgets the timers of a process.
   void process_ended(int process);

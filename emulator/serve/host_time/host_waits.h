@@ -29,7 +29,7 @@ enum class HostEvent : std::uint8_t {
 enum class HostAnswer : std::uint8_t {
   nothing,
   go,         // its wait is over
-  cancelled,  // nothing more will be said about its wait
+  cancelled,  // no further message about its wait will arrive
   refuse,     // it does not keep to the protocol: the connection is closed
 };
 
@@ -41,9 +41,9 @@ struct HostStep {
 inline constexpr std::size_t kHostStates = 4;
 inline constexpr std::size_t kHostEvents = 6;
 
-/// What each event means in each state (docs/host-time.md has it too). A wait that comes while another is
-/// under way is that of a signal handler; the thread tells the first one again afterwards. The bench may
-/// have ended a wait while its thread gave it up: `cancelled` is then the last word.
+/// The effect of each event in each state (docs/host-time.md has it too). A wait that arrives during another
+/// one is that of a signal handler; the thread sends the first one again afterwards. The bench may have ended
+/// a wait while its thread gave it up: `cancelled` is then the last word.
 inline constexpr std::array<std::array<HostStep, kHostEvents>, kHostStates> kHostSteps = [] {
   using enum HostState;
   using enum HostAnswer;
@@ -97,12 +97,12 @@ class HostWaits {
 
   void add(int number) { threads_[number]; }
   void remove(int number) { threads_.erase(number); }
-  /// A message of a thread. Those that are no event of the table change nothing here.
+  /// Handles a message of a thread. Messages that are not events of the table change nothing here.
   void heard(int number, const host_time::Message& message);
   /// Simulated time is now `now`: ends the waits whose end has come. Returns true if there were any.
   bool time_is(SimTime now);
-  /// Something has come on the line whose pseudo-terminal has this number. Returns true if a thread waited
-  /// for it.
+  /// Data have arrived on the line whose pseudo-terminal has this number. Returns true if a thread waited for
+  /// it.
   bool line_has_news(int terminal);
   /// All that was written to the line has left the wire.
   bool line_is_drained(int terminal);

@@ -26,7 +26,7 @@ class EventLoop {
 
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
-  /// Ready descriptors of rank `later` are called last, one after the other in turn, for at most a slice of
+  /// Ready descriptors of rank `later` are called last, one after another in turn, for at most a slice of
   /// time. So the others are checked again soon, however many there are.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
@@ -72,7 +72,7 @@ class EventLoop {
   std::vector<int> changed_;  // descriptors whose interest must still be passed to the kernel
   std::deque<std::function<bool()>> pieces_;
   bool are_pieces_next_ = false;
-  WallTime slice_end_ = WallTime::max();  // for rank `later`; no end at other times
+  WallTime slice_end_ = WallTime::max();  // for rank `later`; unlimited at other times
   bool puts_off_ = false;                 // rank `later` waits for something that is due soon
   bool has_put_off_ = false;              // since it was last called,
   WallTime put_off_until_{0};             // for something due then

@@ -15,7 +15,7 @@ std::uint8_t station_of_unit(std::uint8_t unit, const world::GatewaySettings& se
                              const world::WorldLine& line);
 
 /// Returns a line for the log if a master reads by a broadcast, which no station will answer, with the
-/// stations that exist; otherwise returns an empty text. MissingStations tells of a station that does not
+/// stations that exist; otherwise returns an empty text. MissingStations reports a station that does not
 /// exist, as it does for every kind of host.
 std::string why_unanswered(std::uint8_t station, std::uint8_t function, const world::WorldLine& line);
 

@@ -33,7 +33,8 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-/// Returns the length of the RTU frame that begins like this, or nothing if its function does not tell.
+/// Returns the length of the RTU frame that begins like this, or nothing if its function does not determine
+/// it.
 std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   const std::uint8_t function = frame[1];
   if ((function & kException) != 0) return kExceptionFrame;

@@ -35,7 +35,7 @@ namespace {
 // The kernel reports a host's close a moment before it takes effect. After this time it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
-// Where the kernel does not tell who opens and closes a terminal, this is how often it is checked.
+// If the kernel does not report who opens and closes a terminal, this is how often it is checked.
 constexpr WallTime kUnwatchedLook = std::chrono::milliseconds(50);
 
 // A lost terminal is tried again after this time.
@@ -274,7 +274,7 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
   if (next_presence_ > WallTime{0}) next = next_presence_;
   if (is_on_demand_) return next;
   if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected them
-  // With a stopped clock, patience with an incomplete frame would never end.
+  // With a stopped clock, the timeout of an incomplete frame would never expire.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due())
     next = std::min(next.value_or(WallTime::max()), last_bytes_ + patience());
   return next;
@@ -314,7 +314,7 @@ void Port::hand_over() {
     const std::span<const std::uint8_t> said = line().output();
     const std::size_t taken = guest_ != nullptr ? guest_->take(said)
                               : terminal_       ? terminal_->write(said)
-                                                : said.size();  // nobody is there to read it
+                                                : said.size();  // there is no host to read it
     if (taken == 0) break;                                // the host does not read
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();

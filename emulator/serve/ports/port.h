@@ -1,5 +1,6 @@
-// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest by another
-// way. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach the model.
+// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest through
+// another door. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach the
+// model.
 #pragma once
 
 #include <sys/stat.h>
@@ -85,7 +86,7 @@ class Port {
   void throw_away();
   std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
   bool is_unplugged() const { return line().is_unplugged(); }
-  /// Returns true if no bytes are on their way and nothing is due.
+  /// Returns true if no bytes are in transit and nothing is due.
   bool is_quiet() const { return left_behind_.empty() && !line().due() && line().output().empty(); }
   const pty::Line& line() const { return world_line().line; }
   const world::WorldLine& world_line() const { return world_.line(line_number_); }
@@ -137,7 +138,7 @@ class Port {
   bool is_on_demand_ = false;              // the terminal's descriptor is not watched
   bool is_pulled_out_ = false;             // by a fault
   bool has_told_ = false;                  // why it cannot be plugged in again
-  struct stat access_ {};                  // of the terminal that was
+  struct stat access_ {};                  // of the previous terminal
   WallTime next_recovery_{0};              // when to try again to open a lost terminal; 0: it is not lost
   bool is_listening_ = true;               // the line had room when last something was handed over
   WallTime last_taken_{0};                 // when the host's side took something last

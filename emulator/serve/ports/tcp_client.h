@@ -33,7 +33,7 @@ class TcpClient {
   enum class Heard : std::uint8_t {
     nothing,          // for now, or because the client has sent everything
     what_it_speaks,   //
-    something_else,   // it is to be let go
+    something_else,   // it will be released
     that_it_is_gone,  // nothing can be sent any more
   };
   /// Reads some of the bytes it has sent.
@@ -43,7 +43,7 @@ class TcpClient {
   /// It has closed its sending half. It still gets the answers to its requests.
   bool has_said_all() const { return has_said_all_; }
 
-  /// Sends as much as the network takes. Reading tells whether the client has gone.
+  /// Sends as much as the network accepts. Reading shows whether the client has gone.
   void send_out();
   bool has_unsent() const { return !unsent_.empty(); }
 
@@ -57,7 +57,7 @@ class TcpClient {
   /// Its connection ends as soon as unsent bytes are sent.
   bool hangs_up() const { return hangs_up_; }
 
-  /// Closes the socket. Its requests are still carried out.
+  /// Closes the socket. Its requests are still executed.
   void forget_socket();
   bool is_gone() const { return !socket_; }
 

@@ -26,10 +26,10 @@ class TcpDoor final : private Port::Guest {
  public:
   static constexpr std::size_t kMaxMasters = 32;
 
-  /// The port must outlive it, and is told the address. Throws pty::PortError.
+  /// The port must outlive it, and is given the address. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log);
-  /// After this, clients are not told any more that they have gone.
+  /// After this, clients are not notified any more that they have gone.
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;

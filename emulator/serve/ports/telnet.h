@@ -30,14 +30,14 @@ enum Option : std::uint8_t { kBinary = 0, kSuppressGoAhead = 3, kComPort = 44 };
 struct Command {
   std::uint8_t verb = kNop;
   std::uint8_t option = 0;  // of will, wont, do, dont and subnegotiation
-  Bytes body;               // of a subnegotiation, behind its option
+  Bytes body;               // of a subnegotiation, after its option
 };
 
 /// Splits received bytes in their order.
 class Reader {
  public:
   static constexpr std::size_t kMaxHeard = 4096;
-  static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are passed over
+  static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are ignored
 
   bool has_room() const { return heard_.size() < kMaxHeard; }
   void hear(std::span<const std::uint8_t> bytes) { heard_.insert(heard_.end(), bytes.begin(), bytes.end()); }

@@ -39,7 +39,7 @@ inline constexpr std::string_view kByteTimeoutExpected = "expected 10ms to 60s, 
 struct LineSetup {
   std::string name;
   std::string link;               // path of the link to its pty; empty: none
-  bool has_pty = true;            // else hosts connect by TCP only
+  bool has_pty = true;            // otherwise hosts connect only over TCP
   std::vector<TcpAddress> tcp{};  // where it listens as well
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
@@ -89,7 +89,7 @@ struct Bench {
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
   std::vector<Fault> faults;       // those that exist from the beginning
-  std::uint64_t seed = 0;          // where randomness begins
+  std::uint64_t seed = 0;          // the start of the random numbers
   std::vector<FileClaim> files{};  // that it was read from, except memories
 };
 

@@ -11,7 +11,7 @@ namespace understudy::emulator::world {
 struct InlineText {
   FilePlace place;      // of the value in the file
   std::string field;    // its name there
-  int first_line = 0;   // of the file, where the text's first line is; 0: its lines are not lines of the file
+  int first_line = 0;   // of the file, of the text's first line; 0: its lines are not lines of the file
   int indentation = 0;  // of those lines
 };
 

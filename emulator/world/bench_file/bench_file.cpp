@@ -85,7 +85,7 @@ class BenchReader {
     }
   }
 
-  /// Adds a device, even if its name is wrong, so that the rest of it can be judged.
+  /// Adds a device, even if its name is wrong, so that the rest of it can be checked.
   std::size_t add_device(const std::string& name, const YamlFields& fields) {
     if (!name.empty()) names_.lose_device(name);
     DeviceSetup device = read_device(fields, name, folder_, models_, bench_, all_);

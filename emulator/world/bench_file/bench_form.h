@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-inline constexpr std::int64_t kFarthestPulse = 1'000'000'000'000;  // farther than any counter
+inline constexpr std::int64_t kFarthestPulse = 1'000'000'000'000;  // further than any counter
 
 inline constexpr Schema kVersionSchema = integer_schema(1, 1);
 inline constexpr Key kVersionKey{"understudy", "The version of the format.", &kVersionSchema, true};

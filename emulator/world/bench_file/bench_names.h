@@ -33,7 +33,7 @@ class BenchNames {
   /// Returns -1 if there is no such device.
   int find_device(const std::string& name) const;
   std::size_t require_device(const YamlFields& field, const std::string& name) const;
-  /// Splits "feeder.A" into the number of the device and the text behind the dot.
+  /// Splits "feeder.A" into the number of the device and the text after the dot.
   std::pair<std::size_t, std::string> split(const YamlFields& field, const std::string& name,
                                             const char* example) const;
   std::pair<std::size_t, int> require_terminal(const YamlFields& field, const std::string& name,

@@ -126,7 +126,7 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   }
 }
 
-/// Reads the description of a model. Its mistakes are told at their places in this file.
+/// Reads the description of a model. Its errors are reported at their places in this file.
 const Model& require_inline_model(ModelList models, const YamlFields& field, const std::string& name) {
   try {
     return models.files->parse(field.text(), name);
@@ -185,7 +185,7 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
   }
 }
 
-/// Removes the setting that the model refused, so that the others can be judged. Returns false if it was not
+/// Removes the setting that the model refused, so that the others can be checked. Returns false if it was not
 /// set.
 bool take_away(const SettingError& error, DeviceSettings& settings, const Model& model) {
   const std::string& setting = error.setting;

@@ -38,7 +38,7 @@ namespace {
 
 constexpr std::string_view kAnd = "and ";
 
-/// Returns the line that stands for the errors that are not told.
+/// Returns the line that stands for the errors that are not reported.
 FileError::Diagnostic word_of_more(std::size_t more) {
   const FileError word(std::string(kAnd) + std::to_string(more) + " more; the first " +
                        std::to_string(Diagnostics::kMaxTold) + " are shown");

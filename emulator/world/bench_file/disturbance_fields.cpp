@@ -88,7 +88,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   if (!has_kind) return std::nullopt;
   bool is_whole = diagnostics.count() == before;
   bool has_place = true;
-  // A wrong place or field is put aside so that the rest is judged.
+  // A wrong place or field is put aside so that the rest is checked.
   while (true) {
     try {
       if (!has_place) {

@@ -1,5 +1,5 @@
-// The vocabulary for declaring a file format: its keys and the forms of their values. Readers use it to tell
-// which keys they know; `understudy schema` turns it into a JSON Schema.
+// The vocabulary for declaring a file format: its keys and the forms of their values. Readers use it to know
+// their keys; `understudy schema` turns it into a JSON Schema.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Schema {
     turned,
     registers
   } names_of = Of::anything;
-  /// What is required may be missing, at any depth: it stands elsewhere in the file.
+  /// Required keys may be missing, at any depth: they are elsewhere in the file.
   bool is_part = false;
 };
 

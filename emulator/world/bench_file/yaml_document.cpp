@@ -201,7 +201,8 @@ class Passage : public YAML::EventHandler {
     put(&node);
     return node;
   }
-  /// Notes where the lines of a block are, if the scalar is one whose indentation its first line tells.
+  /// Records where the lines of a block are, if the scalar is one whose first line determines its
+  /// indentation.
   void note_block(const YAML::Mark& mark, YamlNode& node) const {
     const std::string_view rest = text_.substr(std::min(static_cast<std::size_t>(mark.pos), text_.size()));
     const std::size_t end = rest.find('\n');

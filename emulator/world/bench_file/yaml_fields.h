@@ -33,7 +33,7 @@ class ScalarRule {
 class YamlFields {
  public:
   /// Returns the single document of a text, which must be a map. Messages call it `what`; the one for an
-  /// empty file tells what was `expected`.
+  /// empty file says what was `expected`.
   static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
                           const std::string& expected);
 
@@ -50,8 +50,8 @@ class YamlFields {
   /// Returns this node read by another rule, which must outlive it and all nodes taken from it. Null:
   /// scalars are taken as written.
   YamlFields with_rule(const ScalarRule* rule) const;
-  /// This map, and what only `defaults`, another map of the same file, has. Where both have a map for a key
-  /// these are joined in the same way; anything else in `defaults` gives way.
+  /// This map, with everything that only `defaults`, another map of the same file, has. If both have a map
+  /// for a key, these are joined in the same way; anything else in `defaults` gives way.
   YamlFields with_defaults(const YamlFields& defaults) const;
   /// This map without some of its keys.
   YamlFields without(std::span<const std::string_view> keys) const;

@@ -81,13 +81,13 @@ class ControllerCoverage::Counting final : private OutsideListener {
   }
 
  private:
-  /// What acts on messages, and the last one that a host has sent.
+  /// The faults that act on messages, and the last message that a host has sent.
   struct Line {
     std::unique_ptr<pty::CaptureFrames> packets;
     std::vector<std::uint8_t> request{};
   };
 
-  /// Faults of messages are told by the line, with the names of their kinds.
+  /// The line reports faults of messages, with the names of their kinds.
   class Strikes final : public pty::LineObserver {
    public:
     Strikes(Counting& counting, std::size_t line) : counting_(counting), line_(line) {}
@@ -149,7 +149,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     if (!line.request.empty() && line.request[0] == packet.bytes[0]) take_reply(packet.line, packet.bytes);
   }
 
-  /// The reply to the last request; without bytes of one that nobody replies to.
+  /// The reply to the last request; without bytes for one that gets no reply.
   void take_reply(std::size_t number, std::span<const std::uint8_t> reply) {
     const std::vector<std::uint8_t> request = std::exchange(lines_[number].request, {});
     if (request.size() <= 1 + kChecksumBytes) return;
@@ -205,7 +205,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     devices_[device].command(without_ends(text), false);
   }
   void on_inject(const Fault& fault) override {
-    // Nothing else is told of one that is over at once.
+    // Nothing else is reported about a fault that ends at once.
     if (is_done_at_once(fault.kind) && !waits(fault)) begin(fault);
   }
   void on_fault(std::size_t number, bool in_force) override {

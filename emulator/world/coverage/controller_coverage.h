@@ -22,7 +22,7 @@ class ControllerCoverage {
 
   /// Returns the counts by model. Devices of one model are added up.
   TouchedReport report() const;
-  /// The world was put into another state: what the lines have half said is void.
+  /// The world was put into another state: incomplete messages on the lines are void.
   void world_restored();
 
  private:

@@ -42,7 +42,7 @@ std::string name_of(const RegisterMap& map, const RegisterRow& row) {
   return row.count == 1 ? first : first + " to " + RegisterMap::name_of(row, row.count - 1);
 }
 
-/// Whether bits of the register are told apart: it has names for them, or is a single bit.
+/// Returns whether bits of the register are distinguished: it has names for them, or is a single bit.
 bool has_bits(const RegisterRow& row) {
   return row.access != Access::write && (!row.fields.empty() || (row.type == Type::bit && row.count == 1));
 }
@@ -58,7 +58,7 @@ std::string function_name(std::uint8_t code) {
   return std::to_string(code);
 }
 
-/// Whether the word is what the pattern means: in a pattern such as "TpMA", p is the number of a module.
+/// Returns whether the word matches the pattern: in a pattern such as "TpMA", p is the number of a module.
 bool is_called(std::string_view pattern, std::string_view word) {
   if (pattern.size() > word.size()) return false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -68,7 +68,7 @@ bool is_called(std::string_view pattern, std::string_view word) {
   return true;
 }
 
-/// The instructions that a program can have. A window's commands are no part of one.
+/// The instructions that a program can have. A window's commands are not part of one.
 std::vector<const InstructionRow*> program_rows(const Model& model) {
   std::vector<const InstructionRow*> rows;
   if (model.language == nullptr) return rows;

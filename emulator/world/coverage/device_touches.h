@@ -1,4 +1,4 @@
-// What has been exercised of one device, in the rows of its model's tables.
+// Counts what has been exercised of one device, in the rows of its model's tables.
 #pragma once
 
 #include <cstddef>

@@ -42,7 +42,8 @@ struct CountedProgram {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // Of several with a number, the first is the one that runs: a stored file is a part of C as well.
+      // If several have the same number, the first is the one that runs: a stored file is a part of C as
+      // well.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }
@@ -137,7 +138,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     return device_.model().language->parts(text, device_.settings());
   }
 
-  /// The counts of the program that runs. One that is looked at and never runs, such as one that a host is
+  /// The counts of the running program. A program that is observed and never runs, such as one that a host is
   /// writing line by line, gets none.
   CountedProgram& program() {
     if (program_ != nullptr) return *program_;
@@ -166,7 +167,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
         has_file = true;
       }
     }
-    // Lines that no listing shows, such as those behind the end, are no program.
+    // Lines that no listing shows, such as those after the end, are not part of the program.
     const bool is_shown = std::any_of(part.lines.begin(), part.lines.end(),
                                       [](const ProgramLine& line) { return line.text_line > 0; });
     if (has_file || !is_shown) return;
@@ -175,7 +176,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     add_part(file.lines, part, counts);
   }
 
-  /// The same for the same program, whoever runs it.
+  /// The same for the same program, on whatever device it runs.
   std::string name_of_listing(const std::string& text) const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx",

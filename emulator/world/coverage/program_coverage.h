@@ -29,8 +29,8 @@ class ProgramCoverage {
   ProgramCoverage& operator=(const ProgramCoverage&) = delete;
 
   /// Returns the counts of all programs, or of one device's. Each part of a program belongs to the files that
-  /// have the same instructions: of `sources`, and of the bench. If there is none, it belongs to the listing
-  /// that is read back from the device.
+  /// have the same instructions: those in `sources`, and those of the bench. If there is none, it belongs to
+  /// the listing that is read back from the device.
   CoverageReport report(const std::vector<ProgramSource>& sources = {}) const;
   CoverageReport report_of(std::size_t device, const std::vector<ProgramSource>& sources = {}) const;
   /// Returns the counts of a device's instructions, by the first word of their code.

@@ -1,4 +1,4 @@
-// What a suite has exercised of controllers, as tables of counts: the sum of any number of runs.
+// Counts what a suite has exercised of controllers, as tables: the sum of any number of runs.
 #pragma once
 
 #include <cstddef>
@@ -32,13 +32,13 @@ struct TouchedTable {
     std::int64_t all = 0;
   };
   Share share() const;
-  /// Returns the row of that name, added if there is none.
+  /// Returns the row with that name, added if there is none.
   TouchedRow& row(const std::string& name);
   void add(const TouchedTable& other);
   bool operator==(const TouchedTable&) const = default;
 };
 
-/// The tables of a model, those first whose gaps are worst.
+/// The tables of a model, those with the largest gaps first.
 using TouchedModel = std::vector<TouchedTable>;
 
 /// A cell that no run has touched.

@@ -44,8 +44,7 @@ class TracefileReader {
     if (word == "SF") return begin_record(value);
     if (word == "DA") return take_line(value);
     if (word == "BRDA") return take_branch(value);
-    // The others are a test's name, functions (of which programs have none), and sums of what is counted
-    // here.
+    // The others are a test's name, functions (which programs do not have), and sums of the counts here.
     for (const std::string_view known : {"TN", "LF", "LH", "BRF", "BRH", "FNF", "FNH"}) {
       if (word == known) return;
     }

@@ -28,7 +28,7 @@ struct BreakpointSetup {
   int line = 0;            // of the source, from 1
   std::string name{};
   std::string by{};         // of a write: host, control, page or device; empty: anyone
-  std::string condition{};  // of all other kinds: a hit counts only while it holds; may be empty
+  std::string condition{};  // for all other kinds: a hit counts only while it is true; may be empty
   std::uint64_t nth = 1;    // the first hit at which it acts
   std::string log{};        // not empty: it prints this and never stops; {expressions} are replaced
 };
@@ -36,7 +36,7 @@ struct BreakpointSetup {
 struct Breakpoint {
   int number = 0;
   BreakpointSetup setup{};
-  int line = 0;  // of the source, where it really is; 0: nowhere in the present program
+  int line = 0;  // of the source, of the actual place; 0: nowhere in the present program
   std::uint64_t hits = 0;
 };
 
@@ -63,7 +63,7 @@ enum class StepKind : std::uint8_t {
   instruction,  // to the next instruction
   line,         // to the next instruction on another line
   over,         // to the next instruction that no routine called from here runs
-  out,          // to the next instruction behind the routine that runs
+  out,          // to the next instruction after the present routine
   stand,        // until no axis of the device moves
 };
 

@@ -29,7 +29,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Words of the event log, and words for what the devices and machines tell.
+/// Words of the event log, and words for reports of the devices and machines.
 const std::vector<std::string> kEvents{"exception", "dropped", "fault", "power",         "program",
                                        "command",   "input",   "alarm", "program-error", "limit"};
 const std::vector<std::string> kAuthors{"host", "control", "page", "device"};
@@ -191,7 +191,7 @@ void Debugger::find_write(Point& point) {
   point.value = probes_.value(point.handle);
 }
 
-/// What has happened so far is no hit.
+/// Earlier events are not hits.
 void Debugger::begin_events() {
   next_event_ = events_.next_number();
   signs_ = signs_of_machines();
@@ -202,7 +202,7 @@ bool Debugger::needs(std::size_t device) const {
   return std::any_of(points_.begin(), points_.end(), [&](const auto& point) { return point->is_of(device); });
 }
 
-/// Looks at what must be looked at, and at nothing else.
+/// Checks only what must be checked.
 void Debugger::settle() {
   for (std::size_t d = 0; d < world_.device_count(); ++d) {
     if (needs(d) == watches_.contains(d)) continue;
@@ -236,7 +236,8 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   settle();
 }
 
-/// Finds where a step of a program begins: at the instruction that has stopped, or where the program is.
+/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's present
+/// line.
 void Debugger::begin_at(Step& step, const std::string& program) const {
   const Device& device = world_.device(step.device);
   require_program(device);

@@ -1,8 +1,8 @@
 // Breakpoints, logpoints and steps. A debugger looks on and changes nothing: a run with breakpoints has the
 // same states as one without.
 //
-// What happens within a tick is judged at its end: conditions have the values of that moment, a stop is
-// there, and the state is whole. While nothing is set, the debugger costs nothing. While it looks at
+// Events within a tick are evaluated at its end: conditions have the values of that moment, a stop happens
+// there, and the state is complete. If nothing is set, the debugger costs nothing. While it watches
 // instructions, the world runs each tick.
 #pragma once
 
@@ -38,7 +38,7 @@ class Debugger final : private TickWatcher {
 
   /// Throws BreakpointError, NameError or ExpressionError; then nothing has changed.
   const Breakpoint& add(const BreakpointSetup& setup);
-  /// Returns false if there is none of that number.
+  /// Returns false if there is none with that number.
   bool remove(int number);
   void remove_all();
   /// Returns them in the order of their numbers.
@@ -65,7 +65,7 @@ class Debugger final : private TickWatcher {
   void on_tick(Tick tick) override;
   Tick next_look(Tick done) const override;
 
-  /// What machines and programs show that is no event of the log.
+  /// States of machines and programs that are not events of the log.
   struct Sign {
     std::string_view what;  // the kind of the event: "limit"
     std::size_t device = 0;
@@ -105,7 +105,7 @@ class Debugger final : private TickWatcher {
   std::map<std::size_t, std::unique_ptr<DeviceWatch>> watches_;
   std::unique_ptr<Step> step_;
   std::optional<DebugStop> stop_;
-  bool is_fresh_ = false;  // nobody has taken the stop
+  bool is_fresh_ = false;  // the stop has not been taken
   bool is_watching_ = false;
   int last_number_ = 0;
   std::uint64_t next_event_ = 0;

@@ -36,7 +36,7 @@ std::string text_of_place(const std::string& device, const InstructionPlace& pla
 
 }  // namespace
 
-/// A condition without a result counts as true: who set it learns why.
+/// A condition without a result counts as true, so its author learns why.
 bool Debugger::holds(Point& point, const Probes& probes) {
   point.no_result.clear();
   if (point.condition.code.empty()) return true;
@@ -220,7 +220,7 @@ void Debugger::judge(Point& point) {
   stop_with(std::move(stop));
 }
 
-/// Returns whether the program of a step runs no more. It takes long to ask, so it looks now and then.
+/// Returns whether the program of a step runs no more. It takes long to ask, so it looks from time to time.
 bool Debugger::has_ended(const Step& step) const {
   constexpr Tick kApart = 16;
   if (tick_at(world_.now()) % kApart != 0) return false;

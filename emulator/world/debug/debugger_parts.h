@@ -54,7 +54,7 @@ struct Debugger::Step {
   std::optional<ProgramLines::Told> end{};  // the instruction at which it is far enough
 };
 
-/// Looks at a device's program for breakpoints and steps.
+/// Watches a device's program for breakpoints and steps.
 class Debugger::DeviceWatch final : public ProgramWatch {
  public:
   DeviceWatch(Debugger& debugger, std::size_t number) : debugger_(debugger), number_(number) {
@@ -70,7 +70,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     mark_ = mark;
     look_at_program();
   }
-  /// Finds the lines anew if the device has another program than before.
+  /// Finds the lines again if the device has a different program.
   void look_at_program() {
     if (device().user_program()->program_text() == text_) return;
     has_changed = true;

@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Of several parts with a number, the first is the one that runs: a stored file is a part as well.
+/// If several parts have the same number, the first is the one that runs: a stored file is a part as well.
 std::vector<ProgramPart> running_parts(const Device& device, const std::string& text) {
   std::vector<ProgramPart> parts;
   for (ProgramPart& part : device.model().language->parts(text, device.settings())) {

@@ -1,5 +1,5 @@
-// The lines of the program that a device has: from the source to its instructions and back. The source is the
-// bench's program if the device still has it, otherwise the listing that is read back from the device.
+// The lines of a device's program: from the source to its instructions and back. The source is the bench's
+// program if the device still has it, otherwise the listing that is read back from the device.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 
 class ProgramLines {
  public:
-  /// An instruction as interpreters tell it (base/program_watch.h).
+  /// An instruction as interpreters report it (base/program_watch.h).
   struct Told {
     int part = 0;
     int number = 0;

@@ -1,10 +1,10 @@
 // The values of expressions: 64-bit whole numbers, or real numbers.
 //
 // Registers, positions, durations (nanoseconds) and voltages (millivolts) are whole. Arithmetic on whole
-// numbers is exact or refused, never rounded. Only quotients by nature are real: a speed in pulses a second,
-// or a literal with a decimal point. One type would not do for both: a double rounds a 64-bit count, and an
-// integer would take 1500.4 pps for 1500. A real number is always finite; a result that would not be is
-// refused.
+// numbers is exact or refused, never rounded. Only quotients are real by nature: a speed in pulses per
+// second, or a literal with a decimal point. One type would not do for both: a double rounds a 64-bit count,
+// and an integer would turn 1500.4 pps into 1500. A real number is always finite; a result that would not be
+// is refused.
 #pragma once
 
 #include <compare>

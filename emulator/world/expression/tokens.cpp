@@ -220,7 +220,7 @@ Token Lexer::number() {
   } else {
     double value = 0;
     const auto error = std::from_chars(plain.data(), plain.data() + plain.size(), value).ec;
-    // A number too small to tell from 0 is refused too, because 0 was not meant.
+    // A number too small to distinguish from 0 is refused too, because 0 was not meant.
     if (error != std::errc{}) fail(begin, written + " is too large for a real number");
     token.number = value;
   }

@@ -31,7 +31,7 @@ struct Fault {
     echo,    // a host hears its own bytes
     lumps,   // received bytes are delivered at multiples of `amount` ns
     unplug,  // the adapter is unplugged
-    slow,    // it carries out each request `amount` ns late
+    slow,    // it executes each request `amount` ns late
     // Faults of how a device, or all devices on a line, treat requests.
     busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
@@ -48,7 +48,7 @@ struct Fault {
     // Faults of a reply on its way from a gateway to a master.
     wrong_transaction,  //
     wrong_unit,         //
-    hang_up,            // the connection ends behind its first `amount` bytes
+    hang_up,            // the connection ends after its first `amount` bytes
   } kind = Kind::stall;
   std::size_t device = 0;  // for a fault of a line: the bench's first device on it
   // An axis; for `stuck`, or a `turn` with of_input, a terminal; for a fault of a line the port by which the
@@ -100,14 +100,14 @@ struct FaultFieldError : NameError {
   std::string diagnostic;
 };
 
-/// Reports the place of a fault. Its fields have not been looked at.
+/// Reports the place of a fault. Its fields have not been checked.
 struct FaultPlaceError : NameError {
   using NameError::NameError;
 };
 
 /// Throws NameError for names that the bench does not have. check_fault.h checks the names in `when`.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
-/// Throws NameError for what is wrong with a fault, whatever its place is.
+/// Throws NameError for errors of a fault that do not depend on its place.
 void require_fault_fields(const KnownDevices& devices, const FaultText& text);
 /// Returns a fault as find_fault() accepts it, also as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);

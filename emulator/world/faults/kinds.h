@@ -37,7 +37,7 @@ struct FaultKindRow {
   Place place;
   std::span<const FaultFieldRow> fields;
   std::string_view effect;               // for faults of messages: the description for observers
-  std::string_view effect_on_request{};  // where that differs; empty: the same
+  std::string_view effect_on_request{};  // if that differs; empty: the same
 };
 
 /// Returns the rows in the order of Fault::Kind.

@@ -45,12 +45,12 @@ struct FaultCourse {
   std::int64_t seen = 0;     // frames of its place
   std::int64_t matched = 0;  // occasions that matched
   std::int64_t hits = 0;
-  SimTime until{-1};      // when the hit in force ends
+  SimTime until{-1};      // when the hit in effect ends
   SimTime looked_at{-1};  // of time alone: the moment
   bool was_met = false;   // time and condition, when looked at last
   bool in_force = false;  // of machines and devices
-  bool is_news = false;   // it has just begun or ended, and is still to be carried out
-  // For requests of a line: the request judged last, about which each station asks.
+  bool is_news = false;   // it has just begun or ended, and is still to be executed
+  // For requests of a line: the last evaluated request, about which each station asks.
   std::uint64_t judged_character = 0;
   bool was_hit = false;
 
@@ -66,7 +66,7 @@ struct FrameFacts {
   int count = 0;  // of them; 0: it is about none
 };
 
-/// Tells whether a trigger's expression is true.
+/// Returns whether a trigger's expression is true.
 class ConditionSource {
  public:
   virtual bool holds(const std::string& expression) = 0;
@@ -86,7 +86,7 @@ bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const Frame
                    ConditionSource& conditions, std::uint64_t stream);
 
 /// Judges a trigger that is not about frames and returns true if it strikes now. `course` then tells whether
-/// it is in force.
+/// it is in effect.
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream);
 

@@ -40,7 +40,7 @@ class FrameLog {
     std::string remark;                     // why it was dropped, and the like
     std::span<const std::uint8_t> bytes{};  // valid until the next frame is added
     bool is_refusal = false;                // a reply that refuses the request
-    std::optional<SimTime> latency{};       // of an answer: since its request began
+    std::optional<SimTime> latency{};       // for a reply: since its request began
   };
   /// Returns at most `most` of the kept frames, from that number on.
   std::vector<Told> since(std::uint64_t number, std::size_t most) const;
@@ -81,7 +81,7 @@ class FrameLog {
   std::function<void(const pty::CapturedPacket&)> observer_;
   std::uint64_t next_number_ = 1;
   std::deque<Frame> frames_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
 };
 
 }  // namespace understudy::emulator::world

@@ -82,7 +82,7 @@ bool LookedNames::is_kept(std::uint64_t number) const { return find_list(number)
 
 /// Makes room for a list of that many names.
 void LookedNames::make_room(std::size_t names) {
-  // The probes never forget a name, so they are made anew from time to time.
+  // The probes never forget a name, so they are replaced from time to time.
   if (!probes_ || resolved_ + names > 4 * kMaxKept) {
     lists_.clear();
     probes_.emplace(world_);

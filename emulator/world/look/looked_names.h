@@ -1,5 +1,5 @@
-// Reads values by name repeatedly, for observers who ask for hundreds of them many times a second. A list of
-// names is looked up once; then all its values are read at once.
+// Reads values by name repeatedly, for observers who ask for hundreds of them many times per second. A list
+// of names is looked up once; then all its values are read at once.
 #pragma once
 
 #include <cstddef>

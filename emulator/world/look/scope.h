@@ -46,7 +46,7 @@ class Scope final : private TickWatcher {
   Tick trigger_tick() const { return trigger_tick_; }
   /// Returns why the condition had no result, which ended the scope; otherwise an empty text.
   const std::string& diagnostic() const { return diagnostic_; }
-  /// Returns a name's value `place` samples behind the first. A device without power reads as 0.
+  /// Returns a name's value `place` samples after the first. A device without power reads as 0.
   double sample(std::size_t name, std::size_t place) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns nothing if the text is no level of such an input. require_level() checks whether the input can
+/// Returns nothing if the text is not a level of such an input. require_level() checks whether the input can
 /// have it.
 std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind kind);
 /// Returns "on or off", "a voltage such as 2.5V" or "a number".

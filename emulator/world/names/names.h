@@ -62,8 +62,7 @@ struct AxisName {
   std::size_t device = 0;
   int axis = 0;
 };
-/// With `or_counted` a counted input is also acceptable to the caller; the message then says so if there is
-/// neither.
+/// With `or_counted` the caller also accepts a counted input; the message then says so if there is neither.
 AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted = false);
 
 /// Returns true if a device has something of that name.

@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Stands for the ends of a machine without stops. It is farther away than the pulses of a century reach.
+/// Stands for the ends of a machine without stops. It is further away than a century of pulses can reach.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
 PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - pulses, span.last + pulses}; }
@@ -204,12 +204,12 @@ std::optional<SwitchSetup> PlantAxis::way_of(Contact which) const {
       break;
     default: return std::nullopt;
   }
-  // A switch that is on beyond its span lets go at the end of its hysteresis.
+  // A switch that is on beyond its span releases at the end of its hysteresis.
   if (is_on && !holds(way.on, state_.position_pulses)) {
     way.on = wider(way.on, way.hysteresis_pulses);
     way.hysteresis_pulses = 0;
   }
-  // A switch that is on at a stop never lets go there, because the machine does not pass its stops.
+  // A switch that is on at a stop never releases there, because the machine does not pass its stops.
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   if (way.on.last < stops.first || way.on.first > stops.last) return std::nullopt;
   if (way.on.first <= stops.first) way.on.first = -kFarthest_pulses;
@@ -246,7 +246,7 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
 
 void PlantAxis::move_switches(std::int64_t from) {
   const std::int64_t at = state_.position_pulses;
-  // The positions that can operate a switch: the whole way, or only its end.
+  // The positions that can operate a switch: the whole travel, or only its end.
   const PulseSpan way =
       looks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
   const auto move = [&](const SwitchSetup& setup, bool& is_on) {

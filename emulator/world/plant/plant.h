@@ -45,7 +45,7 @@ inline constexpr std::array<std::string_view, 8> kContactNames{
 /// A switch that the machine passes.
 struct SwitchSetup {
   PulseSpan on;
-  std::int64_t hysteresis_pulses = 0;  // it lets go only this far outside
+  std::int64_t hysteresis_pulses = 0;  // it releases only this far outside
   bool opens = false;                  // where it is on, and is closed elsewhere
   int input = -1;                      // the input it is wired to; -1: the model's own
 };
@@ -89,7 +89,7 @@ struct PlantSetup {
   std::optional<DriveSetup> drive;
 };
 
-/// The faults in force on a machine.
+/// The faults in effect on a machine.
 struct MachineFaults {
   bool stalled = false;             // the motor is blocked: every pulse is lost
   std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
@@ -229,7 +229,7 @@ class alignas(64) PlantAxis {
   const State& save() const { return state_; }
   /// Throws StateError if no machine can be in that state.
   static void check(const State& state);
-  /// Checks the state, then puts it in force. If it throws, nothing has changed.
+  /// Checks the state, then puts it into effect. If it throws, nothing has changed.
   void restore(const State& state);
 
  private:

@@ -1,4 +1,4 @@
-// Records the greatest planned speed and acceleration of each axis. It is updated in every tick.
+// Records the maximum planned speed and acceleration of each axis. It is updated in every tick.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ class Peaks final : public TickWatcher {
   struct Peak {
     double speed_pps = 0;      // at the tick before
     double greatest_pps = 0;   // a magnitude, like the next one
-    double greatest_pps2 = 0;  // pulses a second, in a second
+    double greatest_pps2 = 0;  // pulses per second, per second
     bool operator==(const Peak&) const = default;
   };
   /// The peaks so far, as a value.

@@ -1,29 +1,28 @@
-// The names of what can be seen of a world without its lines: for expressions in scenarios, fault triggers,
-// `ctl run-until`, traces. To understand them takes no world, only what there is (view/inventory.h); probes.h
-// looks at the values.
+// The names of the values that can be read from a world without its lines: for expressions in scenarios,
+// fault triggers, `ctl run-until`, traces. Resolving them needs no world, only the inventory
+// (view/inventory.h); probes.h reads the values.
 //
 //   time                       simulated time, a duration
 //   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
 //   robot.T2PE                 values of devices without registers (NamedValues)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first; of a counted input its count, modulo 2^32
-//   mill.CMP.pulses            how many pulses an output has given whose pulses are counted
+//   mill.CMP.pulses            how many pulses an output has sent whose pulses are counted
 //   mill.DI_8                  a group of terminals as one word
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
-//   feeder.A.target            what .pulses will be at the end of its move, or of the path that it is on;
-//   where
-//                              no end is known, what .pulses is
-//   feeder.A.speed             what it runs at by plan, in pulses a second, real
-//   feeder.A.servo             1 while the device has its servo on; where the model has one
-//   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
-//   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
+//   feeder.A.target            what .pulses will be at the end of its move or path; equal to .pulses if no
+//                              end is known
+//   feeder.A.speed             its planned speed, in pulses per second, real
+//   feeder.A.servo             1 while the device has its servo on; if the model has one
+//   feeder.A.pwm               its duty in percent, 0 outside PWM mode; if the model has one
+//   feeder.A.greatest_speed, .greatest_acceleration    the maximum so far, planned, as magnitudes, real; in
 //                              scenarios, since their beginning or the last `reset: peaks`
-//   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
+//   feeder.A.position          the machine's position, in pulses; .lost pulses that did not move it
 //   feeder.A.encoder           its encoder's count
 //   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive; and
-//                              .near_home, .mark, .index where it has them
+//                              .near_home, .mark, .index if it has them
 //   feeder.power               1 while it has power
-//   feeder.pulse_format        which of its forms the pulses have, by number; where the model has several
+//   feeder.pulse_format        the present form of the pulses, by number; if the model has several
 //   feeder.requests, .replies, .exceptions    of its stations
 //   rs485.bytes_in, .bytes_out, .collisions   of a line
 #pragma once

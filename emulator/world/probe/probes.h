@@ -27,7 +27,7 @@ class Probes final : public NameResolver, public ValueSource {
   Tick next_change(const Expression& condition, Tick done) const;
   /// Returns the device of a register or value, which has no value without power.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
-  /// Returns true if the value is not always a whole number; for a device without registers, if it is no
+  /// Returns true if the value is not always a whole number; for a device without registers, if it is not a
   /// whole number now.
   bool may_be_a_fraction(std::int32_t handle) const;
 

@@ -1,5 +1,5 @@
 // A recording holds everything that reached a world from outside and everything that its stations sent, with
-// simulated times. It consists of JSON lines: a header, then one event a line, in order. See
+// simulated times. It consists of JSON lines: a header, then one event per line, in order. See
 // docs/recordings.md.
 #pragma once
 
@@ -23,7 +23,8 @@ struct RecordingHeader {
   std::string bench;    // as bench_text.h has it, memories included
   WorldOptions options;
   std::uint64_t seed = 0;
-  std::string snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; else empty
+  std::string
+      snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; otherwise empty
 };
 
 struct RecordedEvent {
@@ -63,7 +64,7 @@ struct RecordedEvent {
 std::string to_line(const RecordingHeader& header);
 std::string to_line(const RecordedEvent& event, const KnownDevices& devices);
 
-/// Reports a line that is no header or event: "field: what is wrong; what was expected".
+/// Reports a line that is neither a header nor an event: "field: what is wrong; what was expected".
 struct RecordingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

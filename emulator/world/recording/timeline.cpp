@@ -38,7 +38,7 @@ std::size_t Timeline::play(std::size_t next_event, SimTime until) {
     apply(world_, events_[next_event]);
   }
   world_.advance_to(until);
-  // Output that nobody has read must not reach a host that opens the line now.
+  // Output that no host has read must not reach a host that opens the line now.
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     world_.take_output(i, world_.line(i).line.output().size());
   }

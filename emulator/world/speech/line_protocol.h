@@ -50,7 +50,7 @@ class LineProtocol {
   virtual bool is_framed_by_silence() const { return false; }
   /// Returns true if a host's message may change something in one of the stations.
   virtual bool may_change(const LineStations& stations, const pty::CapturedPacket& message) const = 0;
-  /// Returns true if an answer tells that nothing was changed.
+  /// Returns true if an answer says that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
   // --- observers ---------------------------------------------------------------------------------
@@ -61,7 +61,7 @@ class LineProtocol {
   virtual std::string request_text(const LineStations& stations,
                                    std::span<const std::uint8_t> request) const = 0;
   /// Returns "mill: MOVE X 1000" for a message that is a command with a name
-  /// (emulator/device/command_window.h); else an empty text.
+  /// (emulator/device/command_window.h); otherwise an empty text.
   virtual std::string command_text(const LineStations& /*stations*/,
                                    std::span<const std::uint8_t> /*request*/) const {
     return {};

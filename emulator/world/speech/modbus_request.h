@@ -1,4 +1,4 @@
-// What a Modbus request is about: its registers or bits, and what it writes to them.
+// The content of a Modbus request: its registers or bits, and the values that it writes to them.
 #pragma once
 
 #include <cstddef>

@@ -25,7 +25,7 @@ class FaultyWire {
   /// The end of the wire: the station.
   class End {
    public:
-    /// Judges the remains of a request as if they had arrived that way.
+    /// Handles the remains of a request as if they had arrived that way.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
     /// Sends the remains of an answer to the request with that last character.
@@ -36,17 +36,17 @@ class FaultyWire {
     ~End() = default;
   };
 
-  /// A message on its way.
+  /// A message in transit.
   struct Late {
     pty::SimTime at{0};
-    bool is_reply = false;  // else a request
+    bool is_reply = false;  // otherwise a request
     std::uint64_t last_character = 0;
     std::vector<std::uint8_t> bytes{};
   };
   /// Throws std::invalid_argument for impossible late messages.
   static void check(const std::vector<Late>& late);
 
-  /// `late` is its state, in the order of time. It is a part of the station's state.
+  /// `late` is its state, in chronological order. It is a part of the station's state.
   FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
   /// Null: no faults. The numbers of the device and the line are passed on with each frame.
@@ -63,7 +63,7 @@ class FaultyWire {
   void look_at_completed(const HeardFrame& frame);
   /// The completed frame does not exist any more.
   void forget_early_frame() { is_early_ = false; }
-  /// Returns true once for a frame that is to be served before the silence behind it is over.
+  /// Returns true once for a frame that must be served before the silence after it ends.
   bool take_early_frame();
   /// A request is complete. Returns true if it arrived whole; otherwise its remains arrive as pieces.
   bool passes(const HeardFrame& request, pty::Transmitter& out);
@@ -79,7 +79,7 @@ class FaultyWire {
   std::optional<pty::SimTime> due() const;
   /// Delivers late messages whose time has come.
   void run(pty::SimTime now, pty::Transmitter& out);
-  /// Drops all messages on their way.
+  /// Drops all messages in transit.
   void reset();
 
  private:

@@ -30,8 +30,8 @@ class FrameFaults {
   virtual std::vector<pty::WireFault> on_request(const HeardFrame& frame) = 0;
 
   struct Treatment {
-    int exception = 0;        // it is refused with this exception; 0: it is carried out
-    bool is_answered = true;  // false: the power fails as soon as it has been carried out
+    int exception = 0;        // it is refused with this exception; 0: it is executed
+    bool is_answered = true;  // false: the power fails as soon as it has been executed
   };
   /// The device is about to carry it out.
   virtual Treatment on_serving(const HeardFrame& frame) = 0;

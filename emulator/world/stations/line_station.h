@@ -46,7 +46,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
 
   // --- its state: what it hears and has counted; the device's is its own ---------------------------
   virtual void write_state(StateWriter& writer) const = 0;
-  /// Reads a state. Calling the result puts it in force, which does not throw. Throws StateError or
+  /// Reads a state. Calling the result puts it into effect, which does not throw. Throws StateError or
   /// std::invalid_argument for a state that this station cannot have.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
   /// Reads two states and returns where they differ (base/state/difference.h).
@@ -61,7 +61,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   Device& device_;
   std::size_t port_;
   StationCounters& counters_;
-  FaultyWire wire_;  // all that it hears and says goes through it
+  FaultyWire wire_;  // everything that it receives and sends passes through it
 };
 
 /// The stations on a line.

@@ -70,7 +70,7 @@ HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const
           .now = now};
 }
 
-/// Looks at the frame if the character of that number completes one.
+/// Checks the frame if the character with that number completes one.
 void RtuStation::look_at_completed(std::uint64_t last_character, pty::SimTime now) {
   const auto frame = state_.framer.peek();
   if (frame && frame->last_character == last_character) wire_.look_at_completed(heard(*frame, now));

@@ -62,7 +62,7 @@ struct StateOf<emulator::world::TextStation::State> {
 
 namespace understudy::emulator::world {
 
-/// Reads and checks a station's state. Calling the result puts it in force.
+/// Reads and checks a station's state. Calling the result puts it into effect.
 template <class State>
 std::function<void()> read_into(State& state, StateReader& reader) {
   State restored = state;  // includes members that are not read, such as the framing rules

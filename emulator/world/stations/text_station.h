@@ -22,9 +22,10 @@ class TextStation final : public LineStation {
  public:
   /// The number of characters given to the line at once.
   static constexpr std::size_t kPiece = 1024;
-  /// Like kPiece, if the host may send XOFF: characters that the line has cannot be stopped any more.
+  /// Like kPiece, if the host may send XOFF: characters that are already on the line cannot be stopped any
+  /// more.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
-  /// With this many waiting characters it takes no more text from the device until some are sent.
+  /// With this many waiting characters it accepts no more text from the device until some are sent.
   static constexpr std::size_t kMaxOutgoing = 64 * 1024;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
@@ -42,14 +43,14 @@ class TextStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// A received line that is still to be carried out: at its time, within the event that completed it.
+  /// A received line that is still to be executed: at its time, within the event that completed it.
   struct Waiting {
     bool has_heard = false;  // false: the character is only echoed
     pty::HeardText heard;
     std::string echo{};
   };
   struct Outgoing {
-    std::uint64_t last_character = 0;  // of the line that it answers; 0: sent unasked
+    std::uint64_t last_character = 0;  // of the line that it answers; 0: sent without a request
     std::string text{};
   };
   struct State {

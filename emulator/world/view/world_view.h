@@ -62,8 +62,8 @@ class TickWatcher {
   virtual ~TickWatcher() = default;
   virtual void on_tick(Tick tick) = 0;
   /// Returns the first tick after `done` that it must see even if nothing happens: `done` + 1 if it needs
-  /// every tick, kNever if an unchanged tick tells it nothing. The first tick at which nothing happens is
-  /// shown to all watchers.
+  /// every tick, kNever if it does not need unchanged ticks. The first tick at which nothing happens is shown
+  /// to all observers.
   virtual Tick next_look(Tick done) const { return done + 1; }
   /// Nothing has changed since the tick that it saw last, and nothing changes up to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }

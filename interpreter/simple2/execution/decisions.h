@@ -1,4 +1,4 @@
-// What instructions decide, for onlookers of a program.
+// The decisions of instructions, for observers of a program.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace understudy::interpreter::simple2 {
 enum class Decision : std::uint8_t {
   none,
   jump,       // to its flag, or not
-  condition,  // goes on with the next line, or skips it
+  condition,  // continues with the next line, or skips it
   wait,       // is over at once, or waits
 };
 

@@ -40,7 +40,7 @@ bool must_be_read_anew(const Execution& execution, const Program& program, const
          without_flag(program.line(execution.now_line)) != execution.held;
 }
 
-/// Returns the line as it is in the program now, or as it was when it began to wait.
+/// Returns the present line of the program, or the line with which it began to wait.
 const Line& line_to_run(const Execution& execution, const Program& program, const Dialect& dialect) {
   const bool as_it_began = dialect.rewritten_line == Dialect::RewrittenLine::waits_on && holds(execution);
   return as_it_began ? execution.held : program.line(execution.next_line);
@@ -80,7 +80,7 @@ bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
          (is_wrong(instruction->data1, line.data1) || is_wrong(instruction->data2, line.data2));
 }
 
-/// Tells what the line has decided.
+/// Reports what the line has decided.
 void tell_decision(ProgramWatch& watch, int number, const Line& line, Then then) {
   if (const auto outcome = outcome_of(decision_of(line.command), then)) {
     watch.decides(0, number, *outcome, 1);

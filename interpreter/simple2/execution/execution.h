@@ -10,7 +10,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// 500 lines a second (appendix B). Slots are at even milliseconds.
+/// 500 lines per second (appendix B). Slots are at even milliseconds.
 inline constexpr std::int64_t kSlotMs = 2;
 /// The value for "no further slot without a command".
 inline constexpr std::int64_t kNoSlot = INT64_MAX;

@@ -84,7 +84,7 @@ inline Then set_from_line(Step& step) {
   return Then::next_line;
 }
 
-/// Continues with the next line if true, else skips it.
+/// Continues with the next line if true, otherwise skips it.
 template <bool (*comparison)(Number, Number), SecondOperand second>
 Then next_if(Step& step) {
   return comparison(step.first_parameter(), second(step)) ? Then::next_line : Then::line_after_next;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""pymodbus as the host of the controllers of examples/import: imported_host.py PORT BAUD CASE
+"""Uses pymodbus as the host of the controllers of examples/import: imported_host.py PORT BAUD CASE
 
-It ends with 0, or with one line that says what was read and what the example's list expects.
+Exits with 0, or with one line that says what was read and what the example's list expects.
 """
 import sys
 import time
@@ -43,7 +43,7 @@ def drive(client):
     def flags():
         return client.read_holding_registers(status, 1, slave=1).registers[0]
 
-    # Without ENABLE a start is refused: device failure.
+    # Without ENABLE a start is refused with "device failure".
     expect("a start without ENABLE", client.write_register(control, 2, slave=1).exception_code, 4)
     client.write_registers(target, pair(-2000), slave=1)
     client.write_register(control, 1, slave=1)

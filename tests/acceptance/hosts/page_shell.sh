@@ -1,5 +1,5 @@
-# Sourced before the blocks of a page (pages_test.cpp). A program in the first terminal is ended by Ctrl-C when the next
-# one begins. A sleep after a start is always long enough, however busy the machine is.
+# The blocks of a page (pages_test.cpp) source this file first. When the next program starts in the first terminal,
+# Ctrl-C ends the previous one. A sleep after a start is always long enough, however busy the machine is.
 at=0 first= home=$PWD
 failed() { echo "line $1: $2" >>"$home/failures"; }
 judged=0

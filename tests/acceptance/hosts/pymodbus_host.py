@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""pymodbus as the host of a served Simple2-R3: pymodbus_host.py PORT BAUD CASE
+"""Uses pymodbus as the host of a served Simple2-R3: pymodbus_host.py PORT BAUD CASE
 
-Each case is a program as a user of pymodbus writes it. It ends with 0, or with one line that says what was
+Each case is a program as a user of pymodbus writes it. Exits with 0, or with one line that says what was
 read and what the manual expects. Parity is none: a pty does not carry it, and libc lets pymodbus set even
 parity only with strict=False (docs/wire.md).
 """
@@ -30,7 +30,7 @@ PATIENCE_S = 5
 
 
 class Unexpected(Exception):
-    """What the host was told is not what the manual says."""
+    """The reply differs from the manual."""
 
 
 def expect(what, actual, expected):
@@ -39,7 +39,7 @@ def expect(what, actual, expected):
 
 
 def expect_refused(what, reply, function, code):
-    """An exception reply as pymodbus itself sees one, not a missing or a garbled reply."""
+    """Requires an exception reply as pymodbus itself reports it, not a missing or garbled reply."""
     if not isinstance(reply, ExceptionResponse):
         raise Unexpected(f"{what}: {reply}; expected exception {code}")
     expect(f"{what}: isError()", reply.isError(), True)
@@ -47,7 +47,7 @@ def expect_refused(what, reply, function, code):
 
 
 class Host:
-    """A synchronous client, connected, with its registers as the Simple2-R3 has them: low word first."""
+    """A connected synchronous client, whose registers are those of the Simple2-R3: low word first."""
 
     def __init__(self, port, baud, parity="N", **options):
         self.client = ModbusSerialClient(port, baudrate=baud, parity=parity, timeout=PATIENCE_S, **options)
@@ -99,7 +99,7 @@ def words():
 
 
 def a_move(pulses, speed_rpm, acc_time, dec_time):
-    """Pulse to DecTime, five registers that may be written at once."""
+    """Writes Pulse to DecTime, five registers that can be written at once."""
     builder = words()
     builder.add_32bit_int(pulses)
     for value in (speed_rpm, acc_time, dec_time):
@@ -108,7 +108,7 @@ def a_move(pulses, speed_rpm, acc_time, dec_time):
 
 
 def types(port, baud):
-    """Reads and writes of every kind that the registers have."""
+    """Reads and writes registers of every kind."""
     with Host(port, baud) as host:
         expect("HW_Code, function 03", host.read(HW_CODE), [0xC001])
         expect("HW_Code, function 04", host.read_input(HW_CODE), [0xC001])
@@ -141,7 +141,7 @@ def types(port, baud):
         decoder.skip_bytes(1)  # the high byte comes first
         expect("bits of DOUT_ALL", decoder.decode_bits(), [True, True, True, False, True, False, True, False])
 
-        # The longest frames there are: 123 registers to write, 125 to read. A program line's cell is a byte.
+        # The longest frames possible write 123 registers and read 125. A cell of a program line is a byte.
         builder = words()
         for value in range(123):
             builder.add_16bit_uint(value)
@@ -150,7 +150,7 @@ def types(port, baud):
 
 
 def exceptions(port, baud):
-    """Every refusal is seen as such, changes nothing, and the next request works."""
+    """Every refusal is reported as such and changes nothing, and the next request works."""
     with Host(port, baud) as host:
         client = host.client
         before = host.read(A_PULSE, 30)
@@ -203,11 +203,10 @@ def wait_until_still(host, mask):
 
 
 def motion(port, baud):
-    """Moves are started, polled until done, and stopped."""
+    """Starts moves, polls them until they are done, and stops them."""
     with Host(port, baud) as host:
         host.write(ALL_SVON, 1)
-        # One revolution of 3200 pulses at 120 RPM takes 0.5 s, and half of the 20 ms of acceleration and
-        # deceleration more.
+        # One revolution of 3200 pulses at 120 RPM takes 0.5 s, plus half of the 20 ms of acceleration and deceleration.
         host.write_all(A_PULSE, a_move(3200, 120, 1, 1))
         host.write_all(B_PULSE, a_move(-1600, 120, 1, 1))
         started = time.monotonic()
@@ -234,20 +233,20 @@ def motion(port, baud):
 
 
 def reopening(port, baud):
-    """Clients that come and go; each finds what the one before wrote."""
+    """Clients connect and disconnect; each finds what the previous one wrote."""
     for opening in range(20):
         with Host(port, baud) as host:
             expect(f"Aaxis_Speed at opening {opening}", host.read(A_SPEED), [opening])
             host.write(A_SPEED, opening + 1)
     host = Host(port, baud)
-    for closing in range(5):  # the same client, which opens again by itself
+    for closing in range(5):  # the same client, which opens the port again automatically
         host.client.close()
         expect(f"after closing {closing}", host.read(A_SPEED), [20])
     host.client.close()
 
 
 def even_parity(port, baud):
-    """With strict=False the line is opened at 8E1, again and again."""
+    """With strict=False, the client opens the line at 8E1 again and again."""
     for opening in range(3):
         with Host(port, baud, parity="E", strict=False) as host:
             expect(f"HW_Code at opening {opening}", host.read(HW_CODE), [0xC001])
@@ -256,7 +255,7 @@ def even_parity(port, baud):
 
 
 def broadcast(port, baud):
-    """Stations 1 to 3: what is written to address 0 reaches each, and nobody replies."""
+    """A write to address 0 reaches stations 1 to 3, and none replies."""
     with Host(port, baud, broadcast_enable=True) as host:
         for station in (1, 2, 3):
             host.write(A_SPEED, 100 * station, station)
@@ -265,7 +264,7 @@ def broadcast(port, baud):
             reply = host.client.write_register(A_SPEED, value, slave=0)
             expect("reply", reply, b"Broadcast write sent - no response expected")
             expect("it did not wait", time.monotonic() - started < PATIENCE_S, True)
-            # Had a station replied, this would read that reply.
+            # If a station had replied, this would read that reply.
             for station in (3, 1, 2):
                 expect(f"Aaxis_Speed of station {station}", host.read(A_SPEED, station=station), [value])
         host.client.write_registers(A_PULSE, [0xFE0C, 0xFFFF], slave=0)
@@ -293,7 +292,7 @@ async def asynchronous_client(port, baud):
 
 
 def asynchronous(port, baud):
-    """The client for asyncio, which has its own way of reading and sends without a pause."""
+    """Uses the asyncio client, which reads differently and sends without a pause."""
     asyncio.run(asynchronous_client(port, baud))
 
 

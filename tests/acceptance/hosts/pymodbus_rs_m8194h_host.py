@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""pymodbus as the host of a served RS-M8194H: pymodbus_rs_m8194h_host.py PORT CASE
+"""Uses pymodbus as the host of a served RS-M8194H: pymodbus_rs_m8194h_host.py PORT CASE
 
-Station 1 at 115200 8N1; DI_9_2 is on, and MP 21 adds up VAR1 and VAR2 in VAR3. It ends with 0, or with one line
+Station 1 at 115200 8N1; DI_9_2 is on, and MP 21 adds up VAR1 and VAR2 in VAR3. Exits with 0, or with one line
 that says what was read and what is expected.
 """
 import asyncio
@@ -23,7 +23,7 @@ PATIENCE_S = 5
 
 
 class Unexpected(Exception):
-    """What the host was told is not what the manual says."""
+    """The reply differs from the manual."""
 
 
 def expect(what, actual, expected):
@@ -32,7 +32,7 @@ def expect(what, actual, expected):
 
 
 class Host:
-    """A synchronous client, connected; 32 bits have the high word first."""
+    """Returns a connected synchronous client; 32-bit values have the high word first."""
 
     def __init__(self, port):
         self.client = ModbusSerialClient(port, baudrate=BAUD, parity="N", timeout=PATIENCE_S)
@@ -83,7 +83,7 @@ class Host:
 
 
 def types(port):
-    """All eight functions, both orders of words."""
+    """Uses all eight functions, in both word orders."""
     with Host(port) as host:
         client = host.client
         for on in (True, False, True):
@@ -119,7 +119,7 @@ def types(port):
 
 
 def refusals(port):
-    """The exception, the reason in input 102, and the next good request."""
+    """Checks the exception, the reason in input 102, and the next valid request."""
     with Host(port) as host:
         client = host.client
         cases = [
@@ -144,7 +144,7 @@ def refusals(port):
 
 
 def motion(port):
-    """Moves through the window, a stop, and a macro that is called."""
+    """Moves axes through the window, stops one, and calls a macro."""
     with Host(port) as host:
         host.command(SET_SV, 15, 2000)
         host.command(SET_V, 15, 2000)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""pymodbus as the hosts of a served SUPER-40NC: pymodbus_super40nc_host.py PANEL_PORT PC_PORT CASE
+"""Uses pymodbus as the hosts of a served SUPER-40NC: pymodbus_super40nc_host.py PANEL_PORT PC_PORT CASE
 
-The device is station 3, since pymodbus takes 0 for everybody; X3 is ON, which the PLC shows on Y0, and M8100
-starts a program that counts in D0 and drives X there and back. It ends with 0, or with one line that says what
+The device is station 3, because pymodbus treats 0 as the broadcast. X3 is ON, which the PLC shows on Y0, and M8100
+starts a program that counts in D0 and moves X out and back. Exits with 0, or with one line that says what
 was read and what is expected. Parity is none: a pty does not carry it.
 """
 import asyncio
@@ -22,7 +22,7 @@ PATIENCE_S = 5
 
 
 class Unexpected(Exception):
-    """What the host was told is not what the manual says."""
+    """The reply differs from the manual."""
 
 
 def expect(what, actual, expected):
@@ -31,7 +31,7 @@ def expect(what, actual, expected):
 
 
 class Host:
-    """A synchronous client, connected; registers are 32 bits, the low word first."""
+    """Returns a connected synchronous client; registers have 32 bits, low word first."""
 
     def __init__(self, port):
         self.client = ModbusSerialClient(port, baudrate=19200, parity="N", timeout=PATIENCE_S)

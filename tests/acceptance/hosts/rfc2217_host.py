@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""python3-serial as a host that is elsewhere: rfc2217_host.py URL CASE
+"""Uses python3-serial as a host on another machine: rfc2217_host.py URL CASE
 
-Ends with 0, or with one line that says what was read and what was expected.
+Exits with 0, or with one line that says what was read and what was expected.
 """
 import sys
 import time
@@ -31,7 +31,7 @@ def ask(port, expected, what):
 
 
 def settings(url):
-    """Each that is not the device's makes it deaf, and the right ones make it hear again."""
+    """With wrong settings the device receives nothing; with the right ones it replies again."""
     with opened(url) as port:
         ask(port, True, "19200 8E1")
         for wrong, right in [({"parity": "N"}, {"parity": "E"}), ({"parity": "O"}, {"parity": "E"}),
@@ -41,13 +41,13 @@ def settings(url):
             ask(port, False, wrong)
             port.apply_settings(right)
             ask(port, True, right)
-        # The usual slip: a host that leaves pyserial's own settings.
+        # The usual mistake: a host that keeps pyserial's default settings.
     with opened(url, baudrate=9600, parity="N") as port:
         ask(port, False, "9600 8N1")
 
 
 def lines(url):
-    """What a UART has beside its bytes."""
+    """Checks the features of a UART besides its bytes."""
     with opened(url) as port:
         require((port.cts, port.dsr, port.cd, port.ri), (True, True, True, False), "modem lines")
         port.dtr = False
@@ -55,7 +55,7 @@ def lines(url):
         port.rtscts = True
         ask(port, True, "hardware flow control")
         port.send_break(0.01)
-        time.sleep(0.05)  # the rest of a frame is waited for that long
+        time.sleep(0.05)  # the controller waits this long for the rest of a frame
         ask(port, True, "after a break")
         port.reset_output_buffer()
         port.reset_input_buffer()
@@ -74,7 +74,7 @@ def second(url):
 
 
 def every_byte(url):
-    """255 is special to telnet; it is in registers and checksums like any other."""
+    """255 is special to telnet, but occurs in registers and checksums like any other byte."""
     with opened(url) as port:
         for request, reply in [("01101000000204FFFFFFFF3FFB", "0110100000024508"),
                                ("010310000002C0CB", "010304FFFFFFFFFBA7")]:

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""python3-serial as the host of a served SLIM: slim_serial_host.py PORT CASE
+"""Uses python3-serial as the host of a served SLIM: slim_serial_host.py PORT CASE
 
-Each case is a program as a user of pyserial writes it. It ends with 0, or with one line that says what was read
-and what was expected.
+Each case is a program as a user of pyserial writes it. Exits with 0, or with one line that says what was read and what
+was expected.
 """
 import sys
 import time
@@ -11,7 +11,7 @@ import serial
 
 PATIENCE_S = 3
 
-# Stacks boxes: a stroke by each box, a quarter of a circle to the next stack, and a word after each.
+# Stacks boxes: a stroke for each box, a quarter of a circle to the next stack, and a word after each.
 PALLET = """DLP
 TX=0
 TY=1
@@ -43,7 +43,7 @@ END
 
 
 class Unexpected(Exception):
-    """What the host was told is not what the command list says."""
+    """The reply differs from the command list."""
 
 
 def expect(what, actual, expected):
@@ -82,17 +82,17 @@ def palletising(path):
     robot.type("T1TVA=100000")
     robot.type("G")
     robot.expect_line("BOXES")
-    robot.ask("two", "ERR 1")  # no number: it is asked for again
+    robot.ask("two", "ERR 1")  # not a number, so the program asks again
     robot.type("2")
     robot.expect_line("PITCH")
-    robot.ask("?PE", "ERR 1")  # a line is not a command while a number is waited for
+    robot.ask("?PE", "ERR 1")  # while a program waits for a number, a line is not a command
     started = time.monotonic()
     robot.type("12.5")
     robot.expect_line("BOX")
     robot.expect_line("BOX")
     robot.expect_line("PALLET")
-    # 2 x 12.5, then a quarter of a circle with the radius 25, which is 39.27: by 100000 units/s2 they take
-    # 2 sqrt(12.5 / a) = 22.4 ms twice and 39.27 / 1000 + 10 ms = 49.3 ms, and the waits 2 x 20 ms: 134 ms.
+    # 2 x 12.5, then a quarter of a circle with the radius 25, which is 39.27. At 100000 units/s2 they take 2 sqrt(12.5
+    # / a) = 22.4 ms twice and 39.27 / 1000 + 10 ms = 49.3 ms, and the waits take 2 x 20 ms: 134 ms.
     took = time.monotonic() - started
     if took < 0.134:
         raise Unexpected(f"took {took:.3f} s; expected 0.134 s or more")
@@ -112,10 +112,10 @@ def half_lines(path):
         robot.line.flush()
         time.sleep(0.02)
     robot.expect_line("0")
-    robot.line.write(b"N1=4\r\nR1=2.5\r?N1\r\n?R1\n?VER\r")  # several in one write, three kinds of ends
+    robot.line.write(b"N1=4\r\nR1=2.5\r?N1\r\n?R1\n?VER\r")  # several in one write, with three kinds of ends
     for expected in ("4", "2.5", "1.00"):
         robot.expect_line(expected)
-    robot.line.write(b"?N1?\x1b?N1\r")  # ESC forgets what of a line has come
+    robot.line.write(b"?N1?\x1b?N1\r")  # ESC discards the beginning of the line
     robot.expect_line("4")
     robot.expect_silence()
 
@@ -130,7 +130,7 @@ def noise(path):
     robot.line.write(b"x" * 200 + b"\r?ERR\r")
     robot.expect_line("ERR 1")  # one for the whole line
     robot.expect_line("1")
-    robot.line.write(b"\xff\x00\xfe?PE\rRESET\r?ERR\r?PE\r")  # noise that runs into a line spoils it, and no other
+    robot.line.write(b"\xff\x00\xfe?PE\rRESET\r?ERR\r?PE\r")  # noise within a line corrupts that line only
     for expected in ("ERR 1", "0", "0"):
         robot.expect_line(expected)
     robot.expect_silence()

@@ -32,11 +32,11 @@ def ip(*words):
 
 
 class Host:
-    """Another machine: a process in a namespace of its own, told what to do by lines."""
+    """Another machine: a process in a separate network namespace, which reads its commands as lines."""
 
     def __init__(self, number):
         self.link = f"to{number}"
-        # Here, where understudy is, this end has .1; the host has .2.
+        # On the side of understudy, this end has .1; the host has .2.
         self.server, own = f"10.77.{number}.1", f"10.77.{number}.2"
         self.process = subprocess.Popen(["unshare", "-n", sys.executable, __file__, "host"], stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE, text=True)
@@ -94,7 +94,7 @@ def be_host():
 
 
 def answer_of(client):
-    """What a line says to a host: its reply, or that somebody else has it."""
+    """Returns a line's answer to a host: its reply, or that another host has it."""
     try:
         client.sendall(REQUEST)
         heard = b""
@@ -117,7 +117,7 @@ def main(understudy):
         with open(bench, "w", encoding="utf-8") as file:
             file.write(BENCH)
         log = open(os.path.join(folder, "log"), "w+", encoding="utf-8")
-        # It ends with this program, also when that is killed.
+        # It ends with this program, even if this program is killed.
         served = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", understudy, "serve", bench, "--control",
                                    folder + "/control"], stdout=subprocess.PIPE, stderr=log, text=True)
         hosts = []
@@ -171,7 +171,7 @@ if __name__ == "__main__":
         main(sys.argv[1])
     else:
         enter = ["unshare", "-n"] if os.geteuid() == 0 else ["unshare", "-rn"]
-        # A veth pair is wanted as well: some kernels have none.
+        # Checks for veth pairs too, because some kernels have none.
         probe = enter + ["ip", "link", "add", "one", "type", "veth", "peer", "name", "other"]
         try:
             if subprocess.run(probe, capture_output=True, check=False).returncode != 0:

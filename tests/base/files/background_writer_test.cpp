@@ -42,7 +42,7 @@ TEST(BackgroundWriter, NeverWaitsForASlowDiskAndBoundsWhatWaits) {
   EXPECT_EQ(writer.append("bbbb"), Outcome::taken);
   EXPECT_EQ(writer.append("cccc"), Outcome::taken);
   EXPECT_EQ(writer.append("dddd"), Outcome::full) << "8 of 10 bytes are taken already";
-  EXPECT_EQ(writer.append("ee"), Outcome::taken) << "a piece that has room is taken all the same";
+  EXPECT_EQ(writer.append("ee"), Outcome::taken) << "a piece that fits is accepted all the same";
   go_on.set_value();
   writer.finish();
   EXPECT_EQ(written, "aaaabbbbccccee");

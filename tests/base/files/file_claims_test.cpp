@@ -59,7 +59,7 @@ TEST_F(FileClaimsTest, AFileThatIsNotThereYetIsOneAsWell) {
   EXPECT_EQ(claims_.objection_to(at("dangling")), "is what --capture writes; expected another path");
   EXPECT_EQ(claims_.objection_to(at("inner/later.txt")), "is what --trace writes; expected another path");
   EXPECT_EQ(claims_.objection_to(at("later.txt")), "");
-  // In a folder that is not there either, by the words alone.
+  // In a folder that does not exist either, only the text of the path counts.
   claims_.add({at("none/a"), "what --record writes"});
   EXPECT_NE(claims_.objection_to(at("none/./a")), "");
 }
@@ -70,7 +70,7 @@ TEST_F(FileClaimsTest, WhatIsNoRegularFileIsLeftOut) {
     claims_.add({path, "what --junit writes"});
     EXPECT_EQ(claims_.objection_to(path), "") << path;
   }
-  fs::create_symlink("loop", at("loop"));  // leads nowhere; whoever opens it is told
+  fs::create_symlink("loop", at("loop"));  // leads nowhere; opening it reports that
   EXPECT_EQ(claims_.objection_to(at("loop")), "");
 }
 

@@ -134,7 +134,7 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
             "it is another user's link in a folder that everyone can write to; expected a path of your own");
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), 0), 0);
   EXPECT_EQ(refusal(link), "");
-  // The same through a folder on the way.
+  // The same through a folder in the path.
   const std::string way = open_folder + "/way";
   fs::create_directory_symlink(fs::path(precious).parent_path(), way);
   EXPECT_EQ(refusal(way + "/precious"), "");

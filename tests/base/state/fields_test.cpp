@@ -237,7 +237,7 @@ TEST(Difference, OfWhatSavesItselfIsOfWhatIsInIt) {
   one.turn();
   one.set(1, 1);
   one.set(0, 2);
-  EXPECT_EQ(first_difference(one, other), "") << "where it lies does not matter";
+  EXPECT_EQ(first_difference(one, other), "") << "its position does not matter";
   other.set(1, 9);
   EXPECT_EQ(first_difference(one, other, "ring"), "ring[1]: 2 against 9");
   StateWriter writer;

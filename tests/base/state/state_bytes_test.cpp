@@ -1,5 +1,5 @@
-// Bytes by hand: how a value of each kind is written, what is refused, and the published examples of the
-// codes.
+// Bytes written by hand: how a value of each kind is written, what is refused, and the published examples of
+// the codes.
 #include "base/state/state_bytes.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-/// One of everything.
+/// One member of every kind.
 struct Sample {
   std::uint8_t byte = 0;
   std::int32_t number = 0;

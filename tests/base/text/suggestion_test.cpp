@@ -21,20 +21,20 @@ TEST(NearWord, HasTheFewestChangesWithinAThirdOfItsLetters) {
       {"exact", {"exacts", "exact", "exac"}, "exact"},
       {"tie", {"tia", "tib"}, "tia"},             // the first of equals
       {"nht", {"at", "for", "nth"}, "nth"},       // two neighbours swapped are one change
-      {"SERVO", {"stop", "servo"}, "servo"},      // capitals are small letters
+      {"SERVO", {"stop", "servo"}, "servo"},      // capitals equal small letters
       {"jam", {"alarm", "stall"}, std::nullopt},  // 2 changes: al+arm; 3 letters allow 1
       {"abcdef", {"abcdXY"}, "abcdXY"},           // 6 letters allow 2
       {"abcdef", {"abcXYZ"}, std::nullopt},       // and not 3
       {"abcdefghi", {"abcdefXYZ"}, "abcdefXYZ"},  // 9 allow 3
-      {"y", {"x"}, std::nullopt},                 // nothing of it would be left
+      {"y", {"x"}, std::nullopt},                 // nothing would be left
       {"ya", {"xa"}, "xa"},
-      {"puls", {"speed", "pulses"}, "pulses"},            // 2 changes, but its beginning
-      {"Cord", {"Curve", "Cord_A", "Cord_B"}, "Cord_A"},  // 2 changes; the first that begins so
+      {"puls", {"speed", "pulses"}, "pulses"},            // 2 changes, but the beginning of it
+      {"Cord", {"Curve", "Cord_A", "Cord_B"}, "Cord_A"},  // 2 changes; the first one with this beginning
       {"cor", {"Chord", "Cord_A"}, "Cord_A"},
-      {"co", {"Cord_A"}, std::nullopt},  // says too little
+      {"co", {"Cord_A"}, std::nullopt},  // too short to tell
       {"", {"longest", "ab"}, std::nullopt},
       {"anything", {}, std::nullopt},
-      {std::string(65, 'x'), {std::string(64, 'x')}, std::nullopt},  // no name is so long
+      {std::string(65, 'x'), {std::string(64, 'x')}, std::nullopt},  // no name is this long
   };
   for (const Case& c : cases) EXPECT_EQ(near_word(c.word, c.known), c.near) << c.word;
 }

@@ -1,5 +1,4 @@
-// A device without facets: it says nothing about registers, terminals, axes, memory, programs or motion that
-// it lacks.
+// A device without facets reports no registers, terminals, axes, memory, programs or motion.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +19,7 @@ constexpr PortRow kPorts[] = {{.name = "HILL", .bauds = kBauds, .settings = {}}}
 constexpr TerminalRow kLamp[] = {{TerminalRow::Kind::digital_out, "LAMP"}};
 constexpr AxisRow kWheel[] = {{.name = "A"}};
 
-/// Nothing but its state, which is nothing.
+/// Only its state, which is empty.
 class BareDevice final : public Device {
  public:
   using Device::Device;
@@ -147,7 +146,7 @@ TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
   EXPECT_EQ(diagnostic_of_making(without_port()), "bare: lacks a port on its line");
 }
 
-// A bench is read by a model's ports before any device is made.
+// A bench uses a model's ports before any device is made.
 TEST(BareDevice, OfAModelWithoutAPortIsRefusedByABench) {
   const std::array<ListedModel, 1> models{&without_port()};
   try {

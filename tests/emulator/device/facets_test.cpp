@@ -44,7 +44,7 @@ TEST(Facets, ThatTablesNeedAreDemanded) {
     static const Toy other(kToyRows);
     return std::make_unique<ToyDevice>(other.model, settings);
   };
-  EXPECT_THROW(made(model), std::logic_error) << "it speaks Modbus, and has no such station";
+  EXPECT_THROW(made(model), std::logic_error) << "it uses Modbus, but has no such station";
 }
 
 TEST(Facets, NoProgramIsTakenWhereThereIsNone) {

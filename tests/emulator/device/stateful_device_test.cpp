@@ -22,7 +22,7 @@ constexpr std::int32_t kOpenings = 3;
 struct GateState {
   std::int32_t opened = 0;
   Tick seen = 0;                  // the last tick, also if it was skipped
-  std::int32_t left = kOpenings;  // does not stand in the bytes
+  std::int32_t left = kOpenings;  // is not part of the bytes
 
   bool operator==(const GateState&) const = default;
 };

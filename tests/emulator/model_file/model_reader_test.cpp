@@ -32,9 +32,9 @@ const std::string kList =
     "input,1,LEVEL,R,u16,,,,0,0,\n"
     "coil,0,RUN,R/W,bit,,,,0,0,\n"
     "discrete,0,SWITCH,R,bit,,,,0,0,\n";
-constexpr int kLines = 17;  // before what follows the list
+constexpr int kLines = 17;  // comes before the part after the list
 
-/// The errors of a model with these further lines, without the place of the file's beginning.
+/// Returns the errors of a model with these further lines, without the position at the file's beginning.
 std::string diagnostic(const std::string& more) { return diagnostic_about(model_with(kList, more)); }
 
 std::string at(int line, int column, const std::string& text) {
@@ -201,7 +201,7 @@ TEST(ModelReader, SaysWhatIsWrongWithTheWhole) {
             "m.yaml:1:1: model: the file is not a map; expected `understudy: 1`, `model:` and `registers:`");
 }
 
-/// Values that are stored unchecked may be beyond the range of the list, and so may shown values.
+/// Values that are stored unchecked can exceed the range of the list, and so can displayed values.
 TEST(ModelReader, KnowsWhichValuesMayBeThere) {
   EXPECT_EQ(diagnostic("axes: { A: { stop: SPEED == 9000 } }\n"), "");
   EXPECT_EQ(diagnostic("map: { out_of_range: stored }\naxes: { A: { stop: SPEED == 9001 } }\n"), "");
@@ -287,7 +287,7 @@ TEST(ModelFiles, GiveTheSameModelForTheSameText) {
   const std::string text = model_with(kList, axis("target: TARGET, speed: SPEED, start: CONTROL.GO"));
   const Model& model = described_models().parse(text, "m.yaml");
   EXPECT_EQ(&described_models().parse(text, "other.yaml"), &model);
-  // And its own text.
+  // It also shows its own text.
   EXPECT_EQ(&described_models().parse(std::string(model.description), "again.yaml"), &model);
 }
 
@@ -323,7 +323,7 @@ TEST_F(ModelFilesInAFolder, AreNamedByBenches) {
   for (const FileClaim& claim : bench.files)
     read.push_back(std::filesystem::path(claim.path).filename().string());
   EXPECT_EQ(read, (std::vector<std::string>{"bench.yaml", "m.yaml", "list.csv"}));
-  // As text it is complete: it is the same bench wherever the files are.
+  // As a text it is complete: it is the same bench wherever the files are.
   const std::string text = to_text(bench);
   std::filesystem::remove_all(folder_);
   const world::Bench again = world::parse_recorded_bench(with_described(), text);

@@ -166,7 +166,7 @@ TEST(RegisterList, ARangeMayBeOneValue) {
   const auto registers =
       read_list_file("address,name,type,min,max\n0,A,f32,1.5,1.5\n2,B,f32,-2.5,-1.5\n4,C,u16,3,3\n", "l.csv");
   EXPECT_EQ(real_of(registers[0].factory), 1.5F);
-  EXPECT_EQ(real_of(registers[1].factory), -2.5F) << "the lower end, where 0 is beyond it";
+  EXPECT_EQ(real_of(registers[1].factory), -2.5F) << "the lower end, if 0 is beyond it";
   EXPECT_EQ(registers[2].factory, 3);
 }
 

@@ -78,7 +78,7 @@ TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
           EXPECT_EQ(read_value(bank, *place), written) << name << " of firmware " << firmware;
         }
         ++kept;
-        // Its memory is as it was: effects of one register on another are not tested here.
+        // Its memory is unchanged: effects of one register on another are not tested here.
         const std::unique_ptr<Device> other = make(firmware);
         fresh->restore_state(other->save_state());
       }
@@ -88,7 +88,7 @@ TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
   EXPECT_GT(kept, 0);
 }
 
-/// As station 5: for some models 0 is an ordinary number, and the factory's.
+/// As station 5: for some models 0 is an ordinary address, and the factory setting.
 TEST_P(ModelContract, NeverAnswersABroadcast) {
   if (!model().rtu) return;  // it does not speak Modbus
   for (const Firmware firmware : model().firmwares) {
@@ -136,7 +136,7 @@ TEST_P(ModelContract, WiresItsAxesToTerminalsOfTheRightKind) {
     }
     for (const int output : {axis.servo_output, axis.alarm_clear_output})
       EXPECT_TRUE(is_that(output, false)) << axis.name << ": " << output;
-    EXPECT_GE(axis.home_input, 0) << axis.name << ": a machine's home switch would be seen by nobody";
+    EXPECT_GE(axis.home_input, 0) << axis.name << ": nothing would see a machine's home switch";
   }
 }
 

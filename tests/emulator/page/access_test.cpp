@@ -11,7 +11,7 @@ namespace access_test {
 
 struct HostCase {
   const char* text;
-  const char* name;  // null: it is none
+  const char* name;  // null: the header is absent
   int port;
 };
 

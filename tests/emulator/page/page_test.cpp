@@ -94,7 +94,7 @@ TEST(PageFiles, HoldNoOtherFileAndNoSecret) {
 
 struct RequestCase {
   std::string request;  // PORT stands for the port; without the empty line
-  const char* answer;   // empty: it is closed
+  const char* answer;   // empty: the connection is closed
 };
 
 TEST(PageRequests, ThatAreWrongAreRefused) {
@@ -187,7 +187,7 @@ TEST(PageConnections, ByTheThousandLeaveItAlive) {
     if (i % 3 == 0) all.back()->write("GET / HTTP/1.1\r\nHost: 127");  // half a request
     if (i % 3 == 1) all.back()->hang_up();
   }
-  // Connections that send nothing are closed, and there is room again.
+  // Connections that send nothing are closed, and then there are free places again.
   for (int i = 0; i < 50; ++i) {
     TestBrowser browser(rig.page.port());
     if (browser.ask("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n") ==
@@ -200,7 +200,7 @@ TEST(PageConnections, ByTheThousandLeaveItAlive) {
 }
 
 TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
-  PageRig rig;  // a stranger may take its time: 5 s
+  PageRig rig;  // an unauthenticated client has 5 s
   std::vector<std::unique_ptr<TestBrowser>> unauthenticated;
   const auto come = [&](int count) {
     for (int i = 0; i < count; ++i) {
@@ -213,13 +213,13 @@ TEST(PageConnections, OfStrangersDoNotKeepOthersOut) {
   };
   const auto begin = Clock::now();
   come(64);
-  const auto owner = rig.browser();  // is let in at once
+  const auto owner = rig.browser();  // is admitted at once
   TestBrowser reader(rig.page.port());
   EXPECT_EQ(reader.ask("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n"),
             "HTTP/1.1 200");
   come(200);
   EXPECT_EQ(rig.browser()->why(), "");
-  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "nobody was waited for";
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(4)) << "the bench waited for no one";
   // The oldest were closed for new ones; the newest are still connected, and so is every client that had the
   // token.
   EXPECT_TRUE(is_closed(*unauthenticated.front()));
@@ -292,7 +292,7 @@ TEST(PageLooks, AreOneForAllBrowsersAndAtMostThirtyASecond) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const int last = bench.looks();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(bench.looks(), last) << "nobody watches";
+  EXPECT_EQ(bench.looks(), last) << "there is no observer";
 }
 
 TEST(PageLooks, TellOnlyWhatHasChanged) {
@@ -315,7 +315,7 @@ TEST(PageLooks, TellOnlyWhatHasChanged) {
 TEST(PageLooks, TellEveryFrameOnce) {
   PageRig rig;
   MadeUpBench bench(rig.socket(), counting);
-  for (int i = 0; i < 2; ++i) {  // the second browser gets those that were there before as well
+  for (int i = 0; i < 2; ++i) {  // the second browser gets the earlier ones as well
     const auto browser = rig.browser();
     browser->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
     int expected = 1;
@@ -329,7 +329,7 @@ TEST(PageLooks, TellEveryFrameOnce) {
   }
 }
 
-/// Of a bench that has forgotten some before it was asked: frames 5 to 8, then 20 to 22, then 23.
+/// From a bench that has forgotten some before the first request: frames 5 to 8, then 20 to 22, then 23.
 class PageLosses : public testing::TestWithParam<const char*> {};
 
 TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
@@ -368,10 +368,10 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   using Told = std::pair<std::vector<int>, int>;
   const auto browser = rig.browser();
   browser->say({{"do", "watch"}, {"bench", 0}, {key, true}});
-  EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "what was before it looked, it does not miss";
+  EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "frames before its first look are not missed";
   most = 2;
   EXPECT_EQ(wait_for(*browser, 22), Told({20, 21, 22}, 11));
-  // There is also a gap within what the page has stored.
+  // There is also a gap within the frames that the page has stored.
   const auto later = rig.browser();
   later->say({{"do", "watch"}, {"bench", 0}, {key, true}});
   EXPECT_EQ(wait_for(*later, 22), Told({5, 6, 7, 8, 20, 21, 22}, 11));

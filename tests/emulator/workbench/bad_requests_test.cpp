@@ -1,5 +1,5 @@
 // The replies of each of the eight functions to wrong requests, and what the device learns of them: each kind
-// of fault with each function. No part of such a request is carried out.
+// of fault with each function. No part of such a request is executed.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,7 +44,7 @@ struct Heard {
 struct Case {
   Fault fault;
   const char* request;
-  int exception;  // 0: it is good, which the table says as well
+  int exception;  // 0: it is valid, which the table contains as well
   Cause cause = Cause::none;
   Heard heard{};
   int reason = 0;
@@ -115,7 +115,7 @@ const Case kCases[] = {
     {Fault::neither_on_nor_off, "05 00 00 FF 01", 3, Cause::bad_bit, {0, 1}},
     {Fault::neither_on_nor_off, "05 FF FF 01 00", 3, Cause::bad_bit, {0xFFFF, 1}},
 
-    // Holes before the end of a table read zero, and take nothing.
+    // Holes before the end of a table read zero, and ignore writes.
     {Fault::a_hole, "01 00 50 00 01", 0},
     {Fault::a_hole, "02 00 12 00 01", 0},
     {Fault::a_hole, "03 00 03 00 01", 0},
@@ -186,7 +186,7 @@ std::uint8_t function_of(const Case& c) { return world::hex(c.request)[0]; }
 
 TEST(BadRequests, GetTheRightExceptionAndChangeNothing) {
   for (const Case& c : kCases) {
-    OneStation rig(true);  // only silence ends a frame: what lies about its length is heard as well
+    OneStation rig(true);  // only silence ends a frame: data that contradicts its length is received as well
     const WorkbenchState before = rig.state();
     const std::string reply = rig.ask(c.request);
     const std::uint8_t function = function_of(c);
@@ -203,7 +203,7 @@ TEST(BadRequests, GetTheRightExceptionAndChangeNothing) {
     EXPECT_EQ(after.reason, c.reason) << c.request;
     after.cause = before.cause;
     after.reason = before.reason;
-    EXPECT_EQ(after, before) << c.request << ": something of it was carried out";
+    EXPECT_EQ(after, before) << c.request << ": part of it was executed";
     const RefusedRequest& heard = rig.bench().last_refused;
     EXPECT_EQ(heard.function, function) << c.request;
     EXPECT_EQ(heard.exception, c.exception) << c.request;
@@ -235,7 +235,7 @@ TEST(BadRequests, EveryFunctionHasEveryFaultThatItCanHave) {
       all,                       // beyond_the_table
       counted,                   // beyond_all_addresses
       writes,                    // read_only
-      {0x03},                    // write_only: coils of that kind, and input registers, there are none
+      {0x03},                    // write_only: there are no coils or input registers of that kind
       {0x03, 0x04, 0x06, 0x10},  // half_a_pair
       {0x03, 0x04, 0x10},        // a_pair_and_a_half
       {0x06, 0x10},              // out_of_range
@@ -258,7 +258,7 @@ TEST(BadRequests, AFunctionThatIsNotServedIsHeardOfToo) {
     EXPECT_EQ(heard.function, function);
     EXPECT_EQ(heard.exception, 1);
     EXPECT_EQ(heard.objection.cause, Cause::unknown_function);
-    EXPECT_EQ(heard.count, 0U) << "nobody knows what its bytes mean";
+    EXPECT_EQ(heard.count, 0U) << "the meaning of its bytes is unknown";
   }
 }
 

@@ -90,14 +90,14 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
   world::Bench bench = bench_of();
   try {
     serve::read_memories(bench, folder.path());
-    ADD_FAILURE() << "it is taken";
+    ADD_FAILURE() << "it is accepted";
   } catch (const FileError& error) {
     EXPECT_EQ(error.what(),
               folder.path("it.json") + ":6: blocks: files: 'B': is not a number; expected 00 to 99");
   }
 }
 
-/// All of them, each at its place.
+/// All of them, each in its place.
 TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
@@ -107,7 +107,7 @@ TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
       "          Gain_Y: 11\n";
   try {
     world::parse_bench(kWorkbenchModels, text, "bench.yaml", "/tmp");
-    ADD_FAILURE() << "it is taken";
+    ADD_FAILURE() << "it is accepted";
   } catch (const FileError& error) {
     std::string told;
     for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
@@ -225,8 +225,7 @@ TEST(Ports, ACaptureTellsCommandsByTheirNames) {
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const std::size_t first = text.find("mill: MOVE Y -1000");
     EXPECT_NE(first, std::string::npos) << text;
-    EXPECT_EQ(text.find("mill: ", first + 1), std::string::npos)
-        << "of commands only, and of requests: " << text;
+    EXPECT_EQ(text.find("mill: ", first + 1), std::string::npos) << "only commands and requests: " << text;
   }
 }
 

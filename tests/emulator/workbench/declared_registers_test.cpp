@@ -1,6 +1,6 @@
-// The whole register maps of two large controllers, written down with the words for rows, and read and
-// written over Modbus as their manuals say. The maps are facts read out of the manuals: a line for each
-// register, or a run of them (declared/*.csv).
+// The whole register maps of two large controllers, written down with the vocabulary of rows, and read and
+// written over Modbus as their manuals say. The maps are facts from the manuals: a line for each register, or
+// for a run of them (declared/*.csv).
 #include <gtest/gtest.h>
 
 #include <map>
@@ -25,7 +25,7 @@ struct Declaration {
   int first_number = 0;
   int count = 1;
   Type type = Type::u16;
-  std::string access;  // R, R/W, W; "-": a hole that the manual names
+  std::string access;  // R, R/W, W; "-": a hole that the manual mentions
   std::string held;    // stored, view, window, hole
   bool is_kept = false;
   Value power_up = 0;
@@ -184,7 +184,7 @@ Bytes bytes_of_bits(std::uint32_t bits, Type type, bool low_word_first) {
 }
 
 std::uint8_t reading(Table table) {
-  constexpr std::uint8_t kCodes[] = {0x03, 0x04, 0x01, 0x02};  // as Table lists them
+  constexpr std::uint8_t kCodes[] = {0x03, 0x04, 0x01, 0x02};  // in the order of Table
   return kCodes[static_cast<std::size_t>(table)];
 }
 
@@ -223,7 +223,7 @@ std::uint32_t some_bits(const Declaration& fact, int index) {
   return is_32_bit(fact.type) ? mixed : mixed >> 16;
 }
 
-/// Of each row its first, a middle and its last.
+/// The first, middle and last register of each row.
 std::vector<int> sample_of(const Declaration& fact) {
   std::vector<int> indices{0};
   if (fact.count > 2) indices.push_back(fact.count / 2);
@@ -307,10 +307,11 @@ TEST(DeclaredRegisters, HolesAreWhatTheManualsSay) {
   EXPECT_EQ(rsm.ask(world::hex("04 00 1B 00 02")), "84 02") << "from the second word";
   EXPECT_EQ(rsm.ask(world::hex("04 00 1A 00 01")), "84 02") << "the first alone";
   EXPECT_EQ(rsm.ask(world::hex("06 00 5A 00 01")), "86 02") << "half a position";
-  EXPECT_EQ(rsm.ask(world::hex("03 1F A4 00 01")), "83 02") << "the last of the window can only be written";
+  EXPECT_EQ(rsm.ask(world::hex("03 1F A4 00 01")), "83 02")
+      << "the last register of the window is write-only";
   EXPECT_EQ(rsm.ask(world::hex("03 1F A5 00 01")), "83 02") << "beyond the table";
   EXPECT_EQ(rsm.ask(world::hex("03 02 00 00 02")), "03 04 00 00 00 00");
-  EXPECT_EQ(rsm.ask(world::hex("06 0A 00 00 01")), "86 02") << "a hole takes nothing";
+  EXPECT_EQ(rsm.ask(world::hex("06 0A 00 00 01")), "86 02") << "a hole stores nothing";
   Controller super("super-40nc", kSuper40Nc, kWithoutInputRegisters);
   const std::pair<const char*, const char*> cases[] = {
       {"01 00 20 00 01", "81 02"}, {"01 00 1F 00 02", "81 02"}, {"01 0A 8C 00 01", "81 02"},
@@ -318,7 +319,7 @@ TEST(DeclaredRegisters, HolesAreWhatTheManualsSay) {
       {"05 03 E0 FF 00", "85 02"}, {"02 00 30 00 01", "82 02"}};
   for (const auto& [request, reply] : cases) EXPECT_EQ(super.ask(world::hex(request)), reply) << request;
   EXPECT_EQ(super.ask(world::hex("06 00 6A 02 2B")), "06 00 6A 02 2B") << "a low word alone";
-  EXPECT_EQ(super.ask(world::hex("03 00 6A 00 02")), "03 04 02 2B 00 00") << "D53, as the manual has it";
+  EXPECT_EQ(super.ask(world::hex("03 00 6A 00 02")), "03 04 02 2B 00 00") << "D53, as in the manual";
 }
 
 }  // namespace declared_registers_test

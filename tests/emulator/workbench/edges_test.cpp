@@ -93,7 +93,7 @@ motion::SpeedLaw law(double pps) {
 
 int sense(std::size_t motor) { return motor == Motors::kReversed ? -1 : +1; }
 
-/// Near home, home and index, the machine going down, down and up.
+/// Near home, home and index, with the machine moving down, down and up.
 motion::HomingProgram four_steps(std::size_t motor, double pps) {
   const int direction = sense(motor);
   return motion::rsm8194h_homing(
@@ -135,7 +135,7 @@ TEST(Edges, HomingByModesEndsOnThePulse) {
     std::int64_t ends_at;
     std::int64_t lowest;  // from there on
   };
-  // The limit lets go behind its hysteresis; two indexes from there are at -2993 and -1993.
+  // The limit releases after its hysteresis; two indexes further are at -2993 and -1993.
   const Mode modes[] = {{1, kHomeEdge, -200}, {6, kLower + 26, -3500}, {7, -1993, -3500}};
   for (const double pps : kSpeeds_pps) {
     for (const Mode& mode : modes) {
@@ -185,7 +185,7 @@ TEST(Edges, OfInputsThatAreHeldOrStuckAreLevels) {
   rig.inject("stuck", "it.HOME_A", {{"level", "off"}});
   rig.advance(1);
   EXPECT_FALSE(has_zone(Signal::home));
-  // Home never comes: step 2 runs into the lower limit, comes back and fails on the upper one.
+  // Home never comes on: step 2 runs into the lower limit, comes back and fails on the upper one.
   EXPECT_EQ(rig.home(0, four_steps(0, 4e6)), motion::Cause::limit_plus);
   EXPECT_GE(rig.place(0), 3000);
   rig.world.clear_faults();
@@ -232,7 +232,7 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
   EXPECT_EQ(rig.place(0), kIndex);
 }
 
-/// From where they stand, everything is as far away for the one as for the other.
+/// From their positions, everything is equally far away for both.
 void expect_as_far_away(Rig& rig, Rig& other, std::size_t motor) {
   ASSERT_EQ(rig.environment(motor).zone_count, other.environment(motor).zone_count);
   for (std::size_t i = 0; i < rig.environment(motor).zone_count; ++i) {
@@ -264,7 +264,7 @@ TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
   }
 }
 
-/// A controller's count may change at a moment, as when it is told that a motor is reversed.
+/// A controller's count may change at any moment, for example when it is told that a motor is reversed.
 TEST(Edges, FollowAxesThatAllCountAnew) {
   Rig rig({.position = 2000});
   Rig as_before({.position = 2000});
@@ -282,7 +282,7 @@ TEST(Edges, FollowAxesThatAllCountAnew) {
   }
 }
 
-/// At 4 MPPS a tick goes 500 pulses beyond the stop: the index at 4007 is never passed by the machine.
+/// At 4 MPPS a tick moves 500 pulses beyond the stop: the machine never passes the index at 4007.
 TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
   struct Case {
     std::int64_t position;

@@ -1,5 +1,5 @@
 // The language of the tests' controller: parts, labels, parameters with numbers, operands that may be unset,
-// texts of several lines, and rows of numbers of different lengths. None of it is like another model's.
+// texts of several lines, and rows of numbers of different lengths. None of it resembles another model's.
 //
 //   ; a remark
 //   AREA MAIN
@@ -44,7 +44,7 @@ inline constexpr std::size_t kLongestLabel = 32;
 inline constexpr std::string_view kLabelLetters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 inline constexpr std::string_view kAreas[] = {"MAIN", "ALARM"};
-inline constexpr std::int64_t kUnset = INT32_MIN;  // what cells have for `*`
+inline constexpr std::int64_t kUnset = INT32_MIN;  // what cells contain for `*`
 
 inline constexpr OperandRow kMoveOperands[] = {{"axis", "X, Y or Z"}, {"target", "-1000000 to 1000000"}};
 inline constexpr OperandRow kSetOperands[] = {{"register", "D0 to D124"}, {"value", "0 to 65535"}};

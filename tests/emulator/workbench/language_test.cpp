@@ -109,7 +109,7 @@ TEST(Languages, ADeviceRefusesWhatTheCheckRefuses) {
       EXPECT_EQ(told(error.mistakes), wrong.mistakes);
       EXPECT_EQ(error.what(), error.mistakes.front().what);
     }
-    EXPECT_EQ(device->user_program()->program_text(), kListed) << "it is as it was";
+    EXPECT_EQ(device->user_program()->program_text(), kListed) << "it is unchanged";
   }
 }
 
@@ -280,7 +280,7 @@ TEST(Languages, TheControlSocketLoadsListsAndTellsAllMistakes) {
   EXPECT_EQ(single["error"], kWrong[0].mistakes[0]);
 }
 
-// A device may show that a program was refused: a recording has that as well, also where its text is good.
+// A device may show that a program was refused: a recording contains that as well, even if its text is valid.
 TEST(Languages, ARefusedProgramIsRecordedAndRefusedAgain) {
   struct Case {
     std::string text;

@@ -1,5 +1,5 @@
-// The motors of the controller that nobody makes. They meet edges at their pulse; B counts against the
-// motor's sense. A hand wheel turns A while it follows; an output gives a pulse for every tenth of A.
+// The motors of the made-up controller. They detect edges at their pulse; B counts against the motor's
+// direction. A hand wheel turns A while it follows; an output gives a pulse for every tenth of A.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct MotorsState {
   std::int32_t external_seen = 0;
   std::int64_t external_edges = 0;
   std::int64_t compared = 0;    // pulses of the output
-  std::uint8_t low_active = 0;  // a bit for each of MotorInput: active where it is 0
+  std::uint8_t low_active = 0;  // a bit for each of MotorInput: active if it is 0
 
   bool operator==(const MotorsState&) const = default;
 };
@@ -158,7 +158,7 @@ class Motors {
     state.compared += std::abs(tenth(state.motors[0].axis.travel_pulses) - tenth(before));
   }
 
-  std::array<MachineEdges, kMotorCount> edges_{};  // not state: they are told again
+  std::array<MachineEdges, kMotorCount> edges_{};  // not state: they are set again
 };
 
 }  // namespace understudy::emulator::workbench

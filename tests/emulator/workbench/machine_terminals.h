@@ -1,5 +1,4 @@
-// The terminals of the controller that nobody makes, and its motors: every kind of terminal, and 320 in
-// groups.
+// The terminals of the made-up controller, and its motors: every kind of terminal, and 320 in groups.
 #pragma once
 
 #include <span>

@@ -101,7 +101,8 @@ class WorkbenchMemory final : public KeptMemory {
   Kept& kept_;
 };
 
-/// One command on the line: its action (1 put, 2 append, 3 erase), kind, number, then two characters a word.
+/// One command on the line: its action (1 put, 2 append, 3 erase), kind, number, then two characters per
+/// word.
 inline Refusal change_block(TextBlocks& blocks, std::span<const std::uint16_t> words) {
   if (words.size() < 3 || words[0] < 1 || words[0] > 3 || words[1] >= std::size(kBlocks) || words[2] > 99) {
     return Refusal::bad_value;

@@ -229,14 +229,14 @@ TEST(WorkbenchMemory, SharesBlocksThatDidNotChangeWithItsImages) {
   ASSERT_EQ(rig.blocks().put("files", "42", SharedText("b\n")), "");
   const auto after = rig.blocks().shared();
   EXPECT_NE(after, before);
-  EXPECT_EQ(before->at("files").at("42").text().substr(0, 4), "MOVE") << "what was given away stays";
+  EXPECT_EQ(before->at("files").at("42").text().substr(0, 4), "MOVE") << "a shared image is unchanged";
   EXPECT_EQ(*after, rig.blocks().all());
   EXPECT_EQ(&before->at("files").at("41").text(), &after->at("files").at("41").text());
   ASSERT_TRUE(rig.blocks().erase("files", "41"));
   EXPECT_EQ(*rig.blocks().shared(), rig.blocks().all());
   rig.blocks().replace({});
   EXPECT_TRUE(rig.blocks().shared()->empty());
-  // Of a state that was put back.
+  // From a state that was restored.
   const std::vector<std::byte> none = rig.device().save_state();
   rig.fill();
   EXPECT_FALSE(rig.image().blocks.empty());

@@ -163,7 +163,7 @@ TEST(Plays, AreLinted) {
   }
 }
 
-// What is found about a command is told with its name.
+// Findings about a command are reported with its name.
 TEST(Plays, AreLintedWithTheNamesOfCommands) {
   const world::Bench bench = world::parse_bench(
       kModels,
@@ -177,7 +177,7 @@ TEST(Plays, AreLintedWithTheNamesOfCommands) {
   pty::append_rtu_crc(move);
   world.receive(0, move, world.now());
   world.advance_to(std::chrono::milliseconds(3));
-  world.receive(0, move, world.now());  // hardly after the answer
+  world.receive(0, move, world.now());  // hardly after the reply
   world.advance_to(std::chrono::seconds(1));
   std::string all;
   for (const std::string& finding : lint.findings()) all += finding + "\n";

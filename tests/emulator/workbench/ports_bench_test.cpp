@@ -15,7 +15,7 @@ TEST(PortsOfABench, AreThoseThatStationsName) {
   EXPECT_EQ(bench.lines[0].stations, (std::vector<StationSetup>{{0, 0}}));
   EXPECT_EQ(bench.lines[1].stations, (std::vector<StationSetup>{{0, 1}}));
   EXPECT_EQ(world::known_devices_of(bench)[0].lines, (std::vector<std::string>{"pc", "hmi"}));
-  EXPECT_EQ(bench.devices[0].settings.address, std::nullopt) << "its memory says it";
+  EXPECT_EQ(bench.devices[0].settings.address, std::nullopt) << "from its memory";
 }
 
 TEST(PortsOfABench, HaveSpeedsOfTheirOwn) {
@@ -104,7 +104,7 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI, address: 5 }",
                 devices),
        "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
-      // The register of its number may be set, which comes after the address; by number as well.
+      // The register of its number can be set, which comes after the address; by number as well.
       {lines_ab(
            "{ device: mill, address: 4 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
            "devices:\n  mill: { model: workbench, set: { Station: 5 } }\n  lathe: { model: workbench }\n"),

@@ -1,4 +1,4 @@
-// Two hosts at once on the two ports of one device: every answer is correct, on the right line, and no value
+// Two hosts at once on the two ports of one device: every reply is correct, on the right line, and no value
 // is torn. The run is recorded, replayed, saved and restored.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ void put_word(Bytes& bytes, std::size_t word) {
 /// The expected replies of the device, as a manual would describe them, without its code.
 class Oracle {
  public:
-  /// Carries it out. Empty: no answer.
+  /// Executes it. Empty: no reply.
   Bytes answer(const Bytes& request) {
     if (request[0] != 1) return {};
     const std::size_t first = word_at(request, 2);
@@ -128,7 +128,7 @@ TEST(TwoHosts, GetTheRightAnswers100000Times) {
       }
     }
     two.world.advance_to(begin + 3us);
-    const std::size_t sooner = over[1] < over[0] ? 1 : 0;  // in one instant in the order of the bench
+    const std::size_t sooner = over[1] < over[0] ? 1 : 0;  // at the same moment, in the order of the bench
     for (const std::size_t line : {sooner, 1 - sooner}) {
       const Bytes wanted = oracle.answer(asked[line]);
       const auto came = two.world.line(line).line.output();

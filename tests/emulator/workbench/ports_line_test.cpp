@@ -47,7 +47,8 @@ TEST(PortsOnLines, AnswerInTheTimeOfTheirOwnSpeed) {
 }
 
 TEST(PortsOnLines, ComeInTheOrderOfTheBench) {
-  // Both write, both read, each pair in one instant: the first line's comes first, whichever was fed first.
+  // Both write, both read, each pair at the same moment: the first line's comes first, whichever was fed
+  // first.
   for (const bool pc_is_first : {true, false}) {
     for (const bool is_turned : {false, true}) {
       std::string text = "understudy: 1\nlines:\n";
@@ -63,7 +64,7 @@ TEST(PortsOnLines, ComeInTheOrderOfTheBench) {
       two.pass(0ms);
       EXPECT_EQ(two.came(0), "01 06 00 64 00 0A");
       EXPECT_EQ(two.came(1), "01 06 00 64 00 0B");
-      EXPECT_EQ(two.ask(0, "01 03 00 64 00 01"), "01 03 02 00 0B") << "the second line's came last";
+      EXPECT_EQ(two.ask(0, "01 03 00 64 00 01"), "01 03 02 00 0B") << "the second line's write came last";
     }
   }
 }
@@ -85,9 +86,9 @@ TEST(PortsOnLines, DoNotChangeAReplyOnItsWay) {
   EXPECT_EQ(two.ask(kPc, "01 10 00 64 00 03 06 11 11 11 11 11 11"), "01 10 00 64 00 03");
   two.send(kHmi, "01 03 00 64 00 03");
   while (two.world.line(kHmi).line.output().size() < 3) two.world.advance_to(*two.world.next_due());
-  two.send(kPc, "01 10 00 64 00 03 06 22 22 22 22 22 22");  // carried out before the other's data are over
+  two.send(kPc, "01 10 00 64 00 03 06 22 22 22 22 22 22");  // executed before the other's data end
   while (two.world.line(kPc).line.output().empty()) two.world.advance_to(*two.world.next_due());
-  EXPECT_LT(two.world.line(kHmi).line.output().size(), 11U) << "it is still on its way";
+  EXPECT_LT(two.world.line(kHmi).line.output().size(), 11U) << "it is still being sent";
   two.pass(50ms);
   EXPECT_EQ(two.came(kHmi), "01 03 06 11 11 11 11 11 11");
   EXPECT_EQ(two.ask(kHmi, "01 03 00 64 00 03"), "01 03 06 22 22 22 22 22 22");
@@ -118,7 +119,7 @@ TEST(PortsOnLines, TellReceiveErrorsByPort) {
         two.world.receive(line, bytes);
         two.pass(1s);
         ++counts[line];
-        EXPECT_EQ(two.came(line), "") << "it gets no answer";
+        EXPECT_EQ(two.came(line), "") << "it gets no reply";
         EXPECT_EQ(two.mill().state.receive_errors, counts) << timing << is_strict;
         EXPECT_EQ(two.mill().state.last_receive_error[line], 1 + static_cast<int>(error))
             << timing << is_strict;
@@ -147,7 +148,7 @@ TEST(PortsOnLines, AreBothSilentWithoutPower) {
   two.came(kHmi);
   two.world.switch_power(0, false);
   two.pass(1s);
-  EXPECT_LE(two.world.line(kPc).line.output().size(), 1U) << "the character that had begun";
+  EXPECT_LE(two.world.line(kPc).line.output().size(), 1U) << "the character in progress";
   EXPECT_LE(two.world.line(kHmi).line.output().size(), 1U);
   two.came(kPc);
   two.came(kHmi);
@@ -162,7 +163,7 @@ TEST(PortsOnLines, AreBothSilentWithoutPower) {
 
 TEST(StationNumberInMemory, ChangesBehindItsOwnReplyOnAllLines) {
   TwoLines two;
-  EXPECT_EQ(two.ask(kPc, "01 06 00 33 00 09"), "01 06 00 33 00 09") << "with the old number";
+  EXPECT_EQ(two.ask(kPc, "01 06 00 33 00 09"), "01 06 00 33 00 09") << "with the old address";
   for (const std::size_t line : {kPc, kHmi}) {
     EXPECT_EQ(two.ask(line, "01 03 00 33 00 01"), "");
     EXPECT_EQ(two.ask(line, "09 03 00 33 00 01"), "09 03 02 00 09");
@@ -170,10 +171,10 @@ TEST(StationNumberInMemory, ChangesBehindItsOwnReplyOnAllLines) {
   }
   EXPECT_EQ(two.ask(kHmi, "09 06 00 33 00 00"), "09 06 00 33 00 00");
   for (const std::size_t line : {kPc, kHmi}) {
-    EXPECT_EQ(two.ask(line, "00 03 00 64 00 01"), "00 03 02 00 05") << "0 answers where it is its number";
+    EXPECT_EQ(two.ask(line, "00 03 00 64 00 01"), "00 03 02 00 05") << "address 0 replies if it is its own";
     EXPECT_EQ(two.ask(line, "09 03 00 64 00 01"), "");
   }
-  EXPECT_EQ(two.ask(kPc, "00 06 00 33 00 01"), "00 06 00 33 00 01") << "no broadcast: it was 0";
+  EXPECT_EQ(two.ask(kPc, "00 06 00 33 00 01"), "00 06 00 33 00 01") << "not a broadcast: its address was 0";
   EXPECT_EQ(two.world.device(0).station_number(), 1);
 }
 
@@ -183,7 +184,7 @@ TEST(StationNumberInMemory, ChangesWhileAReplyIsOnItsWay) {
   while (two.world.line(kHmi).line.output().empty()) two.world.advance_to(*two.world.next_due());
   two.send(kPc, "01 06 00 33 00 04");
   two.pass(50ms);
-  EXPECT_EQ(two.came(kHmi), "01 03 04 00 00 00 00") << "it began with the old number";
+  EXPECT_EQ(two.came(kHmi), "01 03 04 00 00 00 00") << "it started with the old address";
   EXPECT_EQ(two.came(kPc), "01 06 00 33 00 04");
   EXPECT_EQ(two.ask(kHmi, "04 03 00 33 00 01"), "04 03 02 00 04");
 }
@@ -235,7 +236,7 @@ TEST(FaultOfADevice, CountsItsRequestsOnAllLines) {
   TwoLines two;
   two.world.inject(fault_of(two, "drop", "mill", {{"nth", "2"}}));
   EXPECT_EQ(two.ask(kPc, "01 03 00 64 00 01"), "01 03 02 00 00");
-  EXPECT_EQ(two.ask(kHmi, "01 03 00 64 00 01"), "") << "the second that it answers";
+  EXPECT_EQ(two.ask(kHmi, "01 03 00 64 00 01"), "") << "the second one that it replies to";
   EXPECT_EQ(two.ask(kHmi, "01 03 00 64 00 01"), "01 03 02 00 00");
 }
 

@@ -10,7 +10,7 @@
 namespace understudy::emulator::workbench {
 namespace ports_scenario_test {
 
-/// A steps' list begins at line 10.
+/// The list of steps starts at line 10.
 std::string scenario_text(const std::string& steps) {
   return "understudy: 1\nname: test\nbench:\n  lines:\n"
          "    pc: { timing: instant, stations: [ { device: mill, port: PC }, { device: lathe, address: 2 } ] "

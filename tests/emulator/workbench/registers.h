@@ -1,5 +1,5 @@
-// The registers of a controller that nobody makes: four tables with every kind of row, names in two tables,
-// holes, a window with a FIFO behind it.
+// The registers of a made-up controller: four tables with every kind of row, names in two tables, holes, a
+// window with a FIFO behind it.
 #pragma once
 
 #include "emulator/device/register_map/row.h"
@@ -21,7 +21,7 @@ inline constexpr std::size_t kFifo = 3;
 inline constexpr std::uint16_t kMove = 0x0A01;  // axis, target (two words)
 inline constexpr std::uint16_t kStop = 0x0A02;
 
-// The effects of rows, beyond storing (workbench.h).
+// The effects of rows, besides storing (workbench.h).
 Value position_of(const Workbench& bench, Cell cell);
 void set_position(Workbench& bench, Cell cell, Value value);
 Value is_driving(const Workbench& bench, Cell cell);

@@ -1,5 +1,5 @@
-// Rows that make no sense are refused when a table is built, each with its error; and corner cases of the
-// vocabulary of rows.
+// Invalid rows are refused when a table is built, each with its error; and corner cases of the vocabulary of
+// rows.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -190,7 +190,7 @@ TEST(Firmware, ARowThatItLacksIsAHoleToWritesOfAllKinds) {
     };
     Bank bank(map);
     for (const char* name : {"New", "New.3", "Pair", "Pair_H", "Pair_L.2"}) {
-      const auto place = map.find(name, 200);  // as a program knows it, which was written for that firmware
+      const auto place = map.find(name, 200);  // as a program knows it that was written for that firmware
       ASSERT_TRUE(place) << name;
       EXPECT_EQ(write_value(bank, *place, 1), wanted) << name;
       PreparedWrite write;

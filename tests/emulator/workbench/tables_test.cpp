@@ -31,7 +31,7 @@ void expect_exchanges(Device& device, std::span<const Exchange> exchanges) {
     EXPECT_EQ(reply, exchange.reply.empty() ? exchange.request.substr(0, 14) : exchange.reply)
         << exchange.request << ": " << exchange.what;
     if (reply.size() == 5) {
-      EXPECT_EQ(state_of(device), before) << exchange.request << ": refused, and something has changed";
+      EXPECT_EQ(state_of(device), before) << exchange.request << ": refused, but something has changed";
     }
   }
 }
@@ -141,7 +141,7 @@ std::string head(int code, std::size_t address, std::size_t count, std::string_v
   return world::text(pdu) + (bytes.empty() ? "" : " ") + std::string(bytes);
 }
 
-/// A write of so many bytes of data, each 0x00.
+/// A write of this many bytes of data, each 0x00.
 std::string write_of(int code, std::size_t address, std::size_t count, std::size_t bytes, std::size_t sent) {
   Bytes data{static_cast<std::uint8_t>(bytes)};
   data.resize(1 + sent);
@@ -154,7 +154,7 @@ TEST(Tables, CountsGoFromOneToTheLimitOfTheFunction) {
     int code;
     std::size_t address;
     std::size_t most;
-    std::size_t bytes;  // of so many
+    std::size_t bytes;  // of this many
   };
   for (const Limit& limit : {Limit{0x01, 0x1000, 2000, 250}, Limit{0x03, 0x64, 125, 250}}) {
     const std::string name = head(limit.code, 0, 0).substr(0, 2);

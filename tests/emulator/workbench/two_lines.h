@@ -1,4 +1,4 @@
-// The made-up controller on two lines, with a host on each that speaks in frames.
+// The made-up controller on two lines, with a host on each that sends frames.
 #pragma once
 
 #include <string>

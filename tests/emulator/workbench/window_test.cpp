@@ -55,18 +55,19 @@ TEST(Refusals, AFullFifoIsBusyAndAnAbsentModuleFails) {
   for (std::size_t i = 0; i < kFifo; ++i) EXPECT_EQ(rig.ask(kMoveY), "10 1F 40 00 04");
   const WorkbenchState full = rig.state();
   EXPECT_EQ(rig.ask(kMoveY), "90 06");
-  EXPECT_EQ(rig.ask("10 1F 40 00 01 02 0B 02"), "90 03") << "a command is judged before there is room for it";
-  EXPECT_EQ(rig.ask("10 00 10 00 04 08 00 00 00 01 00 00 00 02"), "90 06") << "nothing of it is stored";
-  EXPECT_EQ(rig.ask("10 00 10 00 03 06 00 00 00 01 00 00"), "90 02") << "a cut pair comes before";
-  EXPECT_EQ(rig.ask("03 00 10 00 02"), "03 04 00 00 00 00") << "reading waits for nothing";
+  EXPECT_EQ(rig.ask("10 1F 40 00 01 02 0B 02"), "90 03")
+      << "a command is checked before there is room for it";
+  EXPECT_EQ(rig.ask("10 00 10 00 04 08 00 00 00 01 00 00 00 02"), "90 06") << "no part of it is stored";
+  EXPECT_EQ(rig.ask("10 00 10 00 03 06 00 00 00 01 00 00"), "90 02") << "the check of a cut pair comes first";
+  EXPECT_EQ(rig.ask("03 00 10 00 02"), "03 04 00 00 00 00") << "a read does not wait";
   EXPECT_EQ(rig.state().positions, full.positions);
   EXPECT_EQ(rig.state().fifo, full.fifo);
   EXPECT_EQ(rig.ask("05 00 6F FF 00"), "05 00 6F FF 00");
   EXPECT_EQ(rig.ask(kStopAll), "90 04");
-  EXPECT_EQ(rig.ask("10 1F 40 00 01 02 0B 02"), "90 04") << "nobody is there to judge it";
+  EXPECT_EQ(rig.ask("10 1F 40 00 01 02 0B 02"), "90 04") << "there is nothing to check it";
   EXPECT_EQ(rig.ask("03 00 10 00 02"), "83 04");
   EXPECT_EQ(rig.ask("03 00 10 00 01"), "83 02") << "the address comes first";
-  EXPECT_EQ(rig.ask("03 00 00 00 01"), "03 02 00 64") << "the rest is its own";
+  EXPECT_EQ(rig.ask("03 00 00 00 01"), "03 02 00 64") << "the module's own checks follow";
 }
 
 TEST(Refusals, TheDeviceHearsOfEachThatIsAnswered) {
@@ -90,7 +91,7 @@ TEST(Refusals, TheDeviceHearsOfEachThatIsAnswered) {
     EXPECT_EQ(rig.ask("04 00 10 00 01"), "04 02 00 " + world::text(world::Bytes{rig.state().cause}));
   }
   EXPECT_EQ(rig.ask("06 00 00 00 00", 0), "") << "broadcast";
-  EXPECT_EQ(rig.state().cause, static_cast<int>(Cause::bad_message)) << "which nobody is told of";
+  EXPECT_EQ(rig.state().cause, static_cast<int>(Cause::bad_message)) << "which is not reported";
 }
 
 TEST(Window, CannotBeWrittenByItsNames) {

@@ -1,4 +1,4 @@
-// A controller that nobody makes, for tests of what no real model has all of (registers.h).
+// A made-up controller, for tests of combinations that no real model has (registers.h).
 #pragma once
 
 #include <algorithm>

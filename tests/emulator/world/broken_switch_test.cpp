@@ -1,10 +1,10 @@
-// Homing and moves on machines whose switches are broken. The switch is whole, its wire is not.
+// Homing and moves on machines whose switches have broken wires. The switches themselves work.
 //
 //   lower limit (DIN_3)      start     home (DIN_4)     upper limit (DIN_2)     stop
 //   -200                     0         100 to 119       200                     300
 //
-// One pulse a millisecond, ramps of 10 ms: n pulses take n + 5 ms from the first tick, and a switch that is
-// reached is looked at in the tick after.
+// One pulse per millisecond, ramps of 10 ms: n pulses take n + 5 ms from the first tick, and a switch is read
+// in the tick after the axis reaches it.
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -77,7 +77,7 @@ TEST(BrokenSwitch, HomingGivesUpAtTheLimitIfHomeIsAlwaysOn) {
 TEST(BrokenSwitch, ALimitThatIsAlwaysOnTurnsHomingAround) {
   Machine machine;
   machine.stick(kUpperLimit, 1);
-  EXPECT_EQ(machine.go_home(), 205 + 1);  // the home switch is the other way
+  EXPECT_EQ(machine.go_home(), 205 + 1);  // the home switch is in the other direction
   EXPECT_FALSE(machine.homed());
   EXPECT_EQ(machine.place(), -200);
 }
@@ -103,11 +103,11 @@ TEST(BrokenSwitch, ALimitThatBreaksInTheMiddleOfAMoveStopsIt) {
   EXPECT_EQ(machine.coordinate('A'), 45);  // t = 50 ms
   const std::size_t broken = machine.world().inject(
       {.kind = world::Fault::Kind::stuck, .device = 0, .place = kUpperLimit, .amount = 1});
-  machine.run(1);  // an input is looked at when the tick begins
+  machine.run(1);  // an input is read when the tick begins
   EXPECT_FALSE(machine.moving('A'));
   EXPECT_EQ(machine.coordinate('A'), 45);
   machine.set("Aaxis_Move_INC", 1);
-  EXPECT_FALSE(machine.moving('A')) << "that way is blocked";
+  EXPECT_FALSE(machine.moving('A')) << "that direction is blocked";
   machine.world().clear_fault(broken);
   machine.run(1);
   machine.set("Aaxis_Move_INC", 1);

@@ -21,7 +21,7 @@ int courses(int usual) {
   return given != nullptr ? std::atoi(given) : usual;
 }
 
-/// A bench of two Simple2-R3 and what happens on it.
+/// A bench of two Simple2-R3 and the events on it.
 class RandomCourse {
  public:
   explicit RandomCourse(std::uint64_t seed_value) : random_(seed_value) {}
@@ -211,7 +211,7 @@ std::string one_device(const std::string& plant) {
 }
 
 TEST(WorldCrossing, AnHourLongMoveIsAFewTicks) {
-  // 3200 pulses a revolution at 60 rpm: 3200 pulses a second, for an hour.
+  // 3200 pulses per revolution at 60 rpm: 3200 pulses per second, for an hour.
   for (const char* plant :
        {"{ }", "{ encoder: { per_revolution: 4000 } }",
         "{ limits: { lower: -100, upper: 20000000 }, home: { at: 5000000, width: 10 } }"}) {
@@ -234,7 +234,7 @@ TEST(WorldCrossing, AnHourInVelocityModeToo) {
   set(world, "feeder.ALL_SVON", 1);
   set(world, "feeder.Aaxis_DirectmRPM", 60'000);
   world.advance_to(1h);
-  // 2 rpm a second from the factory: half of it while the speed rises.
+  // 2 rpm per second from the factory: half of it while the speed rises.
   EXPECT_NEAR(static_cast<double>(world.plant(0, 0).position_pulses()), (3'600.0 - 15) * 3'200, 3'200);
   EXPECT_LT(world.ticks_run(), 2'000u);
 }

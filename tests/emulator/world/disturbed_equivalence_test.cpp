@@ -1,4 +1,4 @@
-// However a world is stepped, it is the same world: here with everything that a user can do to it beyond the
+// However a world is stepped, it is the same world: here with everything that a user can do to it besides the
 // line: power, faults, analog inputs, switches on the housing, drives. The events of
 // world_equivalence_test.cpp are mostly on the line. Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ struct Event {
   Bytes bytes{};
   std::size_t device = 0;
   int terminal = 0;
-  std::int32_t level = 0;  // of an input; on or off of the power; which of the faults in force
+  std::int32_t level = 0;  // of an input; on or off for the power; which of the active faults
   Fault fault{};
 };
 
@@ -69,7 +69,7 @@ class RandomEvents {
   std::vector<Event> make(int count) {
     std::vector<Event> events;
     for (int i = 0; i < count; ++i) {
-      if (between(0, 4) != 0) time_ += gap();  // else at the same instant as the one before
+      if (between(0, 4) != 0) time_ += gap();  // otherwise at the same moment as the previous one
       events.push_back(next());
       events.back().at = time_;
     }

@@ -60,7 +60,7 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
       outcome(play::kServoOn + "  - advance: 1ms\n"),    // a tick more
       outcome("  - advance: 1us\n" + play::kServoOn),    // a microsecond later
       outcome(play::kServoOn + "  - advance: 1s\n"),
-      outcome("  - power: { feeder: off }\n" + servo_on_in_bytes),  // not answered
+      outcome("  - power: { feeder: off }\n" + servo_on_in_bytes),  // without a reply
       outcome(play::kServoOn + play::kExampleMove + "  - advance: 100ms\n"),
       outcome(play::kServoOn + "  - inject: { alarm: feeder.A }\n" + play::kExampleMove +
               "  - advance: 101ms\n"),
@@ -70,7 +70,7 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
   EXPECT_EQ(outcomes.size(), 10U);
 }
 
-/// Two hosts send the same at the same time, and nobody answers: one is received, the other has different
+/// Two hosts send the same at the same time, and nothing replies: one is received, the other has different
 /// line settings.
 TEST(OutcomeHash, DiffersWithWhatWasHeard) {
   const auto of_host = [](int stop_bits) {

@@ -48,7 +48,7 @@ class RandomEvents {
       case 0: return SimTime{between(0, 2'000'000)};
       case 1: return SimTime{between(0, 50'000'000)};
       case 2: return SimTime{between(0, 3'000'000'000)};
-      case 3: return (kTickLength - time_ % kTickLength);                   // the next tick sharp
+      case 3: return (kTickLength - time_ % kTickLength);                   // exactly the next tick
       case 4: return (kTickLength - time_ % kTickLength) * 2 - SimTime{1};  // just before or after one
       default: return SimTime{between(8'000'000, 20'000'000)};              // as a host polls
     }

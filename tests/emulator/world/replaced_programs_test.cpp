@@ -1,6 +1,6 @@
-// Programs are replaced while they run: by their own lines, by hosts, by the panel, by the power, by a state
-// that is restored. Random, seeded (UNDERSTUDY_SEED): each course is run again with what is freed filled with
-// something else, and has to be the same. Under a sanitizer nothing may look at what is gone.
+// Programs are replaced while they run: by their own lines, by hosts, by the panel, by the power, by a
+// restored state. Random, seeded (UNDERSTUDY_SEED). Each course runs again with freed memory filled with
+// something else, and must be the same. Under a sanitizer, nothing may read freed memory.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -41,14 +41,14 @@ struct Part {
 struct Language {
   const char* model;
   const char* settings;     // of the device, on the bench
-  std::vector<Part> parts;  // some of them are left out
+  std::vector<Part> parts;  // some of them are omitted
   const char* tail;         // of each
   Texts writes;             // "D9001=1"
   Texts said;               // commands, or lines of text
   Texts inputs;
 };
 
-/// Everything that stores where a program, a file or the state of one may go by it.
+/// Returns every instruction that stores to a place that may hold a program, a file or its state.
 const Texts kStores{"MOV K{0-5} D9001",    "MOV K{0-5} D8002",    "INC D9001",
                     "DEC D9001",           "ADD D9001 K1 D9001",  "SUB K{1-4} K1 D9001",
                     "MUL K1 K{0-3} D9001", "DIV K{1-5} K2 D9001", "FMV K{0-4} D9000 K3",
@@ -142,7 +142,7 @@ const Language kLanguages[] = {
 
 class Course {
  public:
-  /// Who looks at its programs, and how its ticks run.
+  /// Who observes its programs, and how its ticks run.
   enum class Looks { nobody, at_ticks_in_bulk, at_single_ticks, with_breakpoints };
 
   Course(const Language& language, std::uint64_t seed, Looks looks = Looks::nobody)
@@ -290,7 +290,7 @@ class Course {
     const SimTime end = world_.now() + kTickLength * below(25);
     world_.advance_to(end);
     while (world_.now() < end) {
-      EXPECT_TRUE(debugging_ && debugging_->debugger.take_stop()) << "an advance ends early at stops alone";
+      EXPECT_TRUE(debugging_ && debugging_->debugger.take_stop()) << "an advance ends early only at stops";
       ++stops_;
       debugging_->step(stops_);
       world_.advance_to(end);
@@ -327,10 +327,10 @@ TEST_P(ReplacedPrograms, AreTheSameWhateverFreedMemoryHolds) {
       ASSERT_EQ(told, usual) << language.model << ", UNDERSTUDY_SEED=" << seed << ", fill " << fill;
     }
   }
-  EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly a program is taken";
+  EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly any program is accepted";
 }
 
-/// Nothing depends on an onlooker, and ticks that are skipped count as much as others.
+/// Nothing depends on an observer, and skipped ticks count as much as others.
 TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
   const Language& language = kLanguages[GetParam()];
   const std::uint64_t first = seed_or(815);
@@ -353,14 +353,14 @@ TEST_P(ReplacedPrograms, AreCountedTheSameByAnyTicks) {
   EXPECT_LT(all.totals().lines_run, all.totals().lines);
 }
 
-/// A debugger only looks on, wherever it stops.
+/// A debugger only observes, wherever it stops.
 TEST_P(ReplacedPrograms, AreTheSameWithBreakpointsAndSteps) {
   const Language& language = kLanguages[GetParam()];
   const std::uint64_t first = seed_or(2026);
   const std::uint64_t courses = is_sanitized() ? 10 : 200;
   int stops = 0;
   for (std::uint64_t seed = first; seed < first + courses; ++seed) {
-    // A debugger looks at single ticks. That ticks in bulk come to the same is a proof of its own.
+    // A debugger needs single ticks. Another test proves that ticks in bulk have the same result.
     const std::string unseen = Course(language, seed, Course::Looks::at_single_ticks).run(20);
     Course course(language, seed, Course::Looks::with_breakpoints);
     ASSERT_EQ(course.run(20), unseen) << language.model << ", UNDERSTUDY_SEED=" << seed;

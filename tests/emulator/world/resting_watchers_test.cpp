@@ -1,4 +1,4 @@
-// A watcher does not force a world to run every tick while nothing happens, and sees the same as if it did.
+// An observer does not force a world to run every tick while nothing happens, and sees the same as if it did.
 // Random, seeded; UNDERSTUDY_SEED overrides.
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST(RestingWatchers, SeeTheSameOfTwoSimple2AsByTicks) {
     World plain = make_world(i % 2 == 0 ? "wire" : "instant");
     World twin = make_world(i % 2 == 0 ? "wire" : "instant");
     std::vector<std::string> also = computed_registers(plain);
-    if (is_sanitized()) also.resize(also.size() / 5);  // a minute else
+    if (is_sanitized()) also.resize(also.size() / 5);  // otherwise a minute
     also.push_back("feeder.requests");
     Traced one(plain, also);
     Traced other(twin, also);
@@ -85,7 +85,7 @@ TEST(RestingWatchers, SeeTheSameOfTwoSimple2AsByTicks) {
   EXPECT_GT(crossed, 10'000u);
 }
 
-/// The encoder's speed is computed from the time of its last counts, so it is looked at in every tick.
+/// The encoder's speed is calculated from the time of its last counts, so it is checked in every tick.
 TEST(RestingWatchers, SeeAnEncodersSpeedFallToZero) {
   World plain = make_world("instant");
   World twin = make_world("instant");

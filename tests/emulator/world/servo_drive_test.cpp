@@ -19,7 +19,7 @@ struct Wiring {
   Given given{};
 };
 
-/// Both axes have a drive, and a machine with limits and an encoder of one count a pulse.
+/// Both axes have a drive, and a machine with limits and an encoder with one count per pulse.
 class Servos : public OneSimple2 {
  public:
   explicit Servos(const Wiring& wiring = {}) : OneSimple2(with_drives(wiring)) {}
@@ -31,7 +31,7 @@ class Servos : public OneSimple2 {
   std::size_t inject(world::Fault::Kind kind, char axis, std::int64_t amount = 0) {
     return world().inject({.kind = kind, .device = 0, .place = axis == 'A' ? 0 : 1, .amount = amount});
   }
-  /// Moves on at one pulse a tick: after tick n of a move written after tick m, n - m - 6 pulses, from the
+  /// Moves on at one pulse per tick: after tick n of a move written after tick m, n - m - 6 pulses, from the
   /// tenth on (s = t - 5 with t = 0 in the first tick).
   void start(char axis, Value pulses) {
     set_one_pulse_a_tick(axis, pulses);
@@ -69,7 +69,7 @@ class Servos : public OneSimple2 {
 TEST(ServoDrive, ReadyComesAfterItsDelayToTheMillisecond) {
   for (const char axis : {'A', 'B'}) {
     for (const Tick delay : {0, 1, 50, 1000}) {
-      for (const bool straight : {true, false}) {  // SVON_Polarity 1, or 0 and a drive that is enabled by off
+      for (const bool straight : {true, false}) {  // SVON_Polarity 1, or 0 and a drive that off enables
         Servos servos({.ready_after = delay, .enabled_by = straight, .servo_polarity = straight});
         servos.run_to(10);
         servos.set(servos.name(axis, "SVON"), 1);
@@ -115,7 +115,7 @@ TEST(ServoDrive, WithoutTheFunctionAssignedFollowsThePlainOutput) {
   servos.set("DOUT0_Aaxis_SVON", 0);
   servos.set("Aaxis_SVON", 1);
   servos.run_to(100);
-  EXPECT_FALSE(servos.ready('A')) << "SVON goes nowhere";
+  EXPECT_FALSE(servos.ready('A')) << "SVON is not connected";
   servos.set("DOUT_0", 1);
   servos.run_to(151);
   EXPECT_FALSE(servos.ready('A'));
@@ -124,7 +124,8 @@ TEST(ServoDrive, WithoutTheFunctionAssignedFollowsThePlainOutput) {
 }
 
 TEST(ServoDrive, LosesWhatTheControllerMovesBeforeItIsReady) {
-  // 1 pulse a tick from tick 11 on; the drive is ready at the end of tick 61, where 50 - 5 = 45 are made.
+  // 1 pulse per tick from tick 11 on; the drive is ready at the end of tick 61, where 50 - 5 = 45 have been
+  // sent.
   Servos servos;
   servos.run_to(10);
   servos.set("Aaxis_SVON", 1);
@@ -156,7 +157,7 @@ TEST(ServoDrive, AnAlarmStopsMotionAndIsClearedOnceItsCauseIsGone) {
       EXPECT_EQ(servos.coordinate(axis), 94);
 
       const std::size_t cause = servos.inject(world::Fault::Kind::alarm, axis);
-      servos.run_to(201);  // the motor is dead, the contact moves
+      servos.run_to(201);  // the motor does not move, the contact switches
       EXPECT_EQ(servos.coordinate(axis), 95);
       EXPECT_TRUE(servos.moves(axis));
       EXPECT_FALSE(servos.alarm(axis));
@@ -170,9 +171,9 @@ TEST(ServoDrive, AnAlarmStopsMotionAndIsClearedOnceItsCauseIsGone) {
       EXPECT_FALSE(servos.alarm(axis == 'A' ? 'B' : 'A'));
 
       servos.start(axis, 5);
-      EXPECT_FALSE(servos.moves(axis)) << "commands are dropped while it lasts";
+      EXPECT_FALSE(servos.moves(axis)) << "commands are dropped while it is on";
 
-      servos.set(servos.name(axis, "ACLR"), 1);  // too early: its cause lasts
+      servos.set(servos.name(axis, "ACLR"), 1);  // too early: the cause persists
       servos.run_to(500);
       EXPECT_EQ(servos.get(servos.name(axis, "ACLR")), 0);
       EXPECT_TRUE(servos.alarm(axis));
@@ -243,7 +244,7 @@ TEST(ServoDrive, WithoutThePowerOfItsControllerSeesItsOutputsOpen) {
     EXPECT_EQ(servos.machine('A').ready(), !by) << "enabled by an open output";
     servos.world().switch_power(0, true);
     servos.run_to(202);
-    // After power-up the assignments are there again (they are kept), and the servo is off.
+    // After power-up the assignments are back (they are persistent), and the servo is off.
     EXPECT_FALSE(servos.machine('A').ready());
     EXPECT_FALSE(servos.ready('A'));
   }
@@ -273,14 +274,14 @@ TEST(Stall, ShowsAsAnEncoderThatStandsWhileTheCoordinateGoesOn) {
   servos.start('A', 1000);
   servos.run_to(301);  // t = 200 ms
   EXPECT_EQ(servos.get("ENCA"), 195);
-  EXPECT_EQ(servos.get("ENCA_RPM"), 60);  // 1000 counts a second of 1000 a revolution
+  EXPECT_EQ(servos.get("ENCA_RPM"), 60);  // 1000 counts per second at 1000 per revolution
   const std::size_t stall = servos.inject(world::Fault::Kind::stall, 'A');
   servos.run_to(401);
   EXPECT_EQ(servos.coordinate('A'), 295);
   EXPECT_EQ(servos.get("ENCA"), 195);
   EXPECT_EQ(servos.get("ENCA_RPM"), 0) << "over the last 100 ms";
   EXPECT_TRUE(servos.moves('A'));
-  EXPECT_FALSE(servos.alarm('A')) << "the controller has no eye for it";
+  EXPECT_FALSE(servos.alarm('A')) << "the controller cannot see it";
   servos.world().clear_fault(stall);
   servos.run_to(1200);
   EXPECT_EQ(servos.coordinate('A'), 1000);

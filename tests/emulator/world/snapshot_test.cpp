@@ -1,4 +1,4 @@
-// A world that is saved, run on and restored runs on as it did: the same states at the same times, and the
+// A world that is saved, run on and restored continues as before: the same states at the same times, and the
 // same bytes on its line. Random, seeded; UNDERSTUDY_SEED overrides.
 #include "emulator/world/snapshot.h"
 #include "emulator/models/models.h"
@@ -38,7 +38,7 @@ Seen look(World& world) {
   return {.hash = hash(world), .said = take_output(world), .next_due = world.next_due()};
 }
 
-/// The number of moments in which something was running, so that the test does not prove something only for
+/// The number of moments in which something was running, so that the test does not only prove something for
 /// quiet worlds.
 struct Moments {
   int in_request = 0;
@@ -117,7 +117,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
       const std::string which = " act " + std::to_string(saved.next_act) + " at " +
                                 format_duration(saved.state.time) + " seed " + std::to_string(seed_value);
       restore(*other, saved.state);
-      ASSERT_EQ(save(*other), saved.state) << "restored is not what was saved;" << which;
+      ASSERT_EQ(save(*other), saved.state) << "the restored state differs from the saved one;" << which;
       std::vector<Seen> again;
       for (std::size_t i = saved.next_act; i < end; ++i) {
         other->advance_to(acts[i].at);
@@ -126,9 +126,9 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
       }
       for (std::size_t i = 0; i < again.size(); ++i) {
         ASSERT_EQ(again[i].said, lived[saved.next_act + i].said)
-            << "says something else before act " << saved.next_act + i << which;
+            << "sends something else before act " << saved.next_act + i << which;
         ASSERT_EQ(again[i], lived[saved.next_act + i])
-            << "is another before act " << saved.next_act + i << which;
+            << "differs before act " << saved.next_act + i << which;
       }
     }
   }
@@ -149,10 +149,10 @@ TEST(Snapshot, AWorldThatIsRestoredGoesOnAsItDid) {
   EXPECT_GT(moments.in_move, 150);
   EXPECT_GT(moments.without_power, 10);
   EXPECT_GT(moments.with_faults, 100);
-  EXPECT_GT(moments.program_commands.size(), 40u);  // of 115, as one line is caught at a time
+  EXPECT_GT(moments.program_commands.size(), 40u);  // of 115, because one line is caught at a time
 }
 
-/// The register map's own comparison, which knows nothing of bytes.
+/// The register map's own comparison, which does not use the bytes.
 TEST(Snapshot, EqualBytesAreEqualStates) {
   int equal = 0;
   for (std::uint64_t i = 0; i < 6; ++i) {
@@ -163,7 +163,7 @@ TEST(Snapshot, EqualBytesAreEqualStates) {
       world.advance_to(act.at);
       twin.advance_to(act.at);
       act.carry_out(world);
-      if (random.between(0, 30) != 0) act.carry_out(twin);  // else they part
+      if (random.between(0, 30) != 0) act.carry_out(twin);  // otherwise they diverge
       for (std::size_t d = 0; d < 2; ++d) {
         const Device& one = world.device(d);
         const Device& other = twin.device(d);
@@ -200,7 +200,7 @@ TEST(Snapshot, TheHashDoesNotDependOnHowTicksWereRunOrWhoReads) {
   }
   EXPECT_GT(world.ticks_skipped(), 1000u);
   EXPECT_EQ(single.ticks_skipped(), 0u);
-  // They are part of what is saved, though.
+  // They are part of the saved state, though.
   const std::uint64_t crossed = world.ticks_skipped();
   restore(single, save(world));
   EXPECT_EQ(single.ticks_skipped(), crossed);
@@ -234,7 +234,7 @@ TEST(Snapshot, AStateThatIsReadOncePutsTheWorldIntoItEachTime) {
 TEST(Snapshot, OneStateHasSeveralContinuations) {
   World world = make_world("instant");
   set(world, "feeder.Aaxis_SVON", 1);
-  set(world, "feeder.Aaxis_Speed", 60);  // 3200 pulses a second
+  set(world, "feeder.Aaxis_Speed", 60);  // 3200 pulses per second
   set(world, "feeder.Aaxis_AccTime", 1);
   set(world, "feeder.Aaxis_DecTime", 1);
   world.advance_to(100ms);
@@ -253,7 +253,7 @@ TEST(Snapshot, OneStateHasSeveralContinuations) {
   EXPECT_EQ(go(100), 100);
 }
 
-// --- what is refused -------------------------------------------------------------------------------
+// --- refusals --------------------------------------------------------------------------------------
 
 /// A busy world, with everything that can be changed.
 void keep_busy(World& world, std::uint64_t seed_value) {
@@ -350,8 +350,8 @@ TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
   EXPECT_EQ(save(world), good);
 }
 
-/// Whatever a byte becomes, the state is refused, and nothing has changed, or it is one that can be lived on
-/// (sanitizers look at that). UNDERSTUDY_FLIPS: one in so many byte of the devices.
+/// Whatever a byte becomes, the state is refused without changes, or it can continue (sanitizers check that).
+/// UNDERSTUDY_FLIPS: one in this many bytes of the devices.
 void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t stride, int& refused,
                 int& taken) {
   World world = make_world(timing);

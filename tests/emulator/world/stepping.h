@@ -50,7 +50,7 @@ inline void by_what_is_due(World& world, SimTime to) {
     const SimTime before = world.now();
     world.advance_to(*due);
     idle_turns = world.now() == before ? idle_turns + 1 : 0;
-    ASSERT_LT(idle_turns, 10) << "due again and again at " << format_duration(*due);
+    ASSERT_LT(idle_turns, 10) << "due repeatedly at " << format_duration(*due);
   }
   world.advance_to(to);
 }
@@ -80,8 +80,8 @@ inline testing::AssertionResult same(World& one, World& other) {
   return testing::AssertionSuccess();
 }
 
-/// Applies the same events to both, one after the other, and compares them before each event and long after
-/// the last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
+/// Applies the same events to both, one after another, and compares them before each event and long after the
+/// last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
 template <typename Event>
 void play_both(World& plain, World& twin, const std::vector<Event>& events, const Stepping& stepping,
                const std::string& name, const std::function<void()>& look) {

@@ -1,4 +1,4 @@
-// Switches that open, that are wired elsewhere; where a machine begins; hand wheels.
+// Switches that open or are wired elsewhere; where a machine begins; hand wheels.
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"
@@ -78,7 +78,7 @@ TEST(Switches, MayBeWiredToOtherControllers) {
       "home: { at: 0, width: 5 }, limits: { upper: 20, contact: opens }, drive: { alarm_contact: opens }",
       "x.A.home -> y.DIN_10, x.A.upper_limit -> y.DIN_1, x.A.alarm -> y.DIN_0, x.A.ready -> y.DIN_3, "
       "x.DOUT_4 -> y.DIN_2",
-      // Standing on the switch at power-up.
+      // On the switch at power-up.
       "  - assert: [ y.DIN_10 == 1, y.DIN_1 == 1, y.DIN_0 == 1, y.DIN_3 == 0 ]\n"
       "  - inject: { slip: x.A, pulses: 30 }\n"
       "  - inject: { alarm: x.A }\n"
@@ -190,7 +190,7 @@ TEST(HandWheels, AreTurnedByHandAlone) {
                         "  - assert: x.A.encoder == 9\n"
                         "  - advance: 499ms\n"
                         "  - assert: x.A.encoder == 11\n"
-                        // A turn that meets another one is added to it.
+                        // A turn that starts during another one is added to it.
                         "  - inject: { turn: x.A, counts: -5, in: 4ms }\n"
                         "  - advance: 2ms\n"
                         "  - assert: x.A.encoder == 9\n"

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 TEST(World, HasNothingDueWhileIdle) {
   World world = make_world();
-  world.advance_to(1ms);  // the machine stands on its home switch: seen in the first tick
+  world.advance_to(1ms);  // the machine is on its home switch: seen in the first tick
   EXPECT_EQ(world.next_due(), std::nullopt);
   world.advance_to(std::chrono::hours(24));
   EXPECT_EQ(world.next_due(), std::nullopt);
@@ -42,16 +42,16 @@ TEST(World, IsDueNextTickAfterOutsideInputAndThenAtItsOwnEvent) {
   EXPECT_EQ(get(world, "turner.Baxis_ACLR"), 0);
 
   set(world, "feeder.Aaxis_Pulse", 5);
-  set(world, "feeder.Aaxis_Move_INC", 1);  // at speed 0: hangs, and nothing happens
+  set(world, "feeder.Aaxis_Move_INC", 1);  // at speed 0: it does not end, and nothing happens
   world.advance_to(220ms);
   EXPECT_EQ(world.next_due(), std::nullopt);
   set(world, "feeder.Aaxis_Speed", 200);
   set(world, "feeder.Aaxis_Move_INC", 1);
   world.advance_to(221ms);
-  EXPECT_EQ(world.next_due(), 231ms);  // the end of its ramp: until then it only goes on
+  EXPECT_EQ(world.next_due(), 231ms);  // the end of its ramp: until then it only continues
   world.advance_to(300ms);
   EXPECT_EQ(get(world, "feeder.Cord_A"), 5);
-  world.advance_to(400ms);  // the encoder's speed is over 100 ms after it stood
+  world.advance_to(400ms);  // the encoder's speed covers 100 ms after its start
   EXPECT_EQ(world.next_due(), std::nullopt);
 }
 
@@ -72,7 +72,7 @@ TEST(World, TimesInThePastDoNothing) {
 }
 
 TEST(World, ATickComesBeforeAFrameAtTheSameInstant) {
-  // Sent so that 8 characters and the silence of 750 us end at 20 ms sharp; then a nanosecond earlier.
+  // Sent so that 8 characters and the silence of 750 us end at exactly 20 ms; then a nanosecond earlier.
   const SimTime exchange = SimTime{8LL * 11 * 1'000'000'000 / 19'200} + 750us;
   for (const bool in_time : {true, false}) {
     World world = make_world("wire", 19'200);
@@ -104,7 +104,7 @@ TEST(World, ARequestReadsWhatTheTickAtItsInstantHasDone) {
   set(world, "feeder.Aaxis_Pulse", 100);
   set(world, "feeder.Aaxis_Speed", 20);
   set(world, "feeder.Aaxis_Move_INC", 1);  // t = 0 in tick 1
-  // Given in advance: one for the last nanosecond of tick 49, one for the instant of tick 50.
+  // Given in advance: one for the last nanosecond of tick 49, one for the moment of tick 50.
   world.receive(0, read_request(1, 0x0E04, 1), 50ms - 1ns);
   world.receive(0, read_request(1, 0x0E04, 1), 50ms);
   world.advance_to(60ms);

@@ -90,7 +90,7 @@ TEST(RsM8194hDownload, LongCommandsTakeSeveralLines) {
   EXPECT_TRUE(download({false, 1}, lines).is_stored);
   lines.push_back(line_of("NEXT"));
   const Outcome full = download({false, 1}, lines);
-  EXPECT_EQ(full.answers, std::vector{Fault::macro_memory});  // before what else is wrong with it
+  EXPECT_EQ(full.answers, std::vector{Fault::macro_memory});  // before any other error in it
   EXPECT_EQ(full.status.line, 3);
 }
 

@@ -42,7 +42,7 @@ struct Node {
   std::size_t line = 0;
   Command command = {};
   std::vector<Node> body = {};   // of IF and FOR
-  std::vector<Node> other = {};  // behind ELSE
+  std::vector<Node> other = {};  // after ELSE
   bool has_else = false;
   std::size_t else_line = 0;
   std::size_t end_line = 0;  // END_IF, NEXT
@@ -114,7 +114,7 @@ class Evaluator {
     if (now_ == end_) throw TimeIsUp{};
     ++now_;
     left_ = budget_;
-    // A waiting MP notices its event also while an ISR runs.
+    // A waiting MP detects its event even while an ISR runs.
     if (awaited_ && awaited_()) has_come_ = true;
     if (!in_isr_) serve();
   }

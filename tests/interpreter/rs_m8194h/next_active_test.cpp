@@ -10,7 +10,7 @@
 namespace understudy::interpreter::rs_m8194h {
 namespace next_active_test {
 
-/// A line that may run since some time is not something of the past.
+/// A line that has been able to run for some time does not count as past.
 TEST(RsM8194hNextActive, NeverLiesBehindWhatIsDone) {
   ScriptedMachine machine;
   machine.store("MP 1\nRSM_MACRO_TIMER 50\nEND\nISR 1\nRSM_MACRO_SET_VAR VAR1 1\nEND\n");

@@ -87,7 +87,7 @@ inline std::vector<std::vector<std::uint16_t>> window_frames() {
   return frames;
 }
 
-/// Registers with a good value for each parameter. Axes of one command differ.
+/// Registers with a valid value for each parameter. Axes of one command differ.
 inline std::vector<std::uint16_t> good_registers(std::uint16_t code, const std::vector<Allowed>& parameters) {
   std::vector<std::uint16_t> registers = {code};
   std::int64_t axis = 1;

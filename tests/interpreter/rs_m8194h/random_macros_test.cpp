@@ -1,5 +1,5 @@
-// Random macros through the product and through another implementation: the same course, to the tick, and the
-// same variables. A difference is printed as text that can be loaded.
+// Random macros in the product and in another implementation: the same course, to the tick, and the same
+// variables. A difference is printed as text that can be loaded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,14 +77,14 @@ class RandomMacros {
     for (int i = 0; i < count; ++i) {
       const Command command = any_line(name.is_isr);
       const bool is_allowed = name.is_isr ? command.row().use.in_isr : command.row().use.in_mp;
-      if (is_allowed) add(download, command);  // what does not fit here is left out
+      if (is_allowed) add(download, command);  // lines that do not fit here are omitted
     }
     for (Blocks open = blocks_behind(download.lines); !open.empty(); open = blocks_behind(download.lines)) {
       add(download, line(open.back().opener == Verb::if_ ? Verb::end_if : Verb::next));
     }
     for (std::uint32_t label = 0; label < 4 && !name.is_isr; ++label)
       add(download, line(Verb::label, {label}));
-    add(download, line(Verb::set_var, {variable(9), 1}));  // waits in the last line are another test's
+    add(download, line(Verb::set_var, {variable(9), 1}));  // another test covers waits in the last line
     download.fault = Fault::none;
     Closed closed = close(download);
     EXPECT_TRUE(closed.macro);
@@ -148,7 +148,7 @@ class RandomMacros {
   std::mt19937 random_;
 };
 
-/// GET_LP, DRV_HOLD and DRV_START have been made without an axis.
+/// GET_LP, DRV_HOLD and DRV_START were generated without an axis.
 void give_axes(Macro& macro) {
   for (Command& command : macro.lines) {
     const bool has_axes =

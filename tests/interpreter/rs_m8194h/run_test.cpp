@@ -1,4 +1,4 @@
-// Macros at work.
+// Running macros.
 #include "interpreter/rs_m8194h/run.h"
 
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(RsM8194hRun, VariableOfALoopIsItsCounter) {
                  "SET_VAR VAR2 5|FOR VAR2|EXIT_FOR|NEXT"));
   bench.start(41);
   bench.run(10);
-  EXPECT_EQ(bench.var(0), 2);  // 9, 4, 3 behind NEXT; 1, 0
+  EXPECT_EQ(bench.var(0), 2);  // 9, 4, 3 after NEXT; 1, 0
   EXPECT_EQ(bench.var(1), 0);
   EXPECT_EQ(bench.var(2), 5);
 }
@@ -371,7 +371,7 @@ TEST(RsM8194hRun, WaitsCanBeGivenUp) {
   Bench bench(mp(1, "TIMER 500|DRV_HOLD X|FIXED_MOVE Y 1|STOP_WAIT Y"));
   bench.machine.moving = 2;
   bench.start();
-  drop_wait(bench.execution, bench.machine);  // it has not begun: nothing waits yet
+  drop_wait(bench.execution, bench.machine);  // it has not started: nothing waits yet
   EXPECT_EQ(next_active_ms(bench.execution, -5), 1);
   bench.run(1);
   drop_wait(bench.execution, bench.machine);

@@ -67,7 +67,7 @@ class ScriptedMachine : public Machine {
   std::array<std::uint8_t, kByteVariableCount> byte_variables{};
   std::map<std::string, std::int32_t> readings;
   std::uint32_t moving = 0;                        // axes
-  std::vector<std::uint32_t> inputs;               // 16 * group + channel: those that are on
+  std::vector<std::uint32_t> inputs;               // 16 * group + channel of those that are on
   std::vector<std::pair<std::int64_t, int>> isrs;  // when, and which
   std::int64_t now_ms = 0;
   std::vector<std::string> log;

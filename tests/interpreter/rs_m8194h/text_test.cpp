@@ -61,7 +61,7 @@ TEST(RsM8194hText, OfEveryPrintedFrameIsReadBack) {
 
 /// For any registers: what decode() accepts is read back from its text.
 TEST(RsM8194hText, OfRandomCommandsIsReadBack) {
-  std::mt19937 random(20);  // NOLINT(cert-msc51-cpp): the same every time
+  std::mt19937 random(20);  // NOLINT(cert-msc51-cpp): the same in every run
   const auto allowed = printed::allowed();
   int taken = 0;
   for (const Fact& fact : printed::facts("commands")) {
@@ -89,7 +89,7 @@ TEST(RsM8194hText, OfRandomCommandsIsReadBack) {
 }
 
 TEST(RsM8194hText, RealNumbersKeepEveryBit) {
-  std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same every time
+  std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same in every run
   std::vector<std::uint32_t> bits = {0,          0x80000000, 1,          0x007FFFFF,
                                      0x7F7FFFFF, 0x7F800000, 0xFF800000, 0x7FC00001};
   for (int i = 0; i < 100000; ++i) bits.push_back(static_cast<std::uint32_t>(random()));

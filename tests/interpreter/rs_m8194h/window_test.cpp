@@ -1,4 +1,4 @@
-// The registers of the window: the manual's frames, and each code with something wrong.
+// The registers of the window: the manual's frames, and each code with an error.
 #include "interpreter/rs_m8194h/window.h"
 
 #include <gtest/gtest.h>
@@ -133,7 +133,7 @@ TEST(RsM8194hWindow, RangesEndWhereTheManualSays) {
           printed::put(registers, at, one.registers, value);
           return fault_of(registers);
         };
-        // VAR_CALCULATE has its own error, which its download finds.
+        // VAR_CALCULATE has its own error, which its download detects.
         const Fault beyond = (code & 0xFF) == 0xD4 ? Fault::none : Fault::parameter;
         const bool is_side = one.name == "Lp" || one.name == "Wp";
         const bool is_radius = one.name == "Rp";

@@ -1,5 +1,5 @@
-// What an onlooker counts in random programs against a naive evaluator that reads their listings word by
-// word.
+// The counts of an observer of random programs compared with a naive evaluator that reads their listings word
+// by word.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -46,7 +46,7 @@ std::vector<std::string> random_lines(Random& random) {
     lines.push_back("JMP" + std::to_string(i) + ": " + text);
   }
   lines.push_back("JMP" + std::to_string(count + 1) + ": END");
-  lines.push_back("JMP" + std::to_string(count + 2) + ": END");  // behind a skipped END
+  lines.push_back("JMP" + std::to_string(count + 2) + ": END");  // after a skipped END
   return lines;
 }
 

@@ -14,11 +14,11 @@ std::vector<InstructionCase> flow_cases() {
       {0x01, 3, 0, with_inputs(0b1000), "", kHere},
       {0x01, 0, 1, with_inputs(1), "", kNext},
       {0x01, 10, 1, with_inputs(1 << 10), "", kNext},
-      {0x01, 3, 200, with_inputs(0b1000), "", kNext},  // whatever is not 0 is ON
+      {0x01, 3, 200, with_inputs(0b1000), "", kNext},  // anything except 0 is ON
       {0x01, 11, 1, with_inputs(0xFFFF), "", kHere},   // there is no DIN 11: OFF
       {0x01, 11, 0, with_inputs(0xFFFF), "", kNext},
       {0x01, 255, 0, as_it_is, "", kNext},
-      // Delay_mSec: whatever is over within a slot takes one; the rest is in timing_test.cpp
+      // Delay_mSec: a delay that ends within a slot takes one; the rest is in timing_test.cpp
       {0x02, 0, 0, as_it_is, "", kNext},
       {0x02, 2, 0, as_it_is, "", kNext},
       {0x02, 3, 0, as_it_is, "", kHere},
@@ -37,7 +37,7 @@ std::vector<InstructionCase> flow_cases() {
       // Delay_mSec_VAR
       {0x07, 5, 0, with(5, 2), "", kNext},
       {0x07, 5, 0, with(5, 3), "", kHere},
-      {0x07, 5, 0, with(5, -1000), "", kNext},  // brought to 0
+      {0x07, 5, 0, with(5, -1000), "", kNext},  // limited to 0
       {0x07, 200, 0, as_it_is, "", kNext},      // no such parameter: 0
       // Jump_IN_ON, Jump_IN_OFF
       {0x10, 7, 4, with_inputs(1 << 4), "", kFlag7},

@@ -22,8 +22,8 @@ struct InstructionCase {
   std::uint8_t data1;
   std::uint8_t data2;
   std::function<void(ScriptedMachine&)> before;
-  std::string calls;  // what the machine is told
-  int line_after;     // the line at work one slot later
+  std::string calls;  // the calls to the machine
+  int line_after;     // the present line one slot later
 };
 
 inline void as_it_is(ScriptedMachine&) {}

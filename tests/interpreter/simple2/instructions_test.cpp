@@ -35,7 +35,7 @@ Operand operand_of(const std::string& wording) {
   for (const auto& [beginning, operand] : wordings) {
     if (wording.starts_with(beginning)) return operand;
   }
-  ADD_FAILURE() << "no operand is worded '" << wording << "'";
+  ADD_FAILURE() << "no operand has the words '" << wording << "'";
   return Operand::none;
 }
 

@@ -123,7 +123,7 @@ TEST(Simple2Listing, ReadsEveryMnemonicOfTheManual) {
 }
 
 TEST(Simple2Listing, GivesLabelsFlagsThatAreFree) {
-  // JMP1 stands on a line, 2 is only asked for, 3 is a cell.
+  // JMP1 is on a line, 2 is only referred to, 3 is a cell.
   EXPECT_EQ(lines_of("JMP1: NOP\nfirst: Jump @2\n@3 NOP\nsecond: Jump second\nJump first"),
             lines_from({{0, 0, 0, 1}, {3, 2, 0, 4}, {0, 0, 0, 3}, {3, 5, 0, 5}, {3, 4, 0, 0}}));
 }
@@ -168,7 +168,7 @@ TEST(Simple2Listing, TakesOperandsAtTheEndsOfTheirRanges) {
                         {0x34, 255, 0, 0}}));
 }
 
-// --- any program survives ------------------------------------------------------------------------
+// --- any program converts without loss ----------------------------------------------------------
 
 TEST(Simple2ListingRoundTrip, KeepsAnyCells) {
   std::mt19937 random(1);

@@ -1,5 +1,5 @@
-// Loop (0x04): traces worked out by hand. Counters are parameters 171 and 172, and the lines below count with
-// VAR_Inc (0x6B), because the scripted machine's parameters are what a test can look at.
+// Loop (0x04): traces calculated by hand. Counters are parameters 171 and 172, and the lines below count with
+// VAR_Inc (0x6B), because a test can read the scripted machine's parameters.
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
@@ -223,14 +223,14 @@ TEST(Simple2Loop, OutsideOneThatIsRememberedIsNotInsideIt) {
   ProgramRun after(program, 3);
   after.dialect.loop_left = Dialect::LoopLeft::remembered;
   after.until(8);
-  after.machine.inputs = 1;  // in the second pass, line 4 leaves for line 6: the Loop of line 7 is behind it
+  after.machine.inputs = 1;  // in the second pass, line 4 jumps to line 6: the Loop of line 7 is after it
   after.to_the_end();
   EXPECT_EQ(after.execution.ending, Ending::end_instruction);
   EXPECT_EQ(after.machine.parameters[2], 2);
 
   ProgramRun before(program, 3);
   before.dialect.loop_left = Dialect::LoopLeft::remembered;
-  before.program.set_cell(4 * 4 + 1, 1);  // line 4 leaves for line 0: the Loop of line 1 is before it
+  before.program.set_cell(4 * 4 + 1, 1);  // line 4 jumps to line 0: the Loop of line 1 is before it
   before.until(8);
   before.machine.inputs = 1;
   before.to_the_end();

@@ -9,7 +9,7 @@ void both_move(ScriptedMachine& machine) { machine.moving_a = machine.moving_b =
 
 std::vector<InstructionCase> motion_cases() {
   return {
-      // Move_INC_x, Move_ABS_x, Move_Home_x go on at once, whether or not the axis moves
+      // Move_INC_x, Move_ABS_x, Move_Home_x continue at once, whether or not the axis moves
       {0x20, 5, 0, with(5, -500), "A by -500", kNext},
       {0x20, 5, 0, a_moves, "A by 0", kNext},
       {0x21, 5, 0, with(5, INT32_MIN), "A to -2147483648", kNext},
@@ -30,7 +30,7 @@ std::vector<InstructionCase> motion_cases() {
       {0x23, 5, 6, with(5, -10, 6, 3001), "A ramps 0 3000", kNext},
       {0x33, 5, 6, with(5, 3000, 6, 0), "B ramps 3000 0", kNext},
       {0x43, 5, 6, with(5, 10, 6, 20), "A ramps 10 20; B ramps 10 20", kNext},  // the same for both axes
-      // *_Wait: the second slot is the first to look
+      // *_Wait: the second slot is the first one to check
       {0x25, 5, 0, with(5, 3), "A by 3", kHere},
       {0x25, 5, 0, a_moves, "A by 0", kHere},
       {0x26, 5, 0, with(5, 3), "A to 3", kHere},

@@ -10,7 +10,7 @@ std::vector<InstructionCase> number_cases() {
   constexpr std::uint8_t kMinus3 = 0xFD;
   constexpr std::uint8_t kMinus128 = 0x80;
   return {
-      // VAR_EQ, VAR_GT, VAR_LT: true goes on, false skips a line
+      // VAR_EQ, VAR_GT, VAR_LT: true continues, false skips a line
       {0x1C, 5, 6, with(5, -7, 6, -7), "", kNext},
       {0x1C, 5, 6, with(5, -7, 6, 7), "", kAfterNext},
       {0x1D, 5, 6, with(5, 8, 6, 7), "", kNext},
@@ -19,7 +19,7 @@ std::vector<InstructionCase> number_cases() {
       {0x1E, 5, 6, with(5, kMin, 6, kMax), "", kNext},
       {0x1E, 5, 6, with(5, 7, 6, 7), "", kAfterNext},
       {0x1E, 5, 6, with(5, 8, 6, 7), "", kAfterNext},
-      // VAR_DirectEQ, _GT, _LT: DATA2 has a sign
+      // VAR_DirectEQ, _GT, _LT: DATA2 is signed
       {0x90, 5, kMinus3, with(5, -3), "", kNext},
       {0x90, 5, kMinus3, with(5, 253), "", kAfterNext},
       {0x90, 5, kMinus128, with(5, -128), "", kNext},
@@ -43,7 +43,7 @@ std::vector<InstructionCase> number_cases() {
       {0x61, 5, 0, with(158, -42), "p5 = -42", kNext},
       {0x61, 158, 0, with(158, 3), "p158 = 3", kNext},
       {0x62, 5, 6, with(5, 99), "p6 = 99", kNext},
-      {0x62, 5, 165, with(5, 99), "p165 = 99", kNext},  // the machine knows that there is no 165
+      {0x62, 5, 165, with(5, 99), "p165 = 99", kNext},  // the machine knows that 165 does not exist
       {0x6F, 5, 127, as_it_is, "p5 = 127", kNext},
       {0x6F, 5, kMinus128, as_it_is, "p5 = -128", kNext},
 

@@ -4,7 +4,7 @@
 namespace understudy::interpreter::simple2 {
 namespace other_readings_test {
 
-/// Counts its passes in MEM0: endlessly, where the jump leads back to line 0.
+/// Counts its passes in MEM0: endlessly, if the jump leads back to line 0.
 int passes_with_jump_to(std::uint8_t flag, Dialect::UndefinedFlag reading) {
   ProgramRun run(program_of({{0x6B, 0, 0, 0}, {0x03, flag, 0, 0}, {0xFF, 0, 0, 0}}));
   run.dialect.undefined_flag = reading;
@@ -53,7 +53,7 @@ TEST(Simple2OtherReadings, TimersAreComparedWithoutASignOrWith) {
   }
 }
 
-/// Move_INC_A_Wait or Wait_Move_A, and behind it a line that counts in MEM0.
+/// Move_INC_A_Wait or Wait_Move_A, followed by a line that counts in MEM0.
 ProgramRun waiting(std::uint8_t opcode, Dialect::WaitCutShort reading) {
   ProgramRun run(program_of({{opcode, 0, 0, 0}, {0x6B, 0, 0, 0}, {0xFF, 0, 0, 0}}));
   run.dialect.wait_cut_short = reading;
@@ -94,7 +94,7 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
         if (is_cut && reading == waits_on) {
           EXPECT_TRUE(run.execution.running) << int{opcode};
           EXPECT_EQ(next_active_slot_ms(run.execution, 40, run.program, run.dialect, run.machine), kNoSlot);
-          run.machine.*cut_short = false;  // a later move has got to its end
+          run.machine.*cut_short = false;  // a later move has completed
           run.until(60);
         }
         const bool ends = is_cut && reading == program_ends;

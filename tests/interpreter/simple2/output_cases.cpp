@@ -28,7 +28,7 @@ std::vector<InstructionCase> output_cases() {
       {0x12, 7, 5, with(171, 500, 5, 500), "", kFlag7},
       {0x12, 7, 5, with(171, 500, 5, 501), "", kNext},
       {0x12, 9, 5, as_it_is, "", kNoSuchFlag},
-      {0x12, 7, 5, with(171, 65535, 5, -1), "", kNext},  // a counter has no sign
+      {0x12, 7, 5, with(171, 65535, 5, -1), "", kNext},  // a counter is unsigned
       {0x13, 7, 5, with(171, 501, 5, 500), "", kFlag7},
       {0x13, 7, 5, with(171, 500, 5, 500), "", kNext},
       {0x13, 7, 5, with(171, 0, 5, -1), "", kFlag7},

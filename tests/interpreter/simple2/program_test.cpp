@@ -49,7 +49,7 @@ TEST(Simple2Program, KnowsOnlyFlags1To64) {
   }
 }
 
-// Cells written at random, against a program made of its lines at once.
+// Cells written at random, compared with a program made of its lines at once.
 TEST(Simple2Program, ItsFlagsAreThoseOfItsLinesAfterAnyWrites) {
   constexpr std::uint8_t kEnd = opcode_of("END");
   std::mt19937_64 random(5);

@@ -4,7 +4,8 @@
 namespace understudy::interpreter::simple2 {
 namespace timing_test {
 
-using Trace = std::vector<std::pair<std::int64_t, int>>;  // ms, line; when the line at work changed
+using Trace =
+    std::vector<std::pair<std::int64_t, int>>;  // ms, line; the times at which the present line changed
 
 Trace trace_to_the_end(ProgramRun& run) {
   Trace trace;
@@ -138,7 +139,7 @@ TEST(Simple2Timing, AProgramEndsAfterItsLastLine) {
 
 TEST(Simple2Timing, ASkipOrADelayOutOfTheLastLineEndsTheProgram) {
   Lines lines{};
-  lines[255] = {0x90, 5, 1, 0};  // VAR_DirectEQ MEM5 1, not so
+  lines[255] = {0x90, 5, 1, 0};  // VAR_DirectEQ MEM5 1, which is false
   ProgramRun skip(Program(lines), 255);
   skip.until(4);
   EXPECT_EQ(skip.execution.ending, Ending::past_last_line);

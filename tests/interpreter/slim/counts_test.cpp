@@ -1,4 +1,5 @@
-// What an onlooker counts in random programs against a naive evaluator that reads their lines word by word.
+// The counts of an observer of random programs compared with a naive evaluator that reads their lines word by
+// word.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -45,7 +45,7 @@ TEST(SlimEditor, SingleLines) {
   EXPECT_EQ(desk.program.texts(), (Lines{"DN", "SET P1", "CLR P2", "SET P3", "RET"}));
   desk.give_all({"PD 0", "PD 3"});
   EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
-  desk.give_all({"PE 0", ""});  // left as it is
+  desk.give_all({"PE 0", ""});  // unchanged
   EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
   EXPECT_EQ(desk.program.listing(), (Lines{"0: SET P1", "1: CLR P2", "2: SET P3"}));
   for (const std::string_view wrong : {"PE 3", "PI 4", "PD 3", "PD 1000"}) {

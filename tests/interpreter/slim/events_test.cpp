@@ -1,4 +1,4 @@
-// Events: what makes them fire, what they interrupt, what holds them.
+// Events: what makes them fire, what they interrupt, what delays them.
 #include <gtest/gtest.h>
 
 #include "tests/interpreter/slim/scripted_machine.h"
@@ -8,7 +8,7 @@ namespace events_test {
 
 using InterruptedTimer = FlowOptions::InterruptedTimer;
 
-/// Lines 0 and 1 define the event, so the line that waits is at work from 3 ms on.
+/// Lines 0 and 1 define the event, so the line that waits runs from 3 ms on.
 std::vector<std::string> interrupted(const std::string& waiting) {
   return {"SET EV1 I,8", "ON EV1,$PPZ", waiting, "SET P1", "RET", "$PPZ ISET P4", "RET"};
 }
@@ -36,7 +36,7 @@ TEST(SlimEvents, DoNotInterruptAWaitThatIsJustOver) {
   ProgramRun run(interrupted("WT 100"));
   run.begin();
   run.until(102);
-  run.machine.inputs = {8};  // seen at 103, when the wait is over
+  run.machine.inputs = {8};  // seen at 103, when the wait ends
   run.until(300);
   EXPECT_EQ(run.machine.log, (Log{"103 ISET P4", "105 SET P1"}));
 }
@@ -71,7 +71,7 @@ TEST(SlimEvents, InterruptATimedJump) {
   again.until(49);
   again.machine.inputs = {8};
   again.until(200);
-  // JTI at 3, event at 50, RET at 51, JTI again at 52: it looks until 152, then SET P1 at 153.
+  // JTI at 3, event at 50, RET at 51, JTI again at 52: it checks until 152, then SET P1 at 153.
   EXPECT_EQ(again.machine.log, (Log{"50 ISET P4", "153 SET P1"}));
 
   ProgramRun goes_on(interrupted("JTI 1,100,$PPZ"), {.interrupted_timer = InterruptedTimer::goes_on});
@@ -79,7 +79,7 @@ TEST(SlimEvents, InterruptATimedJump) {
   goes_on.until(49);
   goes_on.machine.inputs = {8};
   goes_on.until(200);
-  EXPECT_EQ(goes_on.machine.log, (Log{"50 ISET P4", "104 SET P1"}));  // looks until 103
+  EXPECT_EQ(goes_on.machine.log, (Log{"50 ISET P4", "104 SET P1"}));  // checks until 103
 }
 
 TEST(SlimEvents, InterruptAWaitForANumber) {
@@ -87,7 +87,7 @@ TEST(SlimEvents, InterruptAWaitForANumber) {
   run.begin();
   run.until(10);
   EXPECT_EQ(give_number(run.execution, run.program, "5"), Error::none);
-  run.machine.inputs = {8};  // the number is for the line that asked; the event comes behind it
+  run.machine.inputs = {8};  // the number is for the line that asked; the event comes after it
   run.until(20);
   EXPECT_EQ(run.machine.log, (Log{"11 N0=5"}));
   EXPECT_TRUE(wants_number(run.execution));
@@ -118,7 +118,7 @@ TEST(SlimEvents, AreHeldUntilReturnAndTheLowestComesFirst) {
   run.until(49);
   run.machine.inputs = {2};  // EV2's routine from 50: WT 20, ISET P2 at 70, RET at 71
   run.until(55);
-  run.machine.inputs = {1, 3};  // both held, and gone again before the routine ends
+  run.machine.inputs = {1, 3};  // both held, and false again before the routine ends
   run.until(60);
   run.machine.inputs = {};
   run.until(100);

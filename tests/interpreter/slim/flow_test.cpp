@@ -1,4 +1,4 @@
-// Jumps, calls, waits and ends. Times are worked out by hand from "one line a tick": after G at 0, the n-th
+// Jumps, calls, waits and ends. Times are calculated by hand from "one line per tick": after G at 0, the n-th
 // line runs at n ms.
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ TEST(SlimFlow, OneLineATickUntilTheEnd) {
   run.until(2);
   EXPECT_TRUE(run.execution.running);
   run.until(10);
-  EXPECT_EQ(run.machine.log, (Log{"1 MA 100.0", "3 SET P1"}));  // a label alone takes its tick, too
+  EXPECT_EQ(run.machine.log, (Log{"1 MA 100.0", "3 SET P1"}));  // a label alone also takes its tick
   EXPECT_FALSE(run.execution.running);
   EXPECT_EQ(run.execution.ending, Ending::past_last_line);
 }
@@ -34,7 +34,7 @@ TEST(SlimFlow, StartsAtALineOrALabel) {
   at_line.until(3);
   EXPECT_EQ(at_line.machine.log, (Log{"1 SET P4"}));
 
-  ProgramRun at_label(lines, first_counts);  // labels know no case; the first of two counts
+  ProgramRun at_label(lines, first_counts);  // labels ignore case; the first of two counts
   EXPECT_EQ(at_label.begin("$b"), Error::none);
   at_label.until(1);
   EXPECT_EQ(at_label.machine.log, (Log{"1 SET P2"}));
@@ -97,11 +97,11 @@ TEST(SlimFlow, JumpsToNowhereEndTheProgram) {
   }
 }
 
-/// Looked at from its own tick, 1, until 1 + 10; the line behind it, or its target, one tick later.
+/// Checked from its own tick, 1, until 1 + 10; the line after it, or its target, runs one tick later.
 TEST(SlimFlow, TimedJumpsLookForTheirWholeTime) {
   struct Case {
     bool for_on;
-    std::int64_t changes_after_ms;  // the level is there at the next tick
+    std::int64_t changes_after_ms;  // the level is present at the next tick
     std::string done;
   };
   for (const Case& each :
@@ -167,7 +167,7 @@ TEST(SlimFlow, CallsAreSixteenDeep) {
   ProgramRun run({"$A SET P1", "CALL $A"});
   run.begin();
   run.until(100);
-  // Sixteen calls succeed, so the line in front of CALL is carried out seventeen times.
+  // Sixteen calls succeed, so the line before CALL is executed seventeen times.
   EXPECT_EQ(run.machine.log.size(), 17u);
   EXPECT_EQ(run.execution.ending, Ending::failed);
   EXPECT_EQ(run.execution.error, Error::address);

@@ -59,7 +59,7 @@ TEST(SlimMutatedLines, AreRefusedOrReadBack) {
     ++understood;
     EXPECT_EQ(parse_line(text_of(result.line)), result) << line << " -> " << text_of(result.line);
   }
-  // Neither side is a rare case; otherwise the test would prove little.
+  // Neither result is rare; otherwise the test would prove little.
   EXPECT_GT(understood, 2'000);
   EXPECT_LT(understood, 18'000);
 }

@@ -1,4 +1,4 @@
-// The traps of the language: what looks alike, quotes, blanks, labels, prefixes.
+// The traps of the language: similar forms, quotes, blanks, labels, prefixes.
 #include "interpreter/slim/parse.h"
 
 #include <gtest/gtest.h>
@@ -219,7 +219,7 @@ TEST(SlimAvailability, ByPlace) {
                                 {"SET EV1 I,1", true, true, false},
                                 {"PR3=5", true, true, false},
                                 {"GETI", true, false, false},
-                                {"N0=GETI", true, false, false},  // nobody waits for the number
+                                {"N0=GETI", true, false, false},  // nothing waits for the number
                                 {"TVM=GETR", true, false, false}}) {
     const Command command = command_of(each.text);
     EXPECT_EQ(is_allowed(command, Place::program), each.program) << each.text;

@@ -50,20 +50,20 @@ TEST(SlimProgramOptions, OneLineInFourTicks) {
   ProgramRun timed({"SET P1", "WT 5", "SET P2", "WT 4", "SET P3"}, slow);
   timed.begin();
   timed.until(30);
-  // WT 5 at 8: until 13, seen at 16 with the line behind it. WT 4 at 20: until 24.
+  // WT 5 at 8: until 13, detected at 16 with the line after it. WT 4 at 20: until 24.
   EXPECT_EQ(timed.machine.log, (Log{"4 SET P1", "16 SET P2", "24 SET P3"}));
 
   ProgramRun input({"WI 1", "SET P1"}, slow);
   input.begin();
   input.until(9);
-  input.machine.inputs = {1};  // WI looks at 12
+  input.machine.inputs = {1};  // WI checks at 12
   input.until(20);
   EXPECT_EQ(input.machine.log, (Log{"16 SET P1"}));
 
   ProgramRun window({"JTI 1,10,$A", "SET P1", "RET", "$A SET P2"}, slow);
   window.begin();
   window.until(40);
-  // JTI at 4: until 14, so it looks for the last time at 16.
+  // JTI at 4: until 14, so it checks for the last time at 16.
   EXPECT_EQ(window.machine.log, (Log{"20 SET P1"}));
 
   ProgramRun asking({"N0=GETI", "SET P1"}, slow);
@@ -78,7 +78,7 @@ TEST(SlimProgramOptions, SlowLinesMissNoEvent) {
   ProgramRun run(interrupted("WT 1000"), {.lines_every_ms = 4});
   run.begin();
   run.until(48);
-  run.machine.inputs = {8};  // seen at 49 alone
+  run.machine.inputs = {8};  // seen only at 49
   run.until(49);
   run.machine.inputs = {};
   run.until(70);
@@ -182,7 +182,7 @@ TEST(SlimProgramOptions, LinesNumberedFromOne) {
   EXPECT_EQ(give("PA"), Error::none);
   EXPECT_EQ(next_line_number(editor, program, options), 5);
 
-  // Plain numbers are not rewritten by PI: JP 3 jumps to what is the third line now.
+  // PI does not rewrite plain numbers: JP 3 jumps to the present third line.
   const auto find = [&](std::string_view jump) {
     return program.find(parse_line(jump).line.command->operands[0], options);
   };
@@ -275,7 +275,7 @@ TEST(SlimProgramOptions, WhatIsNoLineAtAllIsRefusedAsItIsEntered) {
   }
 }
 
-// Whichever was entered first: a program that is saved is read from its first line to its last.
+// Whichever was entered first: a saved program is read from its first line to its last.
 TEST(SlimProgramOptions, OfLinesWithOneLabelTheFirstIsGood) {
   const ProgramOptions options{.check = ProgramOptions::Check::as_run};
   const struct {

@@ -55,7 +55,7 @@ class ScriptedMachine : public Machine {
   std::map<std::string, double> variables;
   double analog = 0;
   double clock = 0;
-  std::set<std::string> waiting;  // commands that the machine does not carry out yet
+  std::set<std::string> waiting;  // commands that the machine has not executed yet
   std::map<std::string, Error> refusals;
   std::map<std::string, Outcome::Program> endings;  // what commands mean for the program
   std::int64_t now_ms = 0;

@@ -30,8 +30,8 @@ Running in_phase(Area area, Phase phase) {
 /// The cell of the manual, or of the choice: the next phase, and the calls to the machine.
 struct Cells {
   Event event;
-  // I E M H W P Q; "-": nothing changes. A letter: the phase. Behind it "stop", "hold", "go on", "starts",
-  // "drop".
+  // I E M H W P Q; "-": nothing changes. A letter: the phase, followed by "stop", "hold", "go on", "starts"
+  // or "drop".
   const char* cells[7];
 };
 constexpr Cells kCells[] = {
@@ -73,7 +73,7 @@ TEST(Super40ncEvents, AllCellsAreTheManuals) {
         EXPECT_EQ(told, cell.substr(1)) << where;
         const bool runs = cell[0] == 'E' || cell[0] == 'M';
         EXPECT_EQ(is_on, runs) << where;
-        StepState cleared;  // but for its modes
+        StepState cleared;  // except for its modes
         cleared.has_modes = running.state(area).has_modes;
         cleared.rpm = running.state(area).rpm;
         EXPECT_EQ(running.state(area) == cleared, cell[0] == 'I') << where;
@@ -169,7 +169,7 @@ TEST(Super40ncEvents, SingleStepPausesAtOnceBehindADrvThatIsNotWaitedFor) {
   running.tick();
   EXPECT_EQ(running.state(Area::y).step, 5);
   EXPECT_EQ(running.phase(Area::y), Phase::paused);
-  EXPECT_GT(running.machine.left.at(2), 0);  // goes on
+  EXPECT_GT(running.machine.left.at(2), 0);  // continues
   running.start(Area::y);
   running.tick();
   EXPECT_EQ(running.state(Area::y).step, 9);
@@ -223,7 +223,7 @@ TEST(Super40ncEvents, MotionInhibitLetsMotionsWait) {
   running.machine.special.erase(8004);
   running.tick();
   EXPECT_EQ(running.phase(Area::x), Phase::moving);
-  running.machine.special.insert(8004);  // running ones go on
+  running.machine.special.insert(8004);  // running ones continue
   running.tick(4);
   EXPECT_TRUE(running.machine.contact(y(1)));
 }
@@ -327,7 +327,7 @@ TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
     const bool is_held = row.motion == Beside::is_held;
     const bool is_stopped = row.motion == Beside::is_stopped;
     EXPECT_EQ(told, is_held ? "X: hold" : is_stopped ? "X: stop" : "") << i;
-    EXPECT_EQ(row.wheel == Beside::is_stopped, is_stopped) << i;  // hold() leaves the wheel alone
+    EXPECT_EQ(row.wheel == Beside::is_stopped, is_stopped) << i;  // hold() does not affect the wheel
   }
 }
 

@@ -1,6 +1,6 @@
-// Every mnemonic in every area, with every kind of operand in every field, at the ends of its numbers, with
-// fields unset and left out, alone: taken, or refused with its code, step and column. What is right is told
-// by instructions.csv and by the manual's tables of devices, not by the table of the program.
+// Every mnemonic in every area, with every kind of operand in every field, at the limits of its numbers, with
+// unset and omitted fields, and alone: it is accepted, or refused with its code, step and column.
+// instructions.csv and the manual's tables of devices say what is right, not the table of the program.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 namespace understudy::interpreter::super_40nc {
 namespace every_mnemonic_test {
 
-/// What the column `operands` means: the letters of each field, `*` for unset, `L` for a label. RST and ZRST
-/// take T and C as well (choice reset_timers_counters); a preset may stand in a D.
+/// The meaning of the column `operands`: the letters of each field, `*` for unset, `L` for a label. RST and
+/// ZRST accept T and C as well (choice reset_timers_counters); a preset can be in a D.
 using Fields = std::vector<std::string>;
 const std::map<std::string, Fields>& operands() {
   static const Fields kFour(4, "KD*");
@@ -83,7 +83,7 @@ std::string right_operand(std::string_view letters) {
   return std::string(first) + "1";
 }
 
-/// A correct program around a line, and the place of the line in it.
+/// A correct program around a line, and the position of the line in it.
 struct Around {
   std::string before;
   std::string behind;
@@ -181,7 +181,7 @@ void everywhere(Visit visit) {
     for (const Place& place : kPlaces) visit(fact, place, may_stand(fact, place));
   }
 }
-/// The same where it is allowed.
+/// The same for the areas in which it is allowed.
 template <class Visit>
 void wherever_it_may(Visit visit) {
   everywhere([&](const Fact& fact, const Place& place, bool may) {
@@ -201,7 +201,7 @@ TEST(Super40ncEveryMnemonic, StandsInItsAreasAlone) {
   EXPECT_GT(refused, 150);
 }
 
-/// Every kind of operand in every field, the others being right. S is a device without an instruction.
+/// Every kind of operand in every field, while the others are right. S is a device without an instruction.
 TEST(Super40ncEveryMnemonic, TakesTheKindsOfItsFields) {
   int tried = 0;
   wherever_it_may([&](const Fact& fact, const Place&, const Trial& trial) {
@@ -277,7 +277,7 @@ TEST(Super40ncEveryMnemonic, TakesTheNumbersThatThereAre) {
         if (letters.find(of.letter) == std::string::npos) continue;
         for (const std::string& n : of.taken) trial.takes(line_with(of.letter + n));
         for (const std::string& n : of.beyond) {
-          const bool is_number = n.size() < 20;  // of 64 bits; else it is not an operand
+          const bool is_number = n.size() < 20;  // of 64 bits; otherwise it is not an operand
           trial.refuses(line_with(of.letter + n), {is_number ? Code::out_of_range : Code::unknown, column});
         }
       }
@@ -285,7 +285,7 @@ TEST(Super40ncEveryMnemonic, TakesTheNumbersThatThereAre) {
   });
 }
 
-/// Fields at the end may be left out where they may be unset; there are no more than its own, and never five.
+/// Fields at the end can be omitted if they may be unset; there are no more than its own, and never five.
 TEST(Super40ncEveryMnemonic, HasItsFieldsAndNoMore) {
   wherever_it_may([&](const Fact& fact, const Place&, const Trial& trial) {
     const std::string& name = fact.at("mnemonic");
@@ -313,7 +313,7 @@ TEST(Super40ncEveryMnemonic, HasItsFieldsAndNoMore) {
   });
 }
 
-/// Alone between AREA and END: what needs a condition, a partner or a jump says so.
+/// Alone between AREA and END: an instruction that needs a condition, a partner or a jump says so.
 TEST(Super40ncEveryMnemonic, AloneSaysWhatItLacks) {
   wherever_it_may([&](const Fact& fact, const Place& place, const Trial&) {
     const std::string& name = fact.at("mnemonic");
@@ -325,7 +325,7 @@ TEST(Super40ncEveryMnemonic, AloneSaysWhatItLacks) {
     if (place.letter == 'P') {
       if (!begins && !is_one_of(name, "NOP END")) code = Code::logic;
     } else if (begins) {
-      code = Code::logic;  // END stands where a jump should
+      code = Code::logic;  // END is in the place of a jump
       step += std::stoi(fact.at("steps"));
     } else if (is_contact(fact) || is_one_of(name, "ANB ORB CJ CJN IF")) {
       code = Code::logic;
@@ -372,7 +372,8 @@ Did run_in(const Place& place, const std::string& line, int owned_axes) {
   return did;
 }
 
-/// A line whose fields are all unset does nothing and is not waited for, but STP and STR, which mean C then.
+/// A line whose fields are all unset does nothing and is not waited for, except STP and STR, which mean C
+/// then.
 TEST(Super40ncEveryMnemonic, WithoutFieldsDoesNothing) {
   int tried = 0;
   wherever_it_may([&](const Fact& fact, const Place& place, const Trial&) {
@@ -409,8 +410,8 @@ TEST(Super40ncEveryMnemonic, IsVoidWhereTheManualSays) {
   EXPECT_EQ(tried, 12);  // PJG and MJG in five step programs, CHK in C and the PLC
 }
 
-/// Axes that the program does not own: C21 = 0 for C, 4 for the programs of the axes. What moves axes is
-/// void with code 16; what does not, is not.
+/// Axes that the program does not own: C21 = 0 for C, 4 for the programs of the axes. Lines that move axes
+/// are void with code 16; other lines are not.
 TEST(Super40ncEveryMnemonic, LeavesAxesAloneThatItDoesNotOwn) {
   constexpr std::string_view kMovers = "LIN CW CCW C3P CWR CCWR DRV HOM MPG MRK VDRV";
   int movers = 0;

@@ -1,4 +1,4 @@
-// More options about what the manual leaves open: those about limits and corner cases.
+// More options about points that the manual leaves open: limits and corner cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST(Super40ncFurtherReadings, OfEdgesOfOneBit) {
     }
     EXPECT_EQ(plc.machine.value(d(0)), 2);
     EXPECT_EQ(plc.machine.value(d(1)), is_shared ? 0 : 2);
-    EXPECT_EQ(plc.machine.value(d(2)), is_shared ? 0 : 1) << "LDP has seen it fall";
+    EXPECT_EQ(plc.machine.value(d(2)), is_shared ? 0 : 1) << "LDP has seen it go OFF";
     EXPECT_EQ(plc.machine.value(d(3)), is_shared ? 0 : 2);
   }
 }
@@ -198,7 +198,7 @@ TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
   Running follows = running("AREA X;TMR D0;SET Y0;TMR K9", options);
   follows.machine.write(d(0), 1000);
   follows.start(Area::x);
-  follows.tick(51);  // 50 of them are over
+  follows.tick(51);  // 50 of them have ended
   EXPECT_EQ(follows.programs().quiet_ms(Area::x), 0);
   follows.machine.write(d(0), 60);
   follows.tick(9);

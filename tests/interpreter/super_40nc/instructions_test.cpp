@@ -47,7 +47,7 @@ TEST(Super40ncInstructions, AreTheManualsInItsOrder) {
     EXPECT_EQ(areas_of(row.void_in), fact.at("void_in")) << name;
     if (fact.at("steps").empty()) continue;
     EXPECT_EQ(std::to_string(row.steps), fact.at("steps")) << name;
-    // CWR and CCWR have four fields in print, the last of them without a meaning.
+    // The manual prints four fields for CWR and CCWR, the last of them without a meaning.
     const bool has_dead_field = name == "CWR" || name == "CCWR";
     EXPECT_EQ(std::to_string(row.fields() + (has_dead_field ? 1 : 0)), fact.at("fields")) << name;
     EXPECT_EQ(in_plc(row.in_plc), fact.at("in_plc")) << name;

@@ -68,7 +68,7 @@ TEST(Super40ncListing, IsReadInAnyCaseWithCommasAndRemarks) {
   const Checked checked = check("\xEF\xBB\xBF; a remark\r\n area x ; X\r\n\tlin0\r\n");
   EXPECT_FALSE(checked.program);
   const Checked right = check("area c base 10\r\n drv k1,*,K-3;rest\n 14 outTC T0 K1\nEND\n");
-  EXPECT_FALSE(right.program);  // OUT may not stand there
+  EXPECT_FALSE(right.program);  // OUT cannot be there
   const Checked plain = check("area c base 10\r\n drv k1,*****,K-3;rest\n\n 14 end");
   ASSERT_TRUE(plain.program) << to_string(plain.errors.at(0));
   EXPECT_EQ(list(*plain.program), "AREA C BASE 10\n10 DRV K1 * K-3\n14 END\n");
@@ -212,13 +212,13 @@ TEST(Super40ncListing, LoadsADoubledLabelAndReportsIt) {
   EXPECT_EQ(checked.warnings[0].code, Code::label_twice);
   EXPECT_EQ(checked.warnings[0].step, 2002);
   EXPECT_EQ(checked.warnings[0].other_step, 2000);
-  EXPECT_TRUE(check("AREA X\nLAB K5\nEND\nAREA Y\nLAB K5\nEND\n").warnings.empty());  // an area of its own
+  EXPECT_TRUE(check("AREA X\nLAB K5\nEND\nAREA Y\nLAB K5\nEND\n").warnings.empty());  // a separate area
   Options strict;
   strict.double_labels = Options::DoubleLabels::are_refused;
   EXPECT_FALSE(check("AREA Y\nLAB K5\nLAB K5\nEND\n", strict).program);
 }
 
-/// It stops there, with D8094 = 3, when it reaches it, not before.
+/// It stops there with D8094 = 3 when it reaches the line, not before.
 TEST(Super40ncListing, LoadsAJumpWithoutItsLabelAndNotesIt) {
   for (const char* jump : {"JMP K9", "CAL K9", "LD M0\nCJ K9"}) {
     const std::string text = "AREA X\nLAB K1\n" + std::string(jump) + "\nEND\nAREA Y\nLAB K9\nEND\n";
@@ -256,8 +256,8 @@ TEST(Super40ncListing, OtherReadingsRefuseOtherThings) {
   EXPECT_EQ(check("AREA X\nFOO\n", options).errors.at(0).step, 500);
 }
 
-/// Users come from an FX: their words are answered with this controller's equivalent, not with the nearest
-/// spelling.
+/// Users come from an FX: their instructions are answered with this controller's equivalent, not with the
+/// nearest spelling.
 TEST(Super40ncListing, AnswersWordsOfOtherPlcsWithItsOwn) {
   struct Case {
     std::string line;

@@ -1,4 +1,4 @@
-// Options about what the manual leaves open: each option of the languages makes the difference that it
+// Options about points that the manual leaves open: each option of the languages makes the difference that it
 // describes. listing_test.cpp has those about loading.
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(Super40ncOtherReadings, OfWritesToTimers) {
     write(5);
     plc.scan();
     EXPECT_EQ(plc.machine.value(value), is_ignored ? 32 : 6);
-    // From STOP to RUN it goes on, and OFF it is 0.
+    // From STOP to RUN it continues, and OFF it is 0.
     super_40nc::stop(plc.plc, plc.machine);
     plc.run_plc();
     plc.scan();
@@ -106,7 +106,7 @@ TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
     off.tick();
     EXPECT_EQ(off.phase(Area::x), stops ? Phase::idle : Phase::paused);
     EXPECT_EQ(off.state(Area::x).step, stops ? 0 : 1);
-    EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE there, in print";
+    EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE in the manual's table";
 
     options = {};
     options.start_begins_anew = stops;
@@ -147,7 +147,7 @@ TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
   };
   EXPECT_EQ(codes("AREA PLC\nLD X0\nLD X1\nOUT Y0\nANB\nOUT Y1\nEND\n"),
             "5:1: ANB joins blocks that were not begun; expected two blocks before it;");
-  // The idioms of the manual's samples stay.
+  // The idioms of the manual's samples still work.
   EXPECT_EQ(codes("AREA PLC\nLD X0\nOUT Y0\nAND X1\nOUT Y1\nLD X2\nOR X3\nANB\nOUT Y2\nEND\n"), "");
   EXPECT_EQ(codes("AREA PLC\nLD X0\nMPS\nAND X1\nOUT Y0\nMRD\nLD X2\nOR X3\nANB\nOUT Y1\nMPP\nOUT Y2\nEND\n"),
             "");
@@ -264,7 +264,7 @@ TEST(Super40ncOtherReadings, OfStackDepths) {
   EXPECT_FALSE(check("AREA C\nLD X0\nIF\nLD X1\nIF\nENDI\nENDI\nEND\n", options).program);
 }
 
-/// Nothing clears the blocks of earlier rungs, but the oldest of more than sixteen falls off.
+/// Nothing clears the blocks of earlier rungs, but of more than sixteen the oldest is lost.
 TEST(Super40ncOtherReadings, TheOldestBlockFallsOff) {
   for (const int more : {15, 16}) {
     std::string text = "AREA PLC\nLD X0\nOUT Y0\n";

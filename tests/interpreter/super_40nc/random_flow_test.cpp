@@ -189,7 +189,7 @@ class Naive {
     }
   }
 
-  /// Returns false if the slice is over.
+  /// Returns false if the slice has ended.
   bool line() {
     const Words& words = lines_[at];
     const std::string& word = words[0];
@@ -287,7 +287,7 @@ TEST(Super40ncRandomFlow, EqualsANaiveEvaluator) {
     Naive naive(lines);
     running.start(Area::x);
     for (int tick = 0; tick < kTicks; ++tick) {
-      const int changed = below(random, 40);  // somebody else's
+      const int changed = below(random, 40);  // another area's
       if (changed < 8) {
         const bool on = random() % 2 != 0;
         running.machine.set(m(changed), on);

@@ -1,5 +1,5 @@
 // Ladders from random expressions, compiled in two ways and compared with the expression itself: by blocks
-// alone, and by contacts in series and in parallel, branches and relays wherever they can stand.
+// alone, and by contacts in series and in parallel, branches and relays wherever they are possible.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -55,7 +55,7 @@ Operand random_value(Random& random) {
   }
 }
 
-/// Its depth bounds the blocks that are open at once.
+/// Its depth limits the blocks that are open at once.
 Tree random_tree(Random& random, int depth) {
   if (depth == 0 || below(random, 5) == 0) {
     Tree leaf = make(below(random, 3) == 0 ? Expression::Kind::comparison : Expression::Kind::contact);
@@ -120,7 +120,8 @@ std::string by_blocks(const Expression& e) {
   return by_blocks(*e.left) + by_blocks(*e.right) + (e.kind == Expression::Kind::both ? "ANB\n" : "ORB\n");
 }
 
-/// Contacts where they can stand, opposites pushed down to them, and now and then a branch or a relay.
+/// Contacts wherever they are possible, with negations pushed down to them, and sometimes a branch or a
+/// relay.
 class ByContacts {
  public:
   explicit ByContacts(Random& random) : random_(random) {}
@@ -135,7 +136,7 @@ class ByContacts {
   }
 
  private:
-  /// Leaves the result as it was.
+  /// Leaves the result unchanged.
   std::string detour() {
     const std::string relay = "M" + std::to_string(100 + below(random_, 50));
     switch (below(random_, 8)) {
@@ -167,7 +168,7 @@ void change(Random& random, ScriptedMachine& machine) {
   }
 }
 
-/// Whether a contact of a listing conducts, by its words.
+/// Returns whether a contact of a listing conducts, by its words.
 bool conducts(const Instruction& line, ScriptedMachine& machine) {
   const std::string text = text_of(line);
   const std::string word = text.substr(0, text.find(' '));

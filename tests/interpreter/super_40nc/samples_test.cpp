@@ -296,10 +296,10 @@ TEST(Super40ncSamples, ASubroutineIsPassedSevenTimes) {
       "; C: LIN * * -10000 * F10000; C: LIN * * 0 * F10000; C: LIN 5000 * * * relative F10000";
   std::string expected = "C: LIN 25000 25000 * * F20000";
   for (int i = 0; i < 5; ++i) expected += pass;
-  expected += "; C: LIN 50000 50000 * * F10000";  // F stays
+  expected += "; C: LIN 50000 50000 * * F10000";  // F is unchanged
   for (int i = 0; i < 2; ++i) expected += pass;
   EXPECT_EQ(asked(running), expected);
-  // C21 = 0: nothing moves, but the delays are waited for.
+  // C21 = 0: nothing moves, but the delays run.
   Running standing = steps("S2", Area::c);
   standing.machine.registers[named::kOwnedAxes] = 0;
   int ms = 0;

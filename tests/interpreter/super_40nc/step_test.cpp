@@ -1,5 +1,5 @@
-// Step programs on a scripted machine: flow, waits, slices, what each motion line asks for, whose axes they
-// are.
+// Step programs on a scripted machine: flow, waits, slices, the requests of each motion line, and who owns
+// the axes.
 #include <gtest/gtest.h>
 
 #include "interpreter/super_40nc/step_programs.h"
@@ -198,7 +198,7 @@ TEST(Super40ncStep, AStopOfItselfEndsIt) {
   EXPECT_EQ(running.state(Area::x).step, 0);
 }
 
-// --- what motion lines ask for ----------------------------------------------------------------------
+// --- requests of motion lines -----------------------------------------------------------------------
 
 struct Asked {
   const char* lines;

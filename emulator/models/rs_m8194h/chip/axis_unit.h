@@ -76,7 +76,7 @@ inline constexpr std::size_t kActivities = 4;
 struct Drive {
   enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
   What what = What::none;
-  std::int32_t value = 0;  // pulses, a position, or pulses a second
+  std::int32_t value = 0;  // pulses, a position, or pulses per second
 
   bool operator==(const Drive&) const = default;
 };
@@ -123,7 +123,7 @@ struct AxisUnit {
   motion::Counter absolute{};
   motion::Counter encoder{};  // of the travel, or of the bench's encoder if there is one
   bool has_encoder = false;
-  std::int64_t encoder_raw = 0;   // as the bench sets it, in edges
+  std::int64_t encoder_raw = 0;   // from the bench, in edges
   std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
   std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;
@@ -163,8 +163,8 @@ std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);
 std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor);
-/// Sets LP or EP. A count beyond the ring wraps into it if `ring_folds`; else it stays, in 32 bits, until it
-/// enters the ring.
+/// Sets LP or EP. A count beyond the ring wraps into it if `ring_folds`; otherwise it stays, in 32 bits,
+/// until it enters the ring.
 void set_count(motion::Counter& counter, const BasicSettings& settings, std::int64_t count,
                std::int64_t travel, bool ring_folds);
 void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value, bool ring_folds);
@@ -187,7 +187,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const 
 /// Returns EP as a function of the travel, by the axis's settings, for a machine with the given line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);
 
-/// What bits 5 to 9 of DI_ALL show: the levels of the lines, or whether they are active by their settings.
+/// The choice for bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their
+/// settings.
 enum class UpperBits : std::uint8_t { line_levels, active };
 /// Return DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
 std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper);

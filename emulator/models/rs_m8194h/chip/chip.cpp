@@ -86,7 +86,7 @@ void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 // --- power and RESET_CARD ---------------------------------------------------------------------------------
 
 void Chip::blank_axis(std::size_t axis, const BasicSettings& basic) {
-  // The motor stands where it is, and the bench's encoder too.
+  // The motor stays where it is, and the bench's encoder too.
   motion::Axis& motor = state_.motors[axis];
   const std::int64_t travel_pulses = motor.travel_pulses;
   const AxisUnit before = state_.units[axis];

@@ -77,7 +77,7 @@ class Chip final : public Part {
   /// Returns the law of a drive of single axes.
   motion::SpeedLaw law_of(std::size_t axis) const;
   bool is_active(std::size_t axis, motion::Signal signal) const;
-  /// Returns ERROR_CODE as it is read.
+  /// Returns ERROR_CODE as hosts read it.
   std::uint16_t error_code(std::size_t axis) const;
 
   // --- pins (pins.cpp) -------------------------------------------------------------------------

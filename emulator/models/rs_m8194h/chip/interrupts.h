@@ -1,5 +1,5 @@
-// RS-M8194H: what happened, for whoever asks: RINT_STATE, the factors of the axes, and interrupts that wait
-// for their ISR (4.15, 4.16, 7.3.12).
+// RS-M8194H: events for hosts and macros: RINT_STATE, the factors of the axes, and interrupts that wait for
+// their ISR (4.15, 4.16, 7.3.12).
 #pragma once
 
 #include <array>

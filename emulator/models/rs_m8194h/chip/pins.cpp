@@ -48,7 +48,7 @@ constexpr PinFunction kFunctions[] = {
     {Pin::alarm, motion::Signal::alarm},
 };
 
-/// Returns whether a pin is active while on, or nothing if it is not looked at.
+/// Returns whether a pin is active while on, or nothing if it is ignored.
 std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const MachineOptions& options) {
   switch (pin) {
     case Pin::limit_plus: return basic.forward_limit_level == 0;
@@ -56,7 +56,7 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
     case Pin::near_home: return basic.near_home_level == 0;
     case Pin::home: return basic.home_level == 0;
     case Pin::index: return basic.index_level == 0;
-    case Pin::in3: return options.in3_rises_when_it_closes;  // else the line's level: high while off
+    case Pin::in3: return options.in3_rises_when_it_closes;  // otherwise the line's level: high while off
     case Pin::in_position: return basic.in_position_level == 0;
     case Pin::alarm: return basic.alarm ? std::optional(basic.alarm_level == 0) : std::nullopt;
     case Pin::external_plus:

@@ -54,7 +54,7 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
     if (may && takes_place_of_endless(a, what)) taken |= mask_of(a);
   }
   axes &= static_cast<AxisMask>(~taken);
-  // Then one that moves takes it along, and starts with it when it stands.
+  // Then an axis that moves delays it, and starts with it after it has stopped.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;

@@ -62,7 +62,7 @@ class Drives final : public Part {
   void take_off(std::size_t axis, WayOut way);
   /// Forgets the errors of earlier motions, for a drive that starts.
   void forget_errors(std::size_t axis);
-  /// Checks the rest of a drive that is held by a pause: what would have ended it ends it.
+  /// Checks the rest of a drive that is held by a pause: anything that would have ended it ends it.
   void check_paused(std::size_t axis);
 
  private:

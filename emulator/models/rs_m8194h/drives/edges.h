@@ -1,5 +1,5 @@
-// RS-M8194H: what happens when an axis comes to an edge, at that very moment, whatever moves it: its errors
-// are noted, interrupts marked, synchronous actions done (7.3), whichever axis they act on.
+// RS-M8194H: what happens when an axis reaches an edge, at that very moment, whatever moves it: its errors
+// are recorded, interrupts marked, and synchronous actions executed (7.3), on whichever axis they act.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How motions end: what that leaves in the error code (4.9.2).
+// How motions end, and the effect on the error code (4.9.2).
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

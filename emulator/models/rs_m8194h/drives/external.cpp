@@ -27,7 +27,7 @@ constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
 
 }  // namespace
 
-/// Returns the edges of an input since the last call, whichever way its count was turned.
+/// Returns the edges of an input since the last call, in whichever direction its count was turned.
 std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   AxisUnit& unit = chip_.unit(axis);
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
@@ -37,7 +37,7 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   if (edges > kMaxEdgesPerTick) edges = kMaxEdgesPerTick - (edges & 1U);
   unit.external_seen[which] = count;
   if (chip_.is_filtered(axis, pin)) {
-    // Through its filter: what is too short is lost, the rest comes late.
+    // Through its filter: pulses that are too short are lost, the rest arrives late.
     const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
     const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
     edges = was_high != is_high ? 1 : 0;

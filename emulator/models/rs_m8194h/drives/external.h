@@ -23,7 +23,7 @@ class External final : public Part {
   void start_waiting();
   /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
   void set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
-  /// Takes the levels that the inputs have at power-up: they are no edges.
+  /// Takes the levels that the inputs have at power-up: they are not edges.
   void take_levels(std::size_t axis);
 
  private:

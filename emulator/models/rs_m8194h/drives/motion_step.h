@@ -32,7 +32,7 @@ class MotionStep final : public Part {
 
   void step(Tick tick);
 
-  /// Returns true if no axis moves, and none has anything to tell.
+  /// Returns true if no axis moves, and none has anything to report.
   bool rests() const;
   /// Returns the last tick before which only positions change, at most `last`; `done` if there is none.
   Tick quiet_until(Tick done, Tick last, const ClearTravel& ahead) const;

@@ -44,7 +44,7 @@ Took PathStarts::follow(const lang::Command& command) {
   const HeldPath path{.command = command, .codes = codes_of(command)};
   std::vector<HeldPath>& held = streams_.held();
   if (held.empty() || !follows(held.front(), path)) return begin(path);
-  // A stream is one drive: its segments are held together, and begin one after the other.
+  // A stream is one drive: its segments are held together, and begin one after another.
   const auto end = std::find_if_not(held.begin(), held.end(),
                                     [&](const HeldPath& each) { return follows(held.front(), each); });
   const bool has_last = is_last_segment(*std::prev(end));

@@ -31,7 +31,7 @@ class PathStarts final : public Part {
   std::array<std::uint8_t, 3> codes_of(const lang::Command& command) const;
   bool is_refused(const HeldPath& path) const;
   Took begin(const HeldPath& path);
-  /// Returns what becomes of a path that joins no stream.
+  /// Returns what happens to a path that joins no stream.
   Start may_begin(const HeldPath& path);
   Took hold(const HeldPath& path);
   /// Draws a command that may begin, or that joins its stream. Throws BadMotion if it cannot be drawn.

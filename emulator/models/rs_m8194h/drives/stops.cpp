@@ -19,7 +19,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The others go on along the path; it stops, or slows down by its own ramp from the speed that it has.
+/// The others continue along the path; it stops, or decelerates along its own ramp from its present speed.
 void Stops::leave_path(std::size_t axis, Halt halt) {
   const double speed_pps = chip_.paths().together.speed_pps(axis, now());
   for (std::int8_t& mine : chip_.paths().together.axis_of) {
@@ -34,8 +34,8 @@ void Stops::leave_path(std::size_t axis, Halt halt) {
   const motion::Events before = motor.events_between;
   const bool slows = halt == Halt::slows && std::abs(speed_pps) > law.start_speed_u_s;
   if (slows && motor.move_on(speed_pps, speed_pps < 0 ? -1 : +1, law, now()) == motion::Cause::none) {
-    motor.events_between = before;  // it is on its way already
-    motor.slow_down(now());         // it would come back, else
+    motor.events_between = before;  // it is already moving there
+    motor.slow_down(now());         // otherwise it would come back
   } else {
     motor.stop();
   }

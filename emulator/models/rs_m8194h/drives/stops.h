@@ -28,10 +28,10 @@ class Stops final : public Part {
 
   void hold(AxisMask axes);
   void release(AxisMask axes);
-  /// Starts what is held or waits, as far as its turn has come.
+  /// Starts what is held or waits, if its turn has come.
   void start_held();
 
-  /// Brings what moves to rest; resume() goes on from there. Homing goes on meanwhile.
+  /// Brings moving axes to rest; resume() continues from there. Homing continues meanwhile.
   void pause();
   void resume();
 

@@ -71,7 +71,7 @@ enum class Halt : std::uint8_t { goes_on, slows, stops };
 
 struct StopRow {
   lang::Verb verb;
-  std::uint8_t type;                    // stopType of EMERGENCY_STOP, else 0
+  std::uint8_t type;                    // stopType of EMERGENCY_STOP, otherwise 0
   std::array<Halt, kActivities> halts;  // by Activity; a path slows or stops with all its axes
   bool locks;                           // sets lock L
   bool locks_path;                      // sets lock V

@@ -90,7 +90,7 @@ void CommandQueue::run() {
       fifo.stop_wait = 0;
     }
     if (fifo.waiting.empty() || steps <= 0) return;
-    // A copy: what it does may empty the FIFO.
+    // A copy, because the command may empty the FIFO.
     const lang::Command command = fifo.waiting.front();
     if (acts_on_.carry_out(command) == lang::Took::waits) return;
     if (!fifo.waiting.empty()) fifo.waiting.erase(fifo.waiting.begin());

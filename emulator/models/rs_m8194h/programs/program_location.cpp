@@ -29,7 +29,7 @@ std::string_view awaited_by(lang::Hold hold) {
   return "";
 }
 
-/// The line of the text behind the one that begins the macro: "MP 21".
+/// The line of the text after the one that begins the macro: "MP 21".
 int line_in(std::string_view text, const std::string& head, int number) {
   for (const TextLine line : TextLines(text)) {
     if (line.text == head) return line.number + 1 + number;
@@ -46,7 +46,7 @@ std::vector<ProgramLocation> Programs::locations() const {
     if (!run.is_alive()) return;
     if (text.empty()) text = this->text();
     const lang::Level& level = run.levels.back();
-    // An ISR may call an MP: what is at the bottom says which of them it is.
+    // An ISR may call an MP: the lowest level shows which of them it is.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
     ProgramLocation place;
     place.program = to_string(name);

@@ -155,7 +155,7 @@ std::string Programs::text() const {
 
 // --- running ---------------------------------------------------------------------------------------------
 
-/// Tells an onlooker which macros there are.
+/// Tells an observer which macros there are.
 void Programs::tell_watch() const {
   if (acts_on_.watch() == nullptr || !is_alive()) return;
   std::uint64_t mark = hash_of({});

@@ -1,4 +1,4 @@
-// RS-M8194H: what the module says of itself: how it was booted, and what it has just finished (4.16.2).
+// RS-M8194H: the module's report about itself: how it was booted, and what it has just finished (4.16.2).
 #pragma once
 
 #include <cstdint>

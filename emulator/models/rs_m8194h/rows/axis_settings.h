@@ -57,7 +57,7 @@ struct SpeedRules {
   bool rounds_to_nearest = false;
   bool has_offset = true;              // AO
   bool mode_3_is_symmetric = false;    // for NORMAL_SPEED, as printed
-  double least_jerk_part = 0.0119211;  // the least jerk, as a part of MAX_V
+  double least_jerk_part = 0.0119211;  // the minimum jerk, as a part of MAX_V
 };
 
 /// The rules for an axis that the manual leaves open (choices.h).
@@ -72,7 +72,7 @@ struct AxisOptions {
   bool comparisons_fire_when_armed = false;
 };
 
-/// The size of one speed count and the least and most of other quantities, for a MAX_V (3.4, 7.1).
+/// The size of one speed count and the minimum and maximum of other quantities, for a MAX_V (3.4, 7.1).
 struct SpeedRange {
   SpeedRules rules = {};
   std::uint32_t max_v = 0;
@@ -95,7 +95,7 @@ inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rul
 }
 
 /// The speed of an axis, or of the path (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 means that it was
-/// never set; the axis then uses the least value.
+/// never set; the axis then uses the minimum value.
 struct SpeedSettings {
   std::uint8_t mode = 0;  // NORMAL_SPEED; for the path VECTOR_SPEED
   std::uint32_t start_pps = 0;
@@ -127,7 +127,7 @@ motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, con
 struct HomeSettings {
   std::uint32_t home_pps = 0;  // HV
   bool limit_is_home = false;
-  std::array<std::uint8_t, 4> steps{};  // 0 left out, 1 positive, 2 negative
+  std::array<std::uint8_t, 4> steps{};  // 0 skipped, 1 positive, 2 negative
   std::uint32_t offset_pulses = 0;
 
   bool operator==(const HomeSettings&) const = default;

@@ -32,7 +32,7 @@ struct LanguageOptions {
   bool isrs_are_bound_at_the_event = false;
 };
 LanguageOptions language_options(const DeviceSettings& settings);
-/// Returns the command options for option numbers, one a row.
+/// Returns the command options for option numbers, one per row.
 interpreter::rs_m8194h::CommandOptions command_options(std::span<const std::uint8_t> chosen);
 
 /// The options for inputs, axes and the FIFO.

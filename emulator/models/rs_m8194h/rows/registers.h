@@ -307,7 +307,7 @@ consteval std::size_t slot(std::string_view holding_name) {
   throw "no register is stored there";
 }
 
-/// Addresses in a row: those of one row, or of all from one row to another, with what lies between them.
+/// Addresses in a row: those of one row, or of all from one row to another, with everything between them.
 struct Addresses {
   Table table;
   std::size_t first;

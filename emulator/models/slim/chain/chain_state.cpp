@@ -12,7 +12,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// The group that takes `module`, or null.
+/// Returns the group that uses `module`, or null.
 auto* taking(auto& groups, std::size_t module) {
   const auto found = std::find_if(groups.begin(), groups.end(),
                                   [&](const auto& group) { return group.motion.takes(module); });

@@ -1,13 +1,13 @@
-// The state of a chain: its modules, who has which letter, what is coordinated, and what is paused. Each part
-// of the chain is a header with its functions on this state, and knows those above it in this list:
+// The state of a chain: its modules, which of them has which letter, coordinated motions, and pauses. Each
+// part of the chain is a header with its functions on this state, and knows those above it in this list:
 //
-//   chain_state.h   who is held by a pause, who is on which path; jobs that are dropped from all FIFOs
+//   chain_state.h   modules held by a pause, modules on a path; jobs that are dropped from all FIFOs
 //   paths.h         coordinated motion
 //   queues.h        the FIFOs: what is added, and what starts when
 //   stops.h         pauses, what ends them, stops
 //   refusals.h      why a command is refused
 //   settings.h      VM, VJ, PR2 ...
-//   chain.h         the commands, what can be asked, the tick
+//   chain.h         the commands, the values to query, the tick
 //
 // Below them are the parts of one module (motor/motor.h).
 #pragma once

@@ -40,11 +40,11 @@ Error replace_jog(ChainState& chain, int module, int direction, std::int32_t for
   if (const Error why = refusal_of_jog(chain, module); why != Error::none) return why;
   const bool gives_up = !chain.modules[at(module)].jogs_or_pushes();
   if (gives_up) {
-    slow_for_discard(chain, module);  // no matter if there is nothing to give up
+    slow_for_discard(chain, module);  // does nothing if there is nothing to abandon
     forget_queue(chain, module);
   }
   order_jog(chain.motor(module), direction, force);
-  if (gives_up) serve(chain, chain.now + 1);  // what waited in other FIFOs for a command that is gone
+  if (gives_up) serve(chain, chain.now + 1);  // commands that waited in other FIFOs for a dropped one
   return Error::none;
 }
 

@@ -16,7 +16,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// An hour and more of ticks; PLS's bound is not stated.
+/// A little more than an hour of ticks; the manual states no limit for PLS.
 constexpr std::int32_t kLongestPulse = 1'000'000;
 constexpr double kFastestPwm_hz = 1e6;
 

@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns the module's settings whose speed and acceleration a path goes by.
+/// Returns the module's settings whose speed and acceleration a path uses.
 const ModuleSettings& path_settings(const ChainState& chain, const Job& job);
 /// PR4 instead of PR3.
 bool goes_by_line_speed(const ChainOptions& options, const Job& job);

@@ -46,7 +46,7 @@ Error enqueue(ChainState& chain, Job job) {
 
 namespace {
 
-/// Starts or carries out the head of the module's FIFO, if it can. Returns true if FIFOs have changed.
+/// Starts or executes the head of the module's FIFO, if it can. Returns true if FIFOs have changed.
 bool serve_head(ChainState& chain, int module, Tick begin_at) {
   Module& mine = chain.modules[at(module)];
   if (mine.fifo.empty()) return false;

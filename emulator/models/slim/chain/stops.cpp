@@ -54,10 +54,10 @@ void give_up(ChainState& chain, bool in_scope_only) {
   for (int module = 0; module < kModules; ++module) {
     if (is_meant(module)) forget_queue(chain, module);
   }
-  serve(chain, chain.now + 1);  // what waited in other FIFOs for a command that is gone
+  serve(chain, chain.now + 1);  // commands that waited in other FIFOs for a dropped one
 }
 
-/// Discards what waits, but not what is under way.
+/// Discards what waits, but not what is in progress.
 void clear_waiting(ChainState& chain) {
   for (Group& group : chain.groups) {
     if (!group.motion.engaged || group.paths == 0 || !chain.in_pause_scope(group)) continue;
@@ -111,7 +111,7 @@ Error steer(ChainState& chain, InPause what) {
     case PauseOutcome::resets:
     case PauseOutcome::is_taken:
     case PauseOutcome::waits:
-    case PauseOutcome::is_refused: break;  // whoever asks deals with it
+    case PauseOutcome::is_refused: break;  // the caller handles it
   }
   return Error::none;
 }

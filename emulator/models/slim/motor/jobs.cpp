@@ -58,7 +58,7 @@ motion::Path path_of(const Job& job, const motion::Point& begin) {
   }
   motion::Point rise = motion::Point::Zero();
   if (job.module_of[2] >= 0) rise[2] = job.units[2] - (job.height_absolute ? begin[2] : 0.0);
-  // About where it is already: nothing to turn, and only the rise is left.
+  // About the present position: nothing to turn, and only the rise is left.
   if (there[0] == begin[0] && there[1] == begin[1]) return motion::line(begin, begin + rise);
   return motion::arc_by_sweep(begin, there, sweep_rad, rise);
 }

@@ -1,4 +1,4 @@
-// A command in a module's FIFO, with all settings that were in force when it was issued.
+// A command in a module's FIFO, with all settings that were in effect when it was issued.
 #pragma once
 
 #include <array>

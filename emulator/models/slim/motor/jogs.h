@@ -23,7 +23,7 @@ void resume_jog(const Motor& motor);
 /// Slows down from a move or homing that is given up.
 void slow_down_for_good(const Motor& motor);
 
-/// Does what the end of a jog, of thrust, or of slow_down_for_good() means, if the axis stands.
+/// Does what the end of a jog, of thrust, or of slow_down_for_good() requires, if the axis is at rest.
 void after_jog(const Motor& motor, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

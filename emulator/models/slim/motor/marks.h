@@ -17,8 +17,8 @@ enum class MarkEvent : std::uint8_t {
   begins,        // a motion of the module: MA, MR, H, JGF, JGR, FT
   goes_on,       // JGF or JGR in the direction of the jog that runs
   jogs_dropped,  // JG0, TAUPZ, CLR BUF in a pause; also a pause, before it sets its own marks
-  told_to_stop,  // what runs has begun to slow down, and is over then
-  stands,        // what ran is over, or it is interrupted and begins again from the FIFO
+  told_to_stop,  // the motion has begun to decelerate, and then ends
+  stands,        // the motion has ended, or it is interrupted and starts again from the FIFO
   pause_over,    // TAREDO, REDO
   cut,           // TASTOP, IHOFF, HOFF, RESET, each at once
   servo_off,     // IHOFF, HOFF, RESET; TASTOP if it switches the servo off

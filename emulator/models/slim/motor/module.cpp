@@ -29,7 +29,7 @@ double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
 
 /// Returns PR2 as an acceleration, for the moves that use it instead of VA.
 double path_slope(const ModuleSettings& settings) {
-  constexpr double kSlowest_pps2 = 1e-8;  // VA's least comes to that, and a ramp must have an end
+  constexpr double kSlowest_pps2 = 1e-8;  // the minimum of VA gives that, and a ramp must have an end
   return std::clamp(settings.path_acceleration_units_s2 * settings.scale.pulses_per_unit(), kSlowest_pps2,
                     kFastest_pps);
 }

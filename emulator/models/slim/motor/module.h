@@ -68,10 +68,10 @@ struct Module {
   bool analog_speed = false;           // AVM
   bool starved = false;                // slowed down because AVM gives no speed
   std::int16_t analog = 0;             // 0 .. kFullAnalog
-  std::int32_t thrust = 0;             // number of FT while it pushes; else 0
+  std::int32_t thrust = 0;             // number of FT while it pushes; otherwise 0
   std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
   double place_units = 0;          // at rest: the commanded coordinate, of which travel is the rounded value
-  std::int64_t sent_pulses = 0;    // of the last tick, as they come out
+  std::int64_t sent_pulses = 0;    // of the last tick, as they are sent
   Error late_error = Error::none;  // error of a queued command when its turn came
   std::array<Output, kOutputs> outputs{};
   std::array<PositionTrigger, 2> triggers{};

@@ -2,7 +2,7 @@
 //
 //   motor.h   the coordinate, the outputs, and the places at which they switch
 //   jogs.h    jogs and thrust, which pass by the FIFO; slowing down from a motion that is given up
-//   moves.h   MA, MR and H, at the FIFO's head; what the end of each motion means
+//   moves.h   MA, MR and H, at the FIFO's head; what the end of each motion requires
 //
 // Each knows those above it, and none knows another module.
 #pragma once
@@ -21,7 +21,7 @@ struct Motor {
   motion::Axis& axis;
   const motion::Environment& environment;
   const ChainOptions& options;
-  Tick now;  // the last tick: what begins at once begins with the next one
+  Tick now;  // the last tick: a command that starts at once starts with the next one
 
   double coordinate() const { return module.coordinate(axis); }
 };
@@ -35,9 +35,9 @@ void carry_out(const Motor& motor, const OutputOrder& order, Tick begin_at);
 /// Sets the axis's comparators to where the triggers are in its travel. A trigger at the axis's own place
 /// waits until the place is reached again.
 void place_triggers(const Motor& motor);
-/// Switches the outputs whose places the axis has just reached.
+/// Switches the outputs whose positions the axis has just reached.
 void pass_triggers(const Motor& motor, motion::Events events);
-/// By choice, ends what goes on by itself at a stop: pulses, PWM and triggers. Levels stay.
+/// By choice, ends what continues on its own at a stop: pulses, PWM and triggers. Levels stay.
 void stop_outputs(const Motor& motor);
 
 }  // namespace understudy::emulator::models::slim

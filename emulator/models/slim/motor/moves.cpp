@@ -40,7 +40,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
   motion::Axis& axis = motor.axis;
   Job& job = module.fifo[0];
   if (!job.absolute) job.units[0] += module.place_units;
-  job.absolute = true;  // what is left of it, when it is interrupted, goes to the same place
+  job.absolute = true;  // the rest of an interrupted one goes to the same position
   job.ends[0] = job.units[0];
   if (!axis.servo_on) return drop_head(module, Error::servo_off);
   if (!module.reaches(job.units[0])) return drop_head(module, Error::range);
@@ -56,7 +56,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
   try {
     refused = axis.move(distance, law, begin_at - 1);
   } catch (const motion::BadMotion&) {
-    return drop_head(module, Error::range);  // farther than pulses can be counted
+    return drop_head(module, Error::range);  // further than pulses can be counted
   }
   if (refused != motion::Cause::none) return drop_head(module, Error::not_allowed);
   take_off(module, MarkEvent::begins);

@@ -1,4 +1,4 @@
-// What a module does at the head of its FIFO by itself: MA, MR and H; pauses and AVM, which slow it down.
+// What a module does at the head of its FIFO on its own: MA, MR and H; pauses and AVM, which slow it down.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -14,7 +14,7 @@ bool start_home(const Motor& motor, Tick begin_at);
 
 /// Does what the end of a move or homing means.
 void after_move(const Motor& motor);
-/// Does what the end of a motion means, if the motor has had one of its own and stands.
+/// Does what the end of a motion requires, if the motor has had one of its own and is at rest.
 inline void after_motion(const Motor& motor, Tick begin_at) {
   const Activity activity = motor.module.activity;
   if (activity == Activity::idle || activity == Activity::group || motor.axis.moving()) return;
@@ -30,7 +30,7 @@ void hold_motion(const Motor& motor);
 void resume_motion(const Motor& motor);
 
 /// Applies a changed speed to the running move or jog, if no pause holds it. Returns false if the motor stops
-/// or stands whatever its speed is.
+/// or is at rest whatever its speed is.
 bool refresh_speed(const Motor& motor, bool is_held);
 
 /// Ends the motor's own motion at once; the running command is dropped.

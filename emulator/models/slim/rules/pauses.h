@@ -1,10 +1,10 @@
-// The transition table of pauses: for each pause in force and each command, what happens.
+// The transition table of pauses: for each pause in effect and each command, what happens.
 //
 //   PZ   is ended by REDO, which continues, and by CLR BUF, which abandons
 //   TAPZ is ended by TAREDO, which continues, and by TAUPZ, which abandons
 //   TASTOP ends both
 //
-// Both pauses can be in force; motion continues when neither is left. Each cell has the outcome, the pause
+// Both pauses can be in effect; motion continues when neither is left. Each cell has the outcome, the pause
 // that is left, the source (the list's line, or a row of choices.h), and the results under other options.
 // chain/stops.cpp and chain/refusals.cpp look it up; pauses_test.cpp checks every cell.
 #pragma once

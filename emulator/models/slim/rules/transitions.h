@@ -43,9 +43,9 @@ inline constexpr std::size_t kSources = 3;
 
 enum class Outcome : std::uint8_t {
   // of a motion:
-  comes_to_a_stand,  // slows down by its ramp, on its path; nothing of it is lost
+  comes_to_a_stand,  // decelerates along its ramp, on its path; nothing of it is lost
   does_as_before,    // continues what it did before the pause
-  is_forgotten,      // stands still and does not continue
+  is_forgotten,      // is at rest and does not continue
   stops_at_once,     // stops without another pulse and does not continue
   // of a program:
   goes_on,             // continues as if nothing had happened: it waits on, or takes its next line

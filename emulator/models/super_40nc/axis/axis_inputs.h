@@ -28,7 +28,7 @@ class AxisInputs : protected Chips {
   void await_no_edges() { is_restored_.fill(false); }
 
  private:
-  /// Returns what the machine has told, in the axis's own direction.
+  /// Returns the machine's signals, in the axis's own direction.
   MachineEdges edges_of(int axis) const;
 
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: set again after a restore

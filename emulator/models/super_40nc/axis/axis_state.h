@@ -16,7 +16,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// The setting by which the hand-wheel moves an axis.
+/// The setting by which the hand wheel moves an axis.
 enum class WheelSource : std::uint8_t { none, mpg_line, contact_1, contact_10, contact_100, selector };
 
 /// The kind of a program's motion that a pause interrupted, as far as it must continue afterwards.
@@ -49,9 +49,10 @@ struct AxisState {
   std::uint8_t clears = 0;            // which of COUNTER2 to 4 to clear once the tick's counts are in
   std::uint8_t compares_by_tick = 0;  // comparators that the chip's own cannot do, checked once a tick
   motion::Events latching = 0;        // events of the chip's comparators that latch
-  std::array<std::int64_t, kComparators> compared{};  // what the comparators checked by tick have seen last
-  std::int64_t offset_lu = 0;                         // offset of the work coordinate from the machine's
-  motion::UnitScale scale_seen{};                     // CMX and CDV as last applied
+  std::array<std::int64_t, kComparators>
+      compared{};                  // the last values seen by the comparators that are checked by tick
+  std::int64_t offset_lu = 0;      // offset of the work coordinate from the machine's
+  motion::UnitScale scale_seen{};  // CMX and CDV as last applied
   std::int64_t encoder_counts = 0;
   std::int64_t backlash_seen = 0;  // backlash pulses of the motor that have been counted
   std::int64_t path_backlash = 0;  // backlash still to be sent before its path begins, signed by direction
@@ -77,7 +78,7 @@ struct AxisState {
   std::int8_t order = 0;  // order number of the panel's HOME or ZERO key that started it; 0: none
   double step_pps = 1;    // pps in a step of the chip's speeds, since the last start
 
-  // Relative targets are added to the last target while the axis stands on it.
+  // Relative targets are added to the last target while the axis is at it.
   bool stands_on_target = false;
   std::int64_t target_lu = 0;
 

@@ -24,7 +24,7 @@ class ChipPins : protected Chips {
   void pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed);
   /// Clears the counters in the mask D9x27.
   void clear_by_pin(int axis);
-  /// What is held counts nothing. COUNTER1 goes with the travel: it is set back at the end of each tick.
+  /// A held counter counts nothing. COUNTER1 follows the travel: it is set back at the end of each tick.
   void hold_cleared();
   /// Returns true while ERC is given (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < axes_.erc_until[static_cast<std::size_t>(axis)]; }

@@ -1,5 +1,5 @@
-// The axes of a SUPER-40NC as values, and what follows from them alone: counters, positions, speeds. Each
-// part of the axes is such a view, with functions of its own.
+// The axes of a SUPER-40NC as values, and everything that follows from them alone: counters, positions,
+// speeds. Each part of the axes is such a view, with its own functions.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ inline bool latches(const Settings& settings, int axis, std::size_t which) {
 /// Returns true if a number has met the condition between two values. Soft limits have no such moment.
 constexpr bool is_met(Value source, Value method, std::int64_t before, std::int64_t present,
                       std::int64_t set) {
-  // The rest of a move only falls; where it rises, a new move has set it, and it has passed nothing.
+  // The rest of a move only falls; if it rises, a new move has set it, and it has passed nothing.
   if (source == kRemaining && present > before) before = std::max(before, present - 1);
   const bool upwards = before < set && set <= present;
   const bool downwards = before > set && set >= present;

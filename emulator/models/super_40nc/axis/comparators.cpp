@@ -1,8 +1,8 @@
-// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3),
-// set > count (4), set < count (5), and soft limits (6). The axis itself compares COUNTER1, and COUNTER2 and
-// COUNTER4 if they count pulses or an encoder, four of them at once; tick_edges.h compares all else. Both act
-// at the exact pulse. The end of a tick is left for what nobody knows before: an encoder that does not
-// follow.
+// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48): = (1), on the way up (2) or down (3), set
+// > count (4), set < count (5), and soft limits (6). The axis itself compares COUNTER1, and COUNTER2 and
+// COUNTER4 if they count pulses or an encoder, four of them at once; tick_edges.h compares everything else.
+// Both act at the exact pulse. Only what cannot be known in advance is checked at the end of a tick: an
+// encoder that does not follow.
 #include "emulator/models/super_40nc/axis/comparators.h"
 
 #include <cstddef>

@@ -182,7 +182,7 @@ Counted Counters::counted_until(int axis_number, double at_s, const motion::Axis
   return counted;
 }
 
-/// Counts the pulses of an axis until a moment, at the place where it is.
+/// Counts the pulses of an axis until a moment, at its present position.
 void Counters::count_without_encoder(int axis_number, double at_s) {
   const motion::Axis& motor = chip(axis_number);
   Counted counted = counted_until(

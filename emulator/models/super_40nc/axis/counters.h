@@ -20,7 +20,7 @@ struct BeforeTick {
   std::array<std::int8_t, kAxisCount> phase{};  // of a homing
 };
 
-/// What has come that the counters may count.
+/// The input that the counters may count.
 struct Counted {
   std::int64_t pulses = 0;
   std::int64_t backlash = 0;
@@ -64,7 +64,7 @@ class Counters : protected Chips {
   bool counts_a_clock(int axis) const;
 
  private:
-  /// What has been counted of an axis so far in the current tick.
+  /// The counts of an axis so far in the current tick.
   struct CountedSoFar {
     std::int64_t travel = 0;  // travel up to which it has been counted
     std::int64_t wheel = 0;

@@ -68,7 +68,8 @@ bool Drives::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t r
   return true;
 }
 
-/// MRK with X16 = 0: a signal on the way resets the program, as a limit would, regardless of X33 and X34.
+/// MRK with X16 = 0: a signal during the move resets the program, as a limit would, regardless of X33 and
+/// X34.
 bool Drives::begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   if (chose(option("mark_without_distance", "a_plain_move"))) {

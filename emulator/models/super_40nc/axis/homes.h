@@ -16,7 +16,7 @@ class Homes : protected Chips {
 
   void start_home(int axis_number, int order = 0);
   void start_zero(int axis_number, int order = 0);
-  /// `code` says why it has failed; none: it was abandoned.
+  /// `code` is the reason of the failure; none: it was abandoned.
   void home_ended(int axis_number, bool found, Code code);
   /// The zero return of an axis has ended before its target.
   void zero_failed(int axis_number);

@@ -12,7 +12,7 @@ class Jogs : protected Chips {
   Jogs(const Chips& chips, Starts& starts) : Chips(chips), starts_(starts) {}
 
   void start_jog(int axis_number, int direction, bool AxisState::*asked_by);
-  /// Stops a jog by its ramp when no request is left.
+  /// Stops a jog along its ramp when no request is left.
   void release_jog(int axis_number, bool AxisState::*asked_by);
   /// Applies D8022.
   void change_jog_speed();

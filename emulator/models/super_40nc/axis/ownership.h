@@ -1,5 +1,6 @@
-// Who gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0 ends any motion,
-// and what stops programs; the rest is ours (5.7 of the specification). Whoever moves an axis keeps it.
+// Which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0 ends
+// any motion, and what stops programs; the rest is ours (5.7 of the specification). The motion that moves an
+// axis keeps it.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ enum class Activity : std::uint8_t {
   move,   // a move of a program or the PLC, with an end
   rest,   // the rest of a move that a pause interrupted
   vdrv,   // turns at a speed
-  wheel,  // follows the hand-wheel
+  wheel,  // follows the hand wheel
 };
 inline constexpr std::size_t kActivities = 8;
 
@@ -38,12 +39,13 @@ inline constexpr std::size_t kRequests = 9;
 enum class Grant : std::uint8_t {
   nothing,  // nothing to do
   starts,
-  // if of the same kind (a jog in the same direction, the same wheel source), it continues; else as refused
+  // if of the same kind (a jog in the same direction, the same wheel source), it continues; otherwise as
+  // refused
   continues_if_same_kind,
   refused,  // has no effect, and D8094 shows it
   waits,
   new_speed,  // changes the speed of a turning axis
-  stops,      // stops by a ramp, or at once, as the request says
+  stops,      // stops along a ramp, or at once, as the request says
 };
 
 using OwnershipRow = std::array<Grant, kRequests>;

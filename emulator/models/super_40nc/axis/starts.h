@@ -26,7 +26,7 @@ class Starts : protected Chips {
   void mirror_start(int axis_number, int mode, std::int64_t distance_pulses, const motion::SpeedLaw& law);
   void fail(int axis_number, Code code);
   void let_go(int axis_number);
-  /// Returns the limit that the axis stands on, if that blocks both directions.
+  /// Returns the limit that the axis is on, if that blocks both directions.
   motion::Cause blocked_both_ways(int axis) const;
 
  private:

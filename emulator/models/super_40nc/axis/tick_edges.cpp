@@ -91,14 +91,14 @@ bool TickEdges::is_answered(const Question& of, std::int64_t before, std::int64_
   if (of.method != kSoftLimit) return is_met(of.source, of.method, before, present, of.set);
   const motion::Axis& motor = chip(of.axis);
   const bool reacts = !motor.moving() || motor.slowing || axes_.path.slowing_for != motion::Cause::none;
-  if (reacts) return false;  // it has been told
+  if (reacts) return false;  // it has been reported
   const int direction = motor.last_direction;
   return of.which == 0 ? direction > 0 && present > of.set
                        : of.which == 1 && direction < 0 && present < of.set;
 }
 
-/// Returns false if no number can answer between two moments. Each of what is counted keeps its direction
-/// until the next edge, so no number goes farther than all of it together.
+/// Returns false if no comparison can trigger between two moments. Each counter keeps its direction until the
+/// next edge, so no number moves further than all of them together.
 bool TickEdges::may_be_answered(const Question& of, const Look& from, const Look& to) const {
   const std::int64_t most =
       std::abs(to.place.travel_pulses - from.place.travel_pulses) +

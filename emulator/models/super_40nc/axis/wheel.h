@@ -1,4 +1,4 @@
-// The hand-wheel: one for all axes. Each axis decodes and scales its counts by its own parameters (《X40.》
+// The hand wheel: one for all axes. Each axis decodes and scales its counts by its own parameters (《X40.》
 // to 《X44.》).
 #pragma once
 

@@ -1,5 +1,5 @@
-// What all parts of a SUPER-40NC stand on: the image of the registers, the special contacts as a scan sees
-// them, the retentive memory, the error of D8094 to D8096, and the signals of Y0 to Y9.
+// The common base of all parts of a SUPER-40NC: the image of the registers, the special contacts as a scan
+// sees them, the retentive memory, the error of D8094 to D8096, and the signals of Y0 to Y9.
 #pragma once
 
 #include <array>
@@ -59,7 +59,7 @@ struct GroundState {
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up
   std::int32_t station = 0;                                // D9000, as it was at power-up
-  std::vector<std::uint32_t> parameters_in_force;          // if written ones act later; else empty
+  std::vector<std::uint32_t> parameters_in_force;          // if written ones act later; otherwise empty
   Eeprom eeprom;
   Image image{};
 
@@ -140,7 +140,7 @@ class Ground {
   int plc_step_ = 0;              // not state: 0 outside a line
 };
 
-/// The base of every part that stands on the ground.
+/// The base class of every part that uses the ground.
 class OnGround {
  protected:
   explicit OnGround(Ground& ground) : ground_(ground) {}

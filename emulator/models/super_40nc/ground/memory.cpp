@@ -85,14 +85,14 @@ void Ground::put(Kept kept, std::int32_t value, int axis) {
   }
 }
 
-/// Puts written parameters into force that had to wait.
+/// Puts written parameters into effect that had to wait.
 void Ground::take_parameters() {
   if (!parameters_wait_) return;
   state_.parameters_in_force.assign(state_.image.begin() + static_cast<std::ptrdiff_t>(kFirstParameterSlot),
                                     state_.image.end());
 }
 
-/// Puts X14 and C0 into force as they are at power-up.
+/// Puts X14 and C0 into effect as they are at power-up.
 void Ground::take_power_up_parameters() {
   const Settings settings = registers();
   state_.logo_ms = static_cast<std::int32_t>(settings.of(kept_d(d9::kLogoTime)));

@@ -1,4 +1,4 @@
-// Motions by hand: jogs and the hand-wheel by contact, HOME and ZERO of all axes in their order.
+// Motions by hand: jogs and the hand wheel by contact, HOME and ZERO of all axes in their order.
 #pragma once
 
 #include "emulator/models/super_40nc/axis/axis_parts.h"

@@ -25,7 +25,7 @@ enum class KeyDoes : std::uint8_t {
 struct Key {
   int contact = 0;
   KeyDoes does = KeyDoes::jog;
-  int axis = -1;      // -1: on the main page, locked by D9025; else on the axis' page, locked by D9x98
+  int axis = -1;      // -1: on the main page, locked by D9025; otherwise on the axis' page, locked by D9x98
   int direction = 0;  // jog direction
   int lock = 0;       // the lock digit, counted from the left from 1
 };

@@ -1,4 +1,4 @@
-// What a SUPER-40NC remembers of the path of LIN and arcs, beside the path itself.
+// What a SUPER-40NC stores about the path of LIN and arcs, besides the path itself.
 #pragma once
 
 #include <cstdint>

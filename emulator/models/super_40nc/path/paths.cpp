@@ -1,5 +1,5 @@
-// One profile along the path, with the least slope among its axes (《C11./C12.》 to 《C22.》), no faster than
-// X12 of any axis, and the feed override at once.
+// One profile along the path, with the smallest slope among its axes (《C11./C12.》 to 《C22.》), no faster
+// than X12 of any axis, and the feed override at once.
 #include "emulator/models/super_40nc/path/paths.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ double pulses_per_lu(const Settings& settings, int axis) { return settings.scale
 
 }  // namespace
 
-/// Returns F, scaled by D8005; a feed that is not above 0 is the least feed.
+/// Returns F, scaled by D8005; a feed that is not above 0 is the minimum feed.
 double Paths::path_feed() const {
   const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
   return feed * state_.path_feed_scale * parts_.drives.override_percent() / 100;
@@ -67,7 +67,7 @@ Grant Paths::ask_for_path(const std::array<bool, kAxisCount>& takes) {
   return worst;
 }
 
-/// Returns why an axis may not begin a path: it stands on a limit into which the path goes.
+/// Returns why an axis cannot start a path: it is on a limit that the path moves into.
 motion::Cause Paths::blocked_on_path(int axis_number, const motion::Path& path) const {
   if (const motion::Cause why = parts_.starts.blocked_both_ways(axis_number); why != motion::Cause::none)
     return why;

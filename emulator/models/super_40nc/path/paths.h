@@ -53,8 +53,8 @@ class Paths : protected Chips {
   void break_off(motion::Cause why) { axes_.path.stop(axes_.chips, why); }
   void slow_path_for(motion::Cause why) { axes_.path.slow_down(now(), why); }
   void step_axes(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
-  /// Called when the path has arrived, or an axis of it has met something. Returns what has broken the
-  /// program that waits for it.
+  /// Called when the path has arrived, or an axis of it has met something. Returns what has ended the program
+  /// that waits for it.
   std::optional<motion::Cause> path_ended();
 
  private:

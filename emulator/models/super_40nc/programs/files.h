@@ -16,7 +16,7 @@ inline constexpr std::string_view kPrograms = "programs";  // one for each area
 inline constexpr std::string_view kFiles = "files";        // programs of C, by number
 inline constexpr std::string_view kRecipes = "recipes";
 inline constexpr int kRecipeCount = 100;
-// The range as D9002's own text has it; other pages of the manual say D800 or D900 to D999.
+// The range in D9002's own text; other pages of the manual say D800 or D900 to D999.
 inline constexpr int kFirstOfRecipe = 500;
 inline constexpr int kLastOfRecipe = 999;
 inline constexpr std::size_t kRecipeRegisters = kLastOfRecipe - kFirstOfRecipe + 1;
@@ -25,7 +25,7 @@ std::span<const BlockKind> block_kinds();
 
 /// Returns the name of a recipe, "00" to "99".
 std::string recipe_name(std::int32_t number);
-/// Writes a recipe as text: the registers from D500 on that are not 0, one a line: "D500 12".
+/// Writes a recipe as text: the registers from D500 on that are not 0, one per line: "D500 12".
 std::string recipe_text(std::span<const std::uint32_t> values, int first);
 /// Reads a text that block_kinds() accepts back into `values`.
 void read_recipe(std::string_view text, std::span<std::uint32_t> values, int first);

@@ -81,7 +81,7 @@ void Programs::begin_first_scan() {
 
 void Programs::fast_forward(Tick done, Tick tick) {
   if (!plc_scans()) return;
-  // Of these ticks, as many have a scan: see scans_in().
+  // The number of these ticks that have a scan: see scans_in().
   const Tick each = std::max<Tick>(options_.scan_ms, 1);
   const Tick before_first = std::clamp(state_.flash_until - 1, done, tick);
   const Tick scans = tick / each - before_first / each;

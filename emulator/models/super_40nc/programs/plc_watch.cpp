@@ -39,7 +39,7 @@ void PlcWatch::note() {
 }
 
 bool PlcWatch::is_as_seen() const {
-  bool is_same = seen_.size() == places_.size();  // else the ladder has been replaced
+  bool is_same = seen_.size() == places_.size();  // otherwise the ladder has been replaced
   for (std::size_t i = 0; is_same && i < places_.size(); ++i) {
     is_same = read_value(bank_, places_[i]) == seen_[i];
   }

@@ -20,7 +20,7 @@ class PlcWatch {
   void find(const interpreter::super_40nc::Ladder& ladder);
   /// Remembers what the PLC sees now.
   void note();
-  /// Returns true if all is as it was noted.
+  /// Returns true if everything is as it was recorded.
   bool is_as_seen() const;
   /// Returns true if some of it changes with an axis's pulses.
   bool some_move() const { return some_move_; }

@@ -85,7 +85,7 @@ class Programs : protected Chips, public Watched {
   // --- plc_runs.cpp
   void plc_to_run();
   void plc_to_stop();
-  /// Begins the first scan anew, with the inputs as they are now.
+  /// Starts the first scan again, with the present inputs.
   void begin_first_scan();
   void run_plc();
   bool plc_scans() const { return !ladder_->is_empty() && state_.plc.runs; }
@@ -104,7 +104,7 @@ class Programs : protected Chips, public Watched {
 
   void give_up_program(Area area);
   void put_table_in_place();
-  /// Tells an onlooker which programs there are.
+  /// Tells an observer which programs there are.
   void tell_watch() const;
   void clear_timers();
 

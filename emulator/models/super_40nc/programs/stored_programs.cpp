@@ -148,7 +148,7 @@ std::vector<ProgramPart> StoredPrograms::parts_of(std::string_view text) const {
         parts.emplace_back(ProgramPart{.number = static_cast<int>(area), .name = name, .lines = {}});
     for (std::size_t i = 0; i < program.lines.size(); ++i) {
       const language::Instruction& line = program.lines[i];
-      // A PLC steps over a NOP as it is compiled.
+      // A PLC skips a NOP when it is compiled.
       const bool is_left_out = area == Area::plc && line.op == language::Op::nop;
       part.lines.push_back({.text_line = is_left_out ? 0 : text_lines[i],
                             .code = language::text_of(line),

@@ -60,8 +60,8 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8100).in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0), axis_data(8101, 8116, 1), axis_data(8101, 8116, 2), axis_data(8101, 8116, 3),
     axis_data(8117).in("0.001 mm").shows<read_work_position, Varies::while_moving>().does<set_work_position>(),
-    axis_data(d8x::kPlusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // +EL setting in force
-    axis_data(d8x::kMinusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // -EL setting in force
+    axis_data(d8x::kPlusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // +EL setting in effect
+    axis_data(d8x::kMinusLimitPort).range(0, 2).from_factory(1).does<change_axis>(),  // -EL setting in effect
     axis_data(d8x::kPrcmd),  // PRCMD
     axis_data(8121),  // PRMV
     axis_data(8122),  // PRFL
@@ -86,8 +86,8 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8141).in("pulse").shows<read_counter, Varies::while_moving>(1).does<set_counter>(1),  // RCUN2
     axis_data(8142).in("pulse").shows<read_counter, Varies::while_moving>(2).does<set_counter>(2),  // RCUN3
     axis_data(8143).in("pulse").shows<read_counter, Varies::while_moving>(3).does<set_counter>(3),  // RCUN4
-    axis_data(d8x::kRcmp1).in("pulse").does<change_axis>(),  // RCMP1: +soft limit in force
-    axis_data(d8x::kRcmp2).in("pulse").does<change_axis>(),  // RCMP2: -soft limit in force
+    axis_data(d8x::kRcmp1).in("pulse").does<change_axis>(),  // RCMP1: +soft limit in effect
+    axis_data(d8x::kRcmp2).in("pulse").does<change_axis>(),  // RCMP2: -soft limit in effect
     axis_data(d8x::kRcmp3).does<change_axis>(),              // RCMP3
     axis_data(d8x::kRcmp4).does<change_axis>(),              // RCMP4
     axis_data(d8x::kPrcmp5).does<change_axis>(),              // PRCMP5

@@ -27,7 +27,7 @@ struct PanelParameter {
   std::int32_t least;
   std::int32_t most;
   std::string_view unit;
-  std::int32_t factory;  // as the panel has it
+  std::int32_t factory;  // as on the panel
   std::string_view meaning;
 };
 

@@ -34,14 +34,14 @@ struct Readings {
 
 class Settings {
  public:
-  /// `parameters` are the D9 values in force; empty: as they are stored.
+  /// `parameters` are the D9 values in effect; empty: as they are stored.
   explicit Settings(const Image& image, Readings readings = {},
                     std::span<const std::uint32_t> parameters = {})
       : image_(image),
         parameters_(parameters.empty() ? std::span(image).subspan(kFirstParameterSlot) : parameters),
         readings_(readings) {}
 
-  /// Returns the stored value; for a parameter the value in force.
+  /// Returns the stored value; for a parameter the value in effect.
   std::int32_t raw(Kept kept, int axis = 0) const {
     const std::size_t slot = kept.slot + static_cast<std::size_t>(axis);
     return static_cast<std::int32_t>(slot < kFirstParameterSlot ? image_[slot]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A person with a browser at the live page: looks at every panel, presses, and checks what became of it (for live.py)."""
+"""Acts as a person with a browser at the live page: looks at every panel, clicks, and checks the result (for live.py)."""
 import json
 import pathlib
 import shutil
@@ -47,14 +47,14 @@ class Visit:
     def close(self):
         errors = [line['message'] for line in self.driver.get_log('browser') if line['level'] == 'SEVERE']
         self.driver.quit()
-        for _ in range(20):  # its last processes may write for a moment still
+        for _ in range(20):  # its last processes may still write for a moment
             try:
                 shutil.rmtree(self.folder.name)
                 break
             except OSError:
                 time.sleep(0.1)
         self.folder.cleanup()
-        # While the server or the daemon is away the browser complains of the connection; that is as it should be.
+        # While the server or the daemon is away, the browser reports connection errors, as it should.
         errors = [error for error in errors if 'WebSocket connection' not in error]
         if errors:
             fail(f'the browser complains: {errors}')

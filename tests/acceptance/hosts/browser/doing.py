@@ -1,4 +1,4 @@
-"""What a person does in each panel of the live page, with a host beside it, and what must come of it (for live.py)."""
+"""Does what a person does in each panel of the live page, beside a host, and checks the results (for live.py)."""
 import json
 import pathlib
 import subprocess
@@ -25,7 +25,7 @@ LISTING = '        Delay_mSec 60000\n        END\n'
 
 
 def enter(visit, label, text):
-    """Types into the field of that label, and presses Enter."""
+    """Types into the field with that label, and presses Enter."""
     field = visit.find(f'input[aria-label^="{label}"]')[0]
     field.send_keys(Keys.CONTROL + 'a')
     field.send_keys(text, Keys.ENTER)
@@ -39,7 +39,7 @@ def select(visit, label, value):
 
 
 def saved(visit, name, press):
-    """The file that the browser keeps when a button is pressed, as bytes."""
+    """Returns the file that the browser saves when a button is pressed, as bytes."""
     visit.driver.execute_script("""
         window.kept = null;
         window.createBefore ??= URL.createObjectURL;
@@ -51,7 +51,7 @@ def saved(visit, name, press):
 
 
 def axes(visit, stage):
-    """The rail shows target, switches and steps that are lost; all of them by the mouse."""
+    """The rail shows the target, switches and lost steps, all controlled by the mouse."""
     unused = lambda: visit.texts('.switch .unused')
     visit.until('a limit switch that the device does not use is said to be so, and no other', lambda: sorted(unused()) ==
                 ['wired, not used: DIN2_Aaxis_UP_Limit = 0', 'wired, not used: DIN3_Aaxis_DN_Limit = 0'])
@@ -291,7 +291,7 @@ def faults(visit, stage):
 
 
 def keyboard(visit, stage):
-    """Without a mouse: each panel by the arrow keys, a signal by Tab and Space, the clock as well."""
+    """Without a mouse, each panel is reached by the arrow keys, and a signal and the clock by Tab and Space."""
     driver = visit.driver
     active = lambda what: driver.execute_script(f'return document.activeElement.{what}')
     visit.find('#tab_Axes')[0].send_keys(Keys.ARROW_RIGHT)
@@ -315,7 +315,7 @@ def keyboard(visit, stage):
 
 
 def keeps(visit, stage):
-    """What was typed, chosen, armed or frozen is there after a look at another panel, and but for what is large after a reload."""
+    """What was typed, chosen, armed or frozen survives a change of the panel and, unless it is large, a reload."""
     value = lambda selector: visit.find(selector)[0].get_attribute('value')
     visit.press('break feeder.A')
     select(visit, 'kind of fault', 'slip')

@@ -1,4 +1,5 @@
-"""Firefox by its own protocol (Marionette), with as much of Selenium's interface as browse.py uses: Debian has no geckodriver."""
+"""Controls Firefox through its own protocol (Marionette), with the part of Selenium's interface that browse.py uses,
+because Debian has no geckodriver."""
 import atexit
 import base64
 import json
@@ -18,11 +19,11 @@ user_pref("browser.shell.checkDefaultBrowser", false);
 user_pref("datareporting.policy.dataSubmissionEnabled", false);
 user_pref("app.update.enabled", false);
 """
-KEY = 'element-6066-11e4-a52e-4f735466cecf'  # as the WebDriver standard calls an element
+KEY = 'element-6066-11e4-a52e-4f735466cecf'  # the WebDriver standard's name of an element
 
 
 class FirefoxError(Exception):
-    """What Firefox says about a command that it does not do."""
+    """Firefox's error for a command that it refuses."""
 
 
 class Element:
@@ -62,7 +63,7 @@ class Firefox:
         with open(self.said, 'wb') as said:
             self.process = subprocess.Popen([program, '--headless', '--marionette', '--no-remote', '--profile', self.profile.name,
                                              f'--width={width}', f'--height={height}'], stdout=said, stderr=said, start_new_session=True)
-        atexit.register(self.quit)  # also where something is not so
+        atexit.register(self.quit)  # also if a check fails
         self.input, self.last = b'', 0
         self.socket = self.connect(port)
         self.hear()

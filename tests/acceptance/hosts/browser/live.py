@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The live page with a real browser, a host on the line, and what goes wrong between them.
+"""Tests the live page with a real browser, a host on the line, and failures between them.
 
 live.py UNDERSTUDY [--only PART]... [--pictures FOLDER]: starts daemons and pages itself; prints a line for each thing
 seen; exits with 1 at the first that is not so. Needs chromium, chromium-driver, python3-selenium and mbpoll.
@@ -24,7 +24,7 @@ import doing
 
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
-# Of a recording: what only looks, or is the browser's own.
+# For a recording: only buttons that display something, or that belong to the browser.
 HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close')
 
 BENCH = """understudy: 1
@@ -53,7 +53,7 @@ steps:
 
 
 class Stage:
-    """A daemon, a page beside it, and a folder of their own."""
+    """A daemon, its page, and a folder for both."""
 
     def __init__(self, options, *serve):
         self.options = options
@@ -110,7 +110,7 @@ class Stage:
 
 
 def panels(options, model):
-    """Every panel of a model, light and dark, wide and narrow."""
+    """Checks every panel of a model, light and dark, wide and narrow."""
     with Stage(options, '--model', model) as stage:
         stage.start_daemon()
         stage.start_page()
@@ -126,7 +126,7 @@ def panels(options, model):
 
 
 def host(options):
-    """A host moves an axis; a switch that is pressed ends a homing; the clock that is stopped stops the axis."""
+    """A host moves an axis; pressing a switch ends homing; stopping the clock stops the axis."""
     with Stage(options, 'bench.yaml') as stage:
         (stage.folder / 'bench.yaml').write_text(BENCH, encoding='utf-8')
         stage.start_daemon()
@@ -166,7 +166,7 @@ def host(options):
 
 
 def before(options):
-    """A host speaks before anybody looks: the page knows what it has used as well."""
+    """A host uses registers before a browser connects: the page knows them all the same."""
     with Stage(options, 'bench.yaml') as stage:
         (stage.folder / 'bench.yaml').write_text(BENCH, encoding='utf-8')
         stage.start_daemon()
@@ -180,19 +180,19 @@ def before(options):
 
 
 def burst(options):
-    """More frames than a page can take: it says how many are missing, and where."""
+    """There are more frames than a page can accept: it shows how many are missing, and where."""
     with Stage(options, 'bench.yaml') as stage:
         (stage.folder / 'bench.yaml').write_text(BENCH.replace('link:', 'timing: instant\n    link:'), encoding='utf-8')
         stage.start_daemon()
         stage.start_page()
         visit = stage.visit()
         visit.show('Bus')
-        doing.select(visit, 'which frames', 'exceptions')  # so that those behind the hole do not fill the list
+        doing.select(visit, 'which frames', 'exceptions')  # so that the frames after the hole do not fill the list
         port = os.open(stage.port, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(port)
         request, end = bytes.fromhex('010300010001D5CA'), time.monotonic() + 3 * browse.PATIENCE_S
         while not visit.find('.frames .missed') and time.monotonic() < end:
-            stage.page.send_signal(signal.SIGSTOP)  # it is slow; the daemon keeps 1,024 frames meanwhile
+            stage.page.send_signal(signal.SIGSTOP)  # it is slow, and the daemon keeps 1,024 frames meanwhile
             for _ in range(700):
                 os.write(port, request)
                 answer = b''
@@ -212,7 +212,7 @@ def burst(options):
 
 
 def restart(options):
-    """The daemon goes, and comes back: the page says so, and heals by itself."""
+    """The daemon ends and restarts: the page says so, and recovers automatically."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
         stage.start_daemon()
         stage.start_page()
@@ -234,7 +234,7 @@ def restart(options):
 
 
 def recording(options):
-    """The recording of a scenario that failed, dragged to and fro."""
+    """Drags the timeline of a failed scenario's recording back and forth."""
     with Stage(options) as stage:
         (stage.folder / 'failing.yaml').write_text(FAILING, encoding='utf-8')
         subprocess.run([options.understudy, 'run', 'failing.yaml', '--record', 'kept'], cwd=stage.folder, check=False,
@@ -287,7 +287,7 @@ def recording(options):
 
 
 def crowd(options):
-    """Sixteen browsers, one of which never reads again, and one too many."""
+    """Connects sixteen browsers, one of which never reads again, and then one more than allowed."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
         stage.start_daemon()
         stage.start_page()
@@ -311,7 +311,7 @@ def crowd(options):
 
 
 def firefox(options):
-    """Another browser: every panel, wide and narrow, light and dark; and what is done in some of them."""
+    """Checks every panel in another browser, wide and narrow, light and dark, and uses some of them."""
     with Stage(options, 'bench.yaml') as stage:
         (stage.folder / 'bench.yaml').write_text(doing.BENCH, encoding='utf-8')
         stage.start_daemon()
@@ -329,7 +329,7 @@ def firefox(options):
 
 
 def does(options, part):
-    """One panel, with all that can be done in it."""
+    """Uses one panel, with all its controls."""
     with Stage(options, 'bench.yaml') as stage:
         (stage.folder / 'bench.yaml').write_text(doing.BENCH, encoding='utf-8')
         stage.start_daemon()

@@ -22,7 +22,7 @@ std::string described(std::string_view what, SheetFormat format, const Model& mo
   return sheet ? format_sheet(*sheet, format) : "";
 }
 
-/// A described sheet as a script reads it: the header, and rows by column.
+/// A table of `describe` as a script reads it: the header, and rows by column.
 struct Csv {
   explicit Csv(std::string_view what, const Model& model = simple2()) {
     std::istringstream text(described(what, SheetFormat::csv, model));
@@ -120,7 +120,7 @@ TEST(Describe, EveryInstructionHasAMeaningOfItsOwn) {
     EXPECT_TRUE(meanings.insert(meaning).second) << row.at("mnemonic") << ": " << meaning;
   }
   EXPECT_EQ(meanings.size(), 115U);
-  // The text names the axis, counter or timer of the name.
+  // The text mentions the axis, counter or timer of the name.
   for (const Fact& row : Csv("instructions").rows) {
     const std::string name = row.at("mnemonic") + "_";
     const std::string& meaning = row.at("meaning");
@@ -150,7 +150,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
       EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
       EXPECT_TRUE(translated.insert(row.name).second) << row.name << " appears twice";
     }
-    // Sections that the manual only numbers may have a title as well.
+    // Sections that the manual only numbers can have a title as well.
     for (const std::string_view section : sections) EXPECT_TRUE(translated.contains(section)) << section;
     for (const std::string_view section : translated) EXPECT_TRUE(named.contains(section)) << section;
     for (const Fact& row : Csv("choices", *model).rows) {
@@ -180,7 +180,7 @@ TEST(Describe, AChoiceWithAlternativesNamesItsScenario) {
     EXPECT_EQ(named, proofs);
     EXPECT_EQ(proofs.size(), model->proofs.size());
   }
-  // 3.15 is before 3 in its table, and 7.4 has 7.4.12.
+  // 3.15 is before 3 in its table, and 7.4 contains 7.4.12.
   const auto file_of = [](const char* id) {
     for (const Fact& row : Csv("choices", *find_model(models::all_models(), "rs-m8194h")).rows) {
       if (row.at("id") == id) return row.at("scenario");
@@ -197,7 +197,7 @@ TEST(Describe, AChoiceWithAlternativesNamesItsScenario) {
 }
 
 TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
-  // The list's numbers and second names; widths: real numbers are floats of 32 bits.
+  // The list's numbers and second names; widths: real numbers are 32-bit floats.
   struct Named {
     const char* number;
     const char* name;

@@ -1,5 +1,5 @@
-// The simulated EEPROM: when values are stored, and what a power cut leaves. Ticks are worked out by hand: a
-// write after tick n begins with tick n + 1, and is stored at the end of tick n + 1 + its time.
+// The simulated EEPROM: when values are stored, and what a power cut leaves. Ticks are calculated by hand: a
+// write after tick n starts in tick n + 1, and is stored at the end of tick n + 1 + its time.
 #include "emulator/device/memory/eeprom.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,8 @@ constexpr Tick kWord = 5;
 constexpr Tick kPair = 10;
 constexpr Tick kErasure = 500;
 
-/// An image and its EEPROM. Slots 0 to 5 are kept, 6 and 7 are not. The factory has 100 + slot in each.
+/// An image and its EEPROM. Slots 0 to 5 are persistent, 6 and 7 are not. The factory value of each is 100 +
+/// slot.
 struct Memory {
   Memory() : eeprom(image, kIsKept) {}
 
@@ -84,7 +85,7 @@ TEST(Eeprom, WhatIsWrittenLaterWaitsForWhatIsBeingDone) {
   Memory memory;
   memory.write(1, 7);  // done at 6
   memory.run_to(4);
-  memory.write(2, 8);  // begins at 6, done at 11
+  memory.write(2, 8);  // starts at 6, done at 11
   memory.run_to(10);
   EXPECT_TRUE(memory.eeprom.writing());
   EXPECT_EQ(memory.kept()[2], 102u);
@@ -105,7 +106,7 @@ TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   EXPECT_EQ(memory.kept()[1], 70u);
   memory.run_to(11);
   EXPECT_EQ(memory.kept()[2], 81u);
-  EXPECT_FALSE(memory.eeprom.writing()) << "five writes were two";
+  EXPECT_FALSE(memory.eeprom.writing()) << "five writes became two";
   EXPECT_EQ(memory.eeprom.revision(), 2u);
 }
 
@@ -196,7 +197,7 @@ TEST(Eeprom, WritingTheOldValueDuringARewriteBringsItBack) {
   Memory memory;
   memory.image = {0, 0, 0, 0, 0, 0, 0, 0};
   memory.eeprom.rewrite(memory.image, kErasure, memory.now);
-  memory.write(1, 101);  // what is kept at this moment, but no longer at 501
+  memory.write(1, 101);  // stored at this moment, but no longer at 501
   memory.run_to(501);
   EXPECT_EQ(memory.kept()[1], 0u);
   memory.run_to(506);
@@ -241,9 +242,9 @@ TEST(Eeprom, WhatIsPutFromOutsideIsThereAtOnce) {
   EXPECT_EQ(memory.eeprom.revision(), 1u);
 }
 
-// --- against a slow and simple one -----------------------------------------------------------------
+// --- compared with a slow and simple one -----------------------------------------------------------
 
-/// Counts every tick down, and knows each job's whole outcome.
+/// Counts every tick down, and knows the whole result of each job.
 class SlowEeprom {
  public:
   explicit SlowEeprom(Image factory) : kept(std::move(factory)) {}
@@ -267,7 +268,7 @@ class SlowEeprom {
     jobs_.clear();
     std::copy_n(image.begin(), 6, kept.begin());
   }
-  /// Runs a tick: jobs that were present before it have one tick less; the first tick is the delay before a
+  /// Runs a tick: jobs that were present before it have one tick less. The first tick is the delay before a
   /// job starts.
   void tick() {
     if (jobs_.empty()) return;
@@ -312,7 +313,7 @@ TEST(Eeprom, MatchesASlowModelAndNeedsSteppingOnlyWhenDue) {
   int rewrites_interrupted = 0;
   for (int sequence = 0; sequence < 60; ++sequence) {
     Memory memory;                   // stepped in every tick
-    Eeprom leaping = memory.eeprom;  // only when it says so
+    Eeprom leaping = memory.eeprom;  // only when it is due
     SlowEeprom slow(memory.image);
     for (int operation = 0; operation < 300; ++operation) {
       const bool was_writing = slow.writing();

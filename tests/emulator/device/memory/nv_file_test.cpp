@@ -120,7 +120,7 @@ TEST_F(NvFile, ALeftOverOfAWriterThatDiedIsNotReadAndNotTouched) {
   writer.write(path(), to_json(image_of(3)));
   writer.flush();
   EXPECT_EQ(value_of_whole(*read_nv_file(path())), 3);
-  EXPECT_EQ(text_of(path() + ".new"), torn) << "it may be somebody's";
+  EXPECT_EQ(text_of(path() + ".new"), torn) << "it may belong to somebody";
   EXPECT_EQ(file_count(), 2u);
 }
 
@@ -133,7 +133,7 @@ TEST_F(NvFile, AShorterImageLeavesNothingOfALongerOne) {
   }
 }
 
-// The caller does not wait for it, and does not make it.
+// The caller does not wait for it, and does not write it itself.
 TEST_F(NvFile, ALateImageIsMadeByTheWritersThread) {
   std::thread::id maker;
   {
@@ -159,7 +159,7 @@ TEST_F(NvFile, ImagesInQuickSuccessionAreWrittenOnceTheLastOfThem) {
   const auto begin = Clock::now();
   for (int i = 0; i < 1000; ++i) writer.write(path(), numbered(i));
   const auto taken = Clock::now() - begin;
-  // Nothing of it is on the disk before the time for coalescing is over.
+  // Nothing of it reaches the disk before the coalescing time ends.
   if (taken < NvWriter::kCoalesce / 2) {
     EXPECT_EQ(text_of(path()), numbered(-1));
     EXPECT_EQ(fs::last_write_time(path()), first);
@@ -250,7 +250,7 @@ TEST_F(NvFile, AWriterKilledAtAnyMomentLeavesAWholeImage) {
         if (i == last + 1 && ::write(first_is_there[1], "!", 1) != 1) _exit(1);
       }
     }
-    // Every other one dies at its start or with its first image, the rest among many.
+    // Every second one dies at its start or with its first image, the rest among many.
     close(first_is_there[1]);
     char sign = 0;
     if (kill_number % 2 == 0) {
@@ -264,12 +264,12 @@ TEST_F(NvFile, AWriterKilledAtAnyMomentLeavesAWholeImage) {
     ASSERT_GE(value, last) << kSeed << " " << kill_number;
     last = value;
   }
-  const std::size_t left_overs = file_count() - 1;  // each has a name of its own
-  EXPECT_GE(last, 50) << "it got to write";
+  const std::size_t left_overs = file_count() - 1;  // each has a different name
+  EXPECT_GE(last, 50) << "it was able to write";
   EXPECT_GT(left_overs, 3u) << "it died while writing";
 }
 
-// --- what the disk says ------------------------------------------------------------------------------------
+// --- errors of the disk ------------------------------------------------------------------------------------
 
 TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
   fs::create_directories(path() + "/in the way");
@@ -284,7 +284,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
                          ": cannot be written (it is a directory; expected a regular file, or a free path); "
                          "the file keeps its previous contents");
   EXPECT_TRUE(fs::exists(path() + "/in the way"));
-  EXPECT_EQ(file_count(), 1u) << "nothing is left beside it";
+  EXPECT_EQ(file_count(), 1u) << "nothing is left next to it";
   EXPECT_TRUE(writer.take_news().empty());
 
   fs::remove_all(path());
@@ -305,7 +305,7 @@ TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
             std::vector<std::string>{
                 path("gone/feeder.json") +
                 ": cannot be written (No such file or directory); the file keeps its previous contents"});
-  EXPECT_EQ(text_of(path()), "another's") << "one file's trouble is not another's";
+  EXPECT_EQ(text_of(path()), "another's") << "one file's error does not affect another";
 }
 
 /// Like a full disk: no file grows beyond this many bytes.

@@ -44,7 +44,7 @@ std::string with_registers(const std::string& registers) {
 bool is_one_line(const std::string& text) { return !text.empty() && text.find('\n') == std::string::npos; }
 
 TEST(NvImage, IsJsonThatPeopleReadAndCompare) {
-  // One register a line, in the given order, and a newline at the end, so that a line-by-line comparison
+  // One register per line, in the given order, and a newline at the end, so that a line-by-line comparison
   // shows what has changed.
   const NvImage small{.model = "m", .firmware = "1.00", .registers = {{"b", 2}, {"a", -1}}};
   EXPECT_EQ(to_json(small),
@@ -84,7 +84,7 @@ TEST(NvImage, TornAnywhereIsRefusedWithTheLineOfTheTear) {
               "line " + std::to_string(line) + ": is damaged or not JSON; expected an NV image")
         << "after " << size << " bytes";
   }
-  EXPECT_EQ(parse_nv_image(whole.substr(0, whole.size() - 1)), kExample) << "nothing of it is missing";
+  EXPECT_EQ(parse_nv_image(whole.substr(0, whole.size() - 1)), kExample) << "no part of it is missing";
 }
 
 TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
@@ -99,7 +99,7 @@ TEST(NvImage, ATailOfAnotherImageBehindItIsRefused) {
 }
 
 TEST(NvImage, OneDamagedByteGivesAnImageOrOneLine) {
-  // A digit may become another one, but nothing ends the program.
+  // A digit may become another one, but nothing may end the program.
   const std::string values = std::string("\0\n\x1f \"\\,:{}[]09-+.eEaZ/'\x7f\x80\xC3\xED\xF4\xFF", 29);
   const std::string whole = to_json(kExample);
   std::size_t refused = 0;
@@ -179,7 +179,8 @@ TEST(NvImage, RefusesWhatIsNoImage) {
 }
 
 TEST(NvImage, HoldsRealNumbersAndAProgram) {
-  // A line in UTF-8 is text, one in another code (Big5 here: 5C is its second byte) a list of its bytes.
+  // A line in UTF-8 is stored as text, a line in another encoding (Big5 here: 5C is its second byte) as a
+  // list of its bytes.
   const NvImage image{.model = "slim",
                       .firmware = "1.00",
                       .registers = {},
@@ -248,7 +249,7 @@ TEST(NvImage, IsNotBroughtDownByItsSize) {
   EXPECT_EQ(parse_nv_image(with_registers(many + "}")).registers.size(), 100'000u);
 }
 
-// --- a device's own --------------------------------------------------------------------------------------
+// --- the image of a device ---------------------------------------------------------------------------------
 
 std::unique_ptr<Device> device(const std::optional<NvImage>& nv = {}, Firmware firmware = 0) {
   DeviceSettings settings;

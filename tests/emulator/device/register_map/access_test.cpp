@@ -14,7 +14,7 @@ constexpr Refusal kNone = Refusal::no_register;
 
 struct Write {
   std::string_view name;
-  Value before;  // of the whole register, given to its image
+  Value before;  // of the whole register, passed to its image
   Value value;
   Refusal refusal;
   Value after;  // of the whole register
@@ -32,7 +32,7 @@ void run(const std::vector<Write>& writes) {
       PreparedWrite prepared;
       EXPECT_EQ(prepare_value(toy.device, place, w.value, prepared), w.refusal) << which;
       EXPECT_EQ(toy.device.image()[slot], static_cast<std::uint32_t>(w.before))
-          << which << ": judging is not a writing";
+          << which << ": a check does not write";
       EXPECT_TRUE(toy.device.events.empty()) << which;
       EXPECT_EQ(write_value(toy.device, place, w.value), w.refusal) << which;
       Place whole = place.place;

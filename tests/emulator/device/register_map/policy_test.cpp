@@ -1,4 +1,4 @@
-// Requests of several words, effects, and the policies that models differ in.
+// Requests of several words, effects, and the policies in which models differ.
 #include <gtest/gtest.h>
 
 #include "emulator/world/stations/server.h"
@@ -57,11 +57,11 @@ TEST(WriteWords, ARefusedRequestChangesNothingHoweverMuchOfItIsGood) {
     Refusal refusal;
   };
   const std::vector<Case> cases = {
-      {0x0010, {7, 5, 1, 0, 1, 1, 1, 1}, Refusal::no_register},  // ends on what can only be read
+      {0x0010, {7, 5, 1, 0, 1, 1, 1, 1}, Refusal::no_register},  // ends on a read-only register
       {0x0010, {0, 5}, Refusal::bad_value},
       {0x0010, {7, 1001}, Refusal::bad_value},
       {0x0010, {7, 1, 0xFFFF, 0xFFF0}, Refusal::bad_value},      // a whole 32-bit value
-      {0x0010, {0, 0, 0, 0, 0, 0, 0, 0}, Refusal::no_register},  // addresses come before values
+      {0x0010, {0, 0, 0, 0, 0, 0, 0, 0}, Refusal::no_register},  // addresses are checked before values
       {0x0016, {5, 1}, Refusal::no_register},
       {0x0019, {1, 1, 1}, Refusal::no_register},
       {0x0020, {1, 2, 3, 4}, Refusal::no_register},  // a hole at its end
@@ -77,7 +77,7 @@ TEST(WriteWords, ARefusedRequestChangesNothingHoweverMuchOfItIsGood) {
   }
 }
 
-// More than any frame can carry, with room to spare.
+// More than any frame can carry, with a margin.
 TEST(WriteWords, AreAtMost2000) {
   const RegisterRow rows[] = {coil(0, "C{}", Access::read_write).times(2001, 1, 0)};
   Toy toy(rows);
@@ -99,7 +99,7 @@ TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
   EXPECT_EQ(toy.value("Far1"), 65536);
   EXPECT_EQ(toy.value("Cell2"), 3);
   EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0xFFFF, 2)), "83 02")
-      << "past the last address is not a hole";
+      << "an address past the last one is not a hole";
   EXPECT_EQ(world::answer(toy.device, world::write_request(0xFFFF, world::Words{1, 2})), "90 02");
 }
 
@@ -227,7 +227,7 @@ TEST(Policy, ACutRegisterIsRefusedAsThePolicySays) {
   EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0x0018, 1)), "83 02") << "a hole is a hole";
 }
 
-/// A window's reader: refuses as the first word says.
+/// The reader of a window: refuses as the first word says.
 DeviceAnswer heard(ToyDevice& toy, Cell, std::span<const std::uint16_t> words) {
   toy.events.push_back("heard");
   return {static_cast<Refusal>(words[0]), 40 + words[0]};
@@ -258,7 +258,7 @@ TEST(WriteWords, AWindowSaysWhyItRefuses) {
 
 TEST(WriteWords, AWriteMayBeOneMessageWithoutAWindow) {
   Toy toy(kToyRows);
-  toy.device.whole_at = 0x0017;  // State, which can only be read, and a hole
+  toy.device.whole_at = 0x0017;  // read-only state, and a hole
   const auto before = image_of(toy);
   EXPECT_EQ(write(toy, 0x0017, {8, 9}), Refusal::none);
   EXPECT_EQ(toy.device.events, (Events{"whole 8 9", "written"}));
@@ -293,7 +293,7 @@ TEST(Policy, TheHighWordMayComeFirst) {
   EXPECT_EQ(toy.write("Target_H", 0), Refusal::none);
   EXPECT_EQ(world::read(toy.device, 0x0012, 2), (world::Words{0, 0x1234}));
   EXPECT_EQ(write(toy, 0x0012, {2, 0}), Refusal::bad_value) << "131072 is beyond 100000";
-  // The half that comes in the second word is the low one.
+  // The half in the second word is the low one.
   EXPECT_EQ(write(toy, 0x0022, {9}), Refusal::none);
   EXPECT_EQ(toy.device.events.at(toy.device.events.size() - 2), "2[0]=9 first=5 low");
 }
@@ -340,7 +340,7 @@ TEST(NotImplemented, IsMentionedToWhoReadsItByName) {
   std::string log;
   toy.device.set_log([&](const std::string& line) { log += line + "\n"; });
   EXPECT_EQ(toy.value("Set"), 0);
-  EXPECT_EQ(log, "") << "what was written is read back";
+  EXPECT_EQ(log, "") << "the written value is read back";
   EXPECT_EQ(toy.value("Told.3"), 0);
   EXPECT_NE(log.find("no word"), std::string::npos) << log;
 }

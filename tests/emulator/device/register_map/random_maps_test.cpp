@@ -29,14 +29,15 @@ constexpr BitField kFields[] = {bits(2, "PLAIN"),
 struct Spot {
   const RegisterRow* row = nullptr;
   int index = 0;
-  int word = 0;  // of a 32-bit register: its second one is 1
+  int word = 0;  // of a 32-bit register: 1 for its second address
   std::size_t slot = 0;
 };
 
 class Drawn {
  public:
   explicit Drawn(std::uint64_t seed) : random_(seed) {
-    // At the end of the addresses as well as at their beginning, so that tables are full and not.
+    // At the end of the addresses as well as at their beginning, so that some tables are full and some are
+    // not.
     draw_rows(Table::coil);
     draw_rows(Table::discrete);
     draw_rows(Table::holding);

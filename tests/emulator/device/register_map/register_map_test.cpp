@@ -14,7 +14,7 @@ TEST(RegisterMap, KnowsWhatIsAtAnAddress) {
   const Toy toy(kToyRows);
   struct Case {
     std::uint16_t address;
-    std::string_view row;  // empty: nothing is there
+    std::string_view row;  // nothing is there if it is empty
     int index;
     Part part;
   };

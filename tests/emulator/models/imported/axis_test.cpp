@@ -122,8 +122,8 @@ TEST(DescribedAxis, RunsAsHostsHoldIt) {
   EXPECT_EQ(one.read("NOW"), 1000);
   one.write("SPEED", 1500);
   one.advance(100);
-  EXPECT_EQ(one.read("NOW"), 1500) << "another speed counts at once";
-  one.write("CONTROL", 4);  // backward: it slows down, and turns round
+  EXPECT_EQ(one.read("NOW"), 1500) << "a new speed takes effect at once";
+  one.write("CONTROL", 4);  // backward: it decelerates and reverses
   one.advance(50);
   EXPECT_GT(one.read("NOW"), 0);
   one.advance(160);
@@ -132,7 +132,7 @@ TEST(DescribedAxis, RunsAsHostsHoldIt) {
   EXPECT_NEAR(static_cast<double>(one.ticks_until_still()), 100, 1);
   one.write("CONTROL", 2);
   one.advance(101);
-  one.write("COMMAND", 3);  // stopped, it waits to be told anew
+  one.write("COMMAND", 3);  // stopped, it waits for a new command
   one.advance(1000);
   EXPECT_EQ(one.read("STATUS.BUSY"), 0);
   one.write("CONTROL", 0);
@@ -144,7 +144,7 @@ TEST(DescribedAxis, RunsAsHostsHoldIt) {
   EXPECT_NEAR(static_cast<double>(one.ticks_until_still()), 50, 2) << "a speed of 0 is a stop";
   one.write("SPEED", -300);
   one.advance(200);
-  EXPECT_EQ(one.read("NOW"), -300) << "a negative speed runs the other way";
+  EXPECT_EQ(one.read("NOW"), -300) << "a negative speed reverses the direction";
 }
 
 TEST(DescribedAxis, MeetsItsSwitchesAtTheirPulse) {
@@ -156,7 +156,7 @@ TEST(DescribedAxis, MeetsItsSwitchesAtTheirPulse) {
   one.write("CONTROL", 0);
   one.write("CONTROL", 2);
   one.advance(50);
-  EXPECT_EQ(one.read("POSITION"), 333) << "only the other way is free";
+  EXPECT_EQ(one.read("POSITION"), 333) << "only the other direction is free";
   one.write("CONTROL", 0);
   one.write("COMMAND", 5);
   EXPECT_GT(one.ticks_until_still(), 0);
@@ -176,7 +176,7 @@ TEST(DescribedAxis, NeedsItsEnableAndHeedsItsAlarm) {
   OneDescribed one(axis_model(", enable: CONTROL.ENABLE, while_disabled: refuse, while_busy: refuse"));
   one.write("DISTANCE", 5000);
   EXPECT_EQ(one.write("COMMAND", 2), Refusal::failure);
-  EXPECT_EQ(one.write("COMMAND", 3), Refusal::none) << "a stop needs none";
+  EXPECT_EQ(one.write("COMMAND", 3), Refusal::none) << "a stop does not need it";
   EXPECT_EQ(one.read("STATUS"), 0);
   EXPECT_EQ(one.write("CONTROL", 1), Refusal::none);
   EXPECT_EQ(one.read("STATUS"), 0x12);
@@ -291,7 +291,7 @@ TEST_F(Answers, AreThoseThatThePagePrints) {
     ASSERT_EQ(printed.at(name).size(), kDoings) << name;
     for (std::size_t activity = 0; activity < kDoings; ++activity) {
       EXPECT_EQ(happened(command, static_cast<Activity>(activity)), printed.at(name)[activity])
-          << name << " while it is in column " << activity;
+          << name << " but it is in column " << activity;
     }
   }
 }

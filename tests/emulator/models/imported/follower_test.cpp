@@ -58,8 +58,8 @@ const std::string kThermostat =
     "input,2,ROOM,R,s16,,,,0,0\n"
     "discrete,0,HEATS,R,bit,,,,0,0\n";
 
-/// A heater that its own temperature switches: between its two targets, at 10 a second. Unless the file says
-/// otherwise, it rests at the register's default, also if that is a real number.
+/// A heater that its own temperature switches, between its two targets, at 10 per second. Unless the file
+/// says otherwise, it starts at the register's default, even if that is a real number.
 TEST(Following, RestsAtTheDefault) {
   const std::string list =
       "address,name,access,type,default\n0,GOAL,R/W,u16,0\n1,REAL,R,f32,1.5\n3,WHOLE,R,s16,-40\n";

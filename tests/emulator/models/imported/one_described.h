@@ -61,7 +61,7 @@ struct OneDescribed {
         world(bench, {}, {}) {}
 
   Device& device() { return world.device(0); }
-  /// Writes like a request from outside.
+  /// Writes a value like an external request.
   Refusal write(std::string_view name, Value value) {
     RegisterBank& bank = *device().register_bank();
     const auto place = bank.find(name);

@@ -44,7 +44,7 @@ Tick tick_of(world::World& world, int input) {
   return tick_at(world.now()) - first;
 }
 
-/// The moment by single ticks; in one step it is on at this moment, and not before.
+/// Finds the moment by single ticks; in one long step it is on at this moment, and not before.
 void expect_in_time(int input, Value go) {
   const auto begin = [&](world::World& world) {
     world::set(world, "it.SPEED", 1000);

@@ -13,14 +13,14 @@ using Commands = std::vector<std::string_view>;
 
 constexpr std::uint8_t kStreamBit = 8;
 
-/// The sides of a square, and where they lead.
+/// The sides of a square, and their end points.
 struct Kind {
   const char* name;
   Commands initial;
   Commands sides;
-  Commands next;                        // a stream of its own: 700 of Y
-  bool is_absolute = false;             // then the rest leads to the places that it names,
-  std::array<Value, 2> rest{-5000, 0};  // else by so much
+  Commands next;                        // a separate stream: 700 of Y
+  bool is_absolute = false;             // then the rest leads to the positions that it names,
+  std::array<Value, 2> rest{-5000, 0};  // otherwise by this distance
 };
 const Kind kKinds[] = {
     {"LINE_2D",
@@ -47,7 +47,7 @@ const Kind kKinds[] = {
      {"RSM_MIX_2D_CONTINUE 1 1 0 0 0 700"}},
 };
 
-/// An event that ends the first side on its way, and what clears its lock.
+/// An event that ends the first side before its end, and the command that clears its lock.
 struct Break {
   const char* name;
   Commands before;
@@ -125,7 +125,7 @@ void play(OneRsm& rsm, const Course& course) {
   for (const auto each : course.broken.before) rsm.send(each);
   if (course.rest == Rest::in_a_macro) {
     rsm.send("RSM_MP_CALL 59");
-    rsm.run(1);  // its first line is carried out in the next tick
+    rsm.run(1);  // its first line is executed in the next tick
     break_off(rsm, course.broken);
   } else {
     for (const auto each : kind.initial) rsm.send(each);
@@ -137,7 +137,7 @@ void play(OneRsm& rsm, const Course& course) {
   rsm.run_to_rest(20'000);
 }
 
-/// Where the first side ends if nothing follows it.
+/// Returns where the first side ends if nothing follows it.
 std::vector<Value> place_of_break(const Course& course) {
   OneRsm rsm(given({course.kind, course.broken}, "is_void_to_its_last_segment_or_initial"));
   for (const auto each : course.broken.before) rsm.send(each);

@@ -92,7 +92,7 @@ std::uint32_t good_value(const Allowed& one, std::int64_t& free_axis, std::mt199
 }
 
 TEST(RsM8194hCommandNames, EveryCodesTextMeansItsMessageInBothOrders) {
-  std::mt19937 random(17);  // NOLINT(cert-msc51-cpp): the same every time
+  std::mt19937 random(17);  // NOLINT(cert-msc51-cpp): the same in every run
   const auto parameters = parameters_by_low_byte();
   int codes = 0;
   for (const Fact& fact : read_facts(PROJECT_FOLDER "/tests/interpreter/rs_m8194h/commands.csv")) {
@@ -111,7 +111,7 @@ TEST(RsM8194hCommandNames, EveryCodesTextMeansItsMessageInBothOrders) {
       }
       const auto text = command_names().text_of(high_first.words(), kForms[0]);
       EXPECT_EQ(command_names().text_of(low_first.words(), kForms[1]), text) << fact.at("code");
-      // One parameter may forbid another's value.
+      // One parameter can forbid another's value.
       if (!text) continue;
       ++taken;
       EXPECT_EQ(name_in(*text), fact.at("name"));
@@ -145,11 +145,11 @@ TEST(RsM8194hCommandNames, EveryPrintedFrameHasItsName) {
 TEST(RsM8194hCommandNames, WhatIsNoCommandHasNone) {
   const Words kNone[] = {{},
                          {0x0A66},                       // no code
-                         {0x0B4E, 1, 0, 5},              // neither half of the codes
-                         {0x0A4E, 1, 0},                 // a register too few
+                         {0x0B4E, 1, 0, 5},              // is not even half of a code
+                         {0x0A4E, 1, 0},                 // one register too few
                          {0x0A4E, 1, 0, 5, 6},           // one too many
                          {0x0A4E, 0, 0, 5},              // no axis
-                         {0x0A0C, 1, 6},                 // out of its range
+                         {0x0A0C, 1, 6},                 // out of range
                          {0x0CD7, 0, 1, 0x3C3C, 0, 2}};  // no operator
   for (const Words& words : kNone) EXPECT_EQ(command_names().text_of(words, kForms[0]), std::nullopt);
 }

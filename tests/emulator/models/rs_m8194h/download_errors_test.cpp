@@ -15,7 +15,7 @@ using Lines = std::vector<std::string>;
 struct Case {
   int error;
   Lines lines;  // without RSM_MACRO_; "= 0C22 1" is sent as it is
-  int refused;  // the first line that is, counted from 0; as many as there are lines: CLOSE
+  int refused;  // the first line with an error, counted from 0; the number of lines stands for CLOSE
   int reason;   // of the last refusal, in input 102
   int command;  // input 112
   int line;     // input 113
@@ -31,7 +31,7 @@ Lines nested(int depth, const std::string& open, const std::string& close) {
 /// MP 41 has 16 lines.
 const Case kCases[] = {
     {0x01, Lines(17, "SET_VAR VAR1 1"), 16, 0x03, 0x0AD2, 16},
-    {0x02, nested(8, "IF 1 < 2", "END_IF"), 7, 0xB3, 0x0AD7, 7},  // the eighth END_IF has no IF then
+    {0x02, nested(8, "IF 1 < 2", "END_IF"), 7, 0xB3, 0x0AD7, 7},  // the eighth END_IF then has no IF
     {0x03, {"ELSE"}, 0, 0xB2, 0x0AD8, 0},
     {0x04, {"SET_VAR VAR1 1", "END_IF"}, 1, 0xB3, 0x0AD9, 1},
     {0x05, {"SET_VAR VAR1 1", "IF 1 < 2"}, 2, 0xB4, 0x0AD7, 1},
@@ -63,7 +63,7 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
   int expected_error = 0;
   for (const Case& one : kCases) {
     SCOPED_TRACE("error " + std::to_string(one.error));
-    EXPECT_EQ(one.error, ++expected_error) << "each is there";
+    EXPECT_EQ(one.error, ++expected_error) << "each one is present";
     OneRsm rsm({.program = kOld + "ISR 3\n  RSM_MACRO_EXIT_MACRO\nEND\n"});
     rsm.send("RSM_MP_ISR_CREATE 3");  // its number stays in input 111
     rsm.send("RSM_MACRO_SET_VAR VAR1 1");
@@ -73,11 +73,11 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     const auto count = static_cast<int>(one.lines.size());
     for (int i = 0; i < count; ++i) {
       const std::string reply = send_line(rsm, one.lines[static_cast<std::size_t>(i)]);
-      if (i > one.refused) continue;  // what follows it may be refused or not
+      if (i > one.refused) continue;  // the lines after it may be refused or not
       EXPECT_EQ(reply.substr(0, 2), i < one.refused ? "10" : "90") << i;
     }
     EXPECT_EQ(rsm.exception("RSM_MACRO_MP_CLOSE"), one.refused == count ? 3 : 0);
-    EXPECT_EQ(rsm.get("RSM_STATE"), 0) << "the download is over in any case";
+    EXPECT_EQ(rsm.get("RSM_STATE"), 0) << "the download has ended either way";
     const std::string shown = rsm.ask("04 00 6E 00 05");
     world::Words words{41, 3, static_cast<std::uint16_t>(one.command), static_cast<std::uint16_t>(one.line),
                        static_cast<std::uint16_t>(one.error)};
@@ -92,10 +92,10 @@ TEST(RsM8194hDownloadErrors, AllSixteenAreShownAndTheOldMacroStays) {
     rsm.set("CALL_MP", 41);
     rsm.run(10);
     EXPECT_EQ(rsm.get("VAR7"), 77);
-    // The next correct one is stored, and the error is gone.
+    // The next valid one is stored, and the error is cleared.
     rsm.send({"RSM_MP_CREATE 41", "RSM_MACRO_SET_VAR VAR7 78", "RSM_MACRO_MP_CLOSE"});
     EXPECT_EQ(rsm.ask("04 00 6E 00 05"), "04 0A 00 29 00 03 00 00 00 00 00 00");
-    EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "good requests leave the reason";
+    EXPECT_EQ(rsm.get("IllegalFuncErr"), one.reason) << "valid requests do not change the reason";
   }
   EXPECT_EQ(expected_error, 16);
 }
@@ -116,7 +116,7 @@ TEST(RsM8194hDownloadErrors, EveryLineWantsItsNumberOfRegisters) {
         EXPECT_EQ(rsm.ask(world::write_request(kWindow, request)), "90 03") << row.macro_name << " " << count;
       }
       EXPECT_EQ(rsm.exception(is_isr ? "RSM_MACRO_MP_ISR_CLOSE" : "RSM_MACRO_MP_CLOSE"), 0) << row.macro_name;
-      EXPECT_EQ(rsm.get("DOWNLOAD_ERROR"), 0) << "a line that is refused for its registers is left out";
+      EXPECT_EQ(rsm.get("DOWNLOAD_ERROR"), 0) << "a line that is refused for its registers is omitted";
     }
   }
 }
@@ -135,7 +135,7 @@ TEST(RsM8194hDownloadErrors, APowerCutInTheMidstLeavesTheOldMacro) {
     const bool is_new = cut == kNew.size();
     EXPECT_EQ(rsm.device().user_program()->program_text() == kOld, !is_new) << cut;
     EXPECT_EQ(rsm.get("RSM_STATE"), 0);
-    EXPECT_EQ(rsm.exception("RSM_MACRO_NEXT"), 3) << "no download goes on";
+    EXPECT_EQ(rsm.exception("RSM_MACRO_NEXT"), 3) << "no download is in progress";
     // A snapshot of the same moment continues where it was.
     OneRsm twin;
     twin.device().restore_state(saved);

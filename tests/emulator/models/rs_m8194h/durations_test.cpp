@@ -11,14 +11,14 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace durations_test {
 
 enum class Ends : std::uint8_t {
-  on_time,       // slowing down begins so as to reach SV at the target, or AO pulses before it
-  half_constant  // AVTRI: the ramps take half of the way
+  on_time,       // deceleration begins so as to reach SV at the target, or AO pulses before it
+  half_constant  // AVTRI: the ramps take half of the distance
 };
 
 struct Move {
-  int mode;         // of NORMAL_SPEED: 0 T, 1 S, 2 T with ramps of its own, 3 S likewise
+  int mode;         // of NORMAL_SPEED: 0 T, 1 S, 2 T with separate ramps, 3 S likewise
   double distance;  // pulses
-  double sv, v;     // pulses a second
+  double sv, v;     // pulses per second
   double up, down;  // A and D, or K and L
   double ao;        // pulses
   Ends ends = Ends::on_time;
@@ -34,7 +34,7 @@ double ramp_pulses(const Move& move, double peak, double rate) {
   return (peak + move.sv) / 2 * ramp_s(move, peak, rate);
 }
 
-/// The highest speed at which both ramps fit into this many pulses, by bisection; at most V.
+/// Returns the highest speed at which both ramps fit into this many pulses, by bisection; at most V.
 double peak_pps(const Move& move, double pulses) {
   double low = move.sv;
   double high = move.v;
@@ -76,7 +76,7 @@ constexpr Move kMoves[] = {
     {2, 3000, 1000, 10000, 20000, 60000, 0},
     {2, 3000, 1000, 10000, 50000, 15000, 0},
     {2, 3000, 1000, 10000, 50000, 15000, 25},
-    // at its very edge: both ramps just fit
+    // exactly at the limit: both ramps just fit
     {0, 4950, 1000, 10000, 20000, 20000, 0},
     // S, too short for V
     {1, 3000, 1000, 10000, 50000, 50000, 0},
@@ -85,11 +85,11 @@ constexpr Move kMoves[] = {
     {3, 3000, 1000, 10000, 50000, 120000, 0},
     {3, 3000, 1000, 10000, 120000, 50000, 0},
     {3, 5000, 1000, 10000, 120000, 50000, 10},
-    // AVTRI keeps half of a short T constant; long moves are as ever
+    // AVTRI keeps half of a short T constant; long moves are unchanged
     {0, 3000, 1000, 10000, 20000, 20000, 0, Ends::half_constant},
     {2, 3000, 1000, 10000, 20000, 60000, 0, Ends::half_constant},
     {0, 30000, 1000, 10000, 20000, 20000, 0, Ends::half_constant},
-    // all of the way is AO's
+    // AO covers the whole distance
     {0, 15, 500, 8000, 4000, 4000, 20},
     {0, 20, 500, 8000, 4000, 4000, 20},
     // AO below 0: cut off
@@ -133,7 +133,7 @@ constexpr double kRounding = 1e-6;
 /// parabolas.
 struct Ramp {
   bool is_s = false;
-  double low = 0, high = 0;  // pulses a second
+  double low = 0, high = 0;  // pulses per second
   double rate = 0;           // A, or K
 
   double lasts() const { return is_s ? 2 * std::sqrt((high - low) / rate) : (high - low) / rate; }

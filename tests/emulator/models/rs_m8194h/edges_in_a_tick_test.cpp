@@ -1,5 +1,5 @@
-// The effects of an edge belong to its pulse: the table kind of motion x kind of edge x effect x affected
-// axis, at speeds from a pulse in 100 ms to 4,000 in one, compared with closed forms. X moves at `speed`, Y
+// The effects of an edge belong to its pulse. The table is kind of motion x kind of edge x effect x affected
+// axis, at speeds from one pulse in 100 ms to 4,000 in one, compared with closed forms. X moves at `speed`, Y
 // at another one, both from the same moment: at X's pulse n, Y has sent floor(n y / x).
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace edges_in_a_tick_test {
 
 enum class Motion : std::uint8_t {
-  move,            // on its way
+  move,            // during the motion
   last_of_a_move,  // the edge lies in the millisecond in which it ends
   endless,
   to_a_limit,  // a limit switch ends it in the millisecond of the edge
@@ -40,7 +40,7 @@ constexpr Action kActions[] = {{"LPSAV", 0, 1, 0},          {"EPSAV", 0, 2, 0}, 
                                {"ISTOP and LPSAV", 6, 1, 0}};
 
 struct Speeds {
-  std::int64_t x, y, edge;  // pulses a second; X's pulse with the edge
+  std::int64_t x, y, edge;  // pulses per second; X's pulse with the edge
   const char* most;         // MAX_V, of which a speed is a whole number of 8000ths
 };
 constexpr Speeds kSpeeds[] = {{10, 7, 3, "8000"},
@@ -54,7 +54,7 @@ struct Cell {
   Motion motion;
   Edge edge;
   Action action;
-  bool on_y;  // whom it acts on: Y, else X itself
+  bool on_y;  // the affected axis: Y, or else X itself
   Speeds speeds;
 
   bool on_path() const {
@@ -64,7 +64,7 @@ struct Cell {
   std::int64_t speed_of_x() const {
     return on_path() ? std::min<std::int64_t>(speeds.x, 2'828'000) : speeds.x;
   }
-  /// Pulses of X after the edge that come out in the same millisecond, or much later.
+  /// Pulses of X after the edge that are sent in the same millisecond, or much later.
   std::int64_t total() const {
     const bool is_last = motion == Motion::last_of_a_move || motion == Motion::last_of_a_line;
     return speeds.edge + (is_last ? 1 + speeds.x / 10'000 : 4 * speeds.edge);
@@ -146,12 +146,12 @@ void expect_closed_form(const Cell& cell) {
   rsm.run(6 * by.edge * 1000 / by.x + 20);
   const char axis = !cell.on_y ? 'X' : cell.on_path() ? 'Z' : 'Y';
   const auto value = [&](const char* name) { return rsm.get(std::string(name) + axis); };
-  // Where it was at the edge; a pulse of Y at that very moment may have come or not. On a path X is at the
-  // whole pulse nearest to it: there half a pulse earlier.
+  // Where it was at the edge; a pulse of Y at that very moment may have been sent or not. On a path X is at
+  // the nearest whole pulse, there half a pulse earlier.
   const std::int64_t halves = 2 * by.edge - (cell.on_path() ? 1 : 0);
   const std::int64_t place = cell.on_y ? halves * by.y / (2 * cell.speed_of_x()) : by.edge;
   const std::int64_t least = place - (cell.on_y && halves * by.y % (2 * cell.speed_of_x()) == 0 ? 1 : 0);
-  // The preset value is far below C+, which is met once.
+  // The preset value is far below C+, which is reached once.
   constexpr std::int64_t kPreset = -100'000'000;
   const auto expect_place = [&](std::int64_t found) {
     // The chip's steps of a vector speed are a microsecond by then.
@@ -159,7 +159,7 @@ void expect_closed_form(const Cell& cell) {
     EXPECT_GE(found, least - steps);
     EXPECT_LE(found, place + steps);
   };
-  EXPECT_GE(rsm.get("ABS_X"), by.edge);  // it has come there
+  EXPECT_GE(rsm.get("ABS_X"), by.edge);  // it has arrived there
   if (cell.action.latch != 0) expect_place(value("LATCH_"));
   if (cell.action.preset == 1) expect_place(value("ABS_") - value("LP_") + kPreset);
   if (cell.action.preset == 2) expect_place(value("ABS_") - value("EP_") + kPreset);
@@ -181,7 +181,7 @@ TEST(RsM8194hEdgesInATick, AreOfTheirPulseInEveryCellOfTheTable) {
   }
 }
 
-/// X's edge on a path of X and Y stops Z, and X's edge stops the path that Y and Z go along.
+/// X's edge on a path of X and Y stops Z, and X's edge stops the path of Y and Z.
 TEST(RsM8194hEdgesInATick, StopAPathOfOtherAxesWhereItIs) {
   for (const Speeds& by : kSpeeds) {
     OneRsm rsm;
@@ -203,7 +203,7 @@ TEST(RsM8194hEdgesInATick, StopAPathOfOtherAxesWhereItIs) {
   }
 }
 
-/// Several in a millisecond act in their order, each once.
+/// Several edges in a millisecond act in order, each once.
 TEST(RsM8194hEdgesInATick, ActInTheirOrderAndAreCountedEach) {
   for (const bool is_late : {false, true}) {
     OneRsm rsm;
@@ -217,7 +217,7 @@ TEST(RsM8194hEdgesInATick, ActInTheirOrderAndAreCountedEach) {
     rsm.run(50);
     EXPECT_EQ(rsm.get("LATCH_Z"), is_late ? 5800 : 5500);
   }
-  // LPSET at C+ repeatedly: every 100 pulses, 40 times a millisecond, and as many output pulses.
+  // LPSET at C+ repeatedly: every 100 pulses, 40 times per millisecond, and as many output pulses.
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V X 4000000", "RSM_SET_SV X 4000000", "RSM_SET_V X 4000000"});
   rsm.run(5);
@@ -234,7 +234,7 @@ struct EncoderCase {
   int counts, pulses;
   bool reversed;
   Value limit;  // of EP
-  Value x;      // where X stands: the first pulse with a count beyond it
+  Value x;      // where X stops: the first pulse with a count beyond it
 };
 /// Soft limits on EP (without ramps: at once), at any scale of the encoder.
 TEST(RsM8194hEdgesInATick, ASoftLimitOnAnEncoderIsMetAtItsPulse) {
@@ -276,7 +276,7 @@ TEST(RsM8194hEdgesInATick, AnEncoderThatDoesNotGoAlongCountsAsItIsTold) {
     rsm.run(5);
     rsm.send("RSM_FIXED_MOVE X 90000");
     rsm.run(2000);
-    // Pushed by 1,000; or every second pulse lost, and seen when the tick is over: 100 pulses.
+    // Pushed by 1,000; or every second pulse lost, which is detected after the tick: 100 pulses.
     if (is_pushed) {
       EXPECT_EQ(rsm.get("LP_X"), 4001);
       EXPECT_EQ(rsm.get("EP_X"), 5001);

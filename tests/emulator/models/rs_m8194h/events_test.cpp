@@ -1,5 +1,5 @@
 // Synchronous actions, interrupt factors and ISRs, the line scan (7.3, 7.4.12): the manual's examples and
-// more.
+// others.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
@@ -74,8 +74,8 @@ TEST(RsM8194hEvents, EnabledFactorsAreNotedForTheirAxes) {
   rsm.run_to_rest();
   rsm.run(2);
   EXPECT_EQ(rsm.get("INT_PULSE"), 5);
-  EXPECT_EQ(rsm.get("INT_P_GE_C+"), 1);  // X alone has passed C+
-  EXPECT_EQ(rsm.get("INT_P_LT_C-"), 4);  // and Z C-
+  EXPECT_EQ(rsm.get("INT_P_GE_C+"), 1);  // only X has passed C+
+  EXPECT_EQ(rsm.get("INT_P_LT_C-"), 4);  // and only Z has passed C-
   EXPECT_EQ(rsm.get("INT_C-STA"), 5);
   EXPECT_EQ(rsm.get("INT_C-END"), 5);
   EXPECT_EQ(rsm.get("INT_D-END"), 5);
@@ -116,7 +116,7 @@ TEST(RsM8194hEvents, AComparatorComparesTheCounterThatItNames) {
 }
 
 TEST(RsM8194hEvents, LatchesAndPresetsAreOfTheMomentOfTheEdge) {
-  // 7.3.1's first example: IN3 latches EP and zeroes EP.
+  // 7.3.1's first example: IN3 latches EP and sets it to zero.
   SteadyRsm rsm;
   rsm.send({"RSM_SYNC_ACTION U U 64 0 2 2 1 0 0 0 0 0", "RSM_SET_PRESET U 100"});
   rsm.pin(3, Pin::in3, true);
@@ -154,7 +154,7 @@ TEST(RsM8194hEvents, EachDriveAndPresetDoesWhatItsLineSays) {
       const int direction = drive == fixed_plus || drive == endless_plus ? 1 : -1;
       const bool is_fixed = drive == fixed_plus || drive == fixed_minus;
       EXPECT_EQ(rsm.get("DRIVING_AXIS"), is_endless ? 2 : 0);
-      // Neither a distance nor a speed has a meaning for an endless drive.
+      // For an endless drive neither a distance nor a speed has a meaning.
       if (is_endless) {
         EXPECT_EQ(rsm.get("CV_Y"), 2000);
       }
@@ -207,7 +207,7 @@ TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
   EXPECT_EQ(rsm.get("LP_Y"), -4010);
   EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
   EXPECT_EQ(rsm.ports().output_pulses(kFirstOut + 1), 0);
-  // The setting is used up.
+  // The setting has been used.
   rsm.send({"RSM_LINE_SCAN_START X 0 4000"});
   rsm.run_to_rest();
   EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 100);
@@ -235,7 +235,7 @@ TEST(RsM8194hEvents, AScanThatDoesNotMoveLeavesItsFirstPlaceInCPlus) {
   EXPECT_EQ(rsm.state().units[0].compare[0].value, 510);
 }
 
-// A ring wraps, and the counter may be set on the way: the distance decides.
+// A ring wraps, and the counter may be set during the move: the distance decides.
 TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
   for (const int type : {0, 2}) {
     SteadyRsm rsm;
@@ -260,7 +260,7 @@ TEST(RsM8194hEvents, AHeldLineScanBeginsWhenItIsReleased) {
   SteadyRsm rsm;
   rsm.send({"RSM_DRV_HOLD X", "RSM_LINE_SCAN X 0 0 0 9", "RSM_LINE_SCAN_START X 0 1000"});
   rsm.run(50);
-  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not begun";
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "it has not started";
   rsm.send("RSM_DRV_START X");
   rsm.run(100);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
@@ -290,7 +290,7 @@ TEST(RsM8194hEvents, LineScansThatBeginApartAreBothGiven) {
   rsm.run(100);
   rsm.send("RSM_LINE_SCAN_START Y 0 500");
   rsm.run(400);
-  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is on its way";
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0) << "X is moving";
   rsm.run(600);
   EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
   EXPECT_EQ(rsm.ports().output_pulses(kFirstOut), 200);

@@ -46,7 +46,7 @@ TEST(RsM8194hExternalEdges, EachThatComesWhenThePulsesAreOutCounts) {
     std::int64_t edges;
     Tick ticks;
   };
-  // Edges are half as many falls. A drive is shorter than the time between two of them.
+  // There are half as many edges as falls. A drive is shorter than the time between two of them.
   const Case cases[] = {{4'000'000, 1, 200, 400},   {4'000'000, 1, 200, 200},  {4'000'000, 1, 200, 150},
                         {4'000'000, 1, 200, 100},   {4'000'000, 1, 200, 67},   {4'000'000, 1, 200, 40},
                         {4'000'000, 100, 200, 150}, {4'000'000, 400, 300, 70}, {100'000, 20, 200, 150},
@@ -88,7 +88,7 @@ TEST(RsM8194hExternalEdges, OfAHandWheelAllCount) {
       rsm.run(3);
       rsm.turn(Pin::external_plus, 201, ticks);
       rsm.run(ticks + 50);
-      // Falls and rises by turns, back and forth: the last one, a fall, is left over.
+      // Falls and rises alternate, back and forth: the last one, a fall, is left over.
       EXPECT_EQ(rsm.get("LP_X"), -pulses) << ticks;
       EXPECT_TRUE(rsm.rests());
     }

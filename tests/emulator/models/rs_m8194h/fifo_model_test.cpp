@@ -1,6 +1,6 @@
-// The FIFO compared with a list: 10,000 random courses of commands of one to four blocks, of waiting drives,
-// of stops, busy replies, clears and resets. A difference is printed as steps that can be pasted into a
-// scenario.
+// The FIFO compared with a list: 10,000 random sequences of commands of one to four blocks, of waiting
+// drives, of stops, busy replies, clears and resets. A difference is printed as steps that can be pasted into
+// a scenario.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -27,8 +27,8 @@ struct Waiting {
 struct Model {
   static constexpr int kSteps = 8;
   std::deque<Waiting> waiting{};
-  int steps = kSteps;  // left of this tick
-  bool waits = false;  // a STOP_WAIT has begun
+  int steps = kSteps;  // remaining commands of this tick
+  bool waits = false;  // a STOP_WAIT has started
   bool moves = false;
   bool locked = false;
   bool emergency = false;
@@ -158,7 +158,7 @@ class Course {
     busy_ += fits ? 0 : 1;
     ASSERT_EQ(rsm_.exception(command), fits ? 0 : 6) << text_;
   }
-  /// LP of Y and Z by the table: a command each, and both or none.
+  /// LP of Y and Z through the table: one command each, and both or neither.
   void write_two() {
     const int value = ++last_value_;
     const auto word = static_cast<std::uint16_t>(value);

@@ -58,7 +58,7 @@ TEST(RsM8194hFifo, WritesOfCountersQueueLikeTheirCommands) {
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 26);
   EXPECT_EQ(rsm.get("LP_Y"), 0);
   for (int i = 0; i < 23; ++i) rsm.send("RSM_SET_V Y 1000");
-  // Three are free: four counters are refused whole.
+  // Three are free: four counters are refused as a whole.
   EXPECT_EQ(rsm.ask("10 00 5A 00 08 10 00 00 27 10 00 00 27 10 00 00 27 10 00 00 27 10"), "90 06");
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 3);
   rsm.set("VAR5", 77);  // overtakes

@@ -11,7 +11,7 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace filters_and_pulses_test {
 
 TEST(RsM8194hFilters, EmgGoesThroughThatOfEachAxis) {
-  // FLn 5 is 4.096 ms, for X alone.
+  // FLn 5 is 4.096 ms, only for X.
   for (const int lasts : {3, 20}) {
     OneRsm rsm;
     rsm.send({"RSM_SET_FILTER X 1 5", "RSM_CONTINUE_MOVE XY 1000"});
@@ -69,7 +69,7 @@ TEST(RsM8194hFilters, EachInputIsDelayedByItsBitOfFenAndByFln) {
         const Tick delay = bit == each.filter ? kDelays[number] : 0;
         EXPECT_EQ(passes, delay + 1) << each.word << "." << each.bit << ", FEn " << (1 << bit) << ", FLn "
                                      << number;
-        // It must stay as long as the filter's time.
+        // It must last as long as the filter's time.
         rsm.pin(2, each.pin, false);
         rsm.run(delay);
         rsm.pin(2, each.pin, true);
@@ -99,7 +99,7 @@ TEST(RsM8194hFilters, ExternalDrivesLoseWhatIsTooShort) {
   EXPECT_EQ(rsm.get("LP_X"), 10);
   edge_after(4, 30);
   edge_after(5, 3);
-  // Without the filter, the level that it held back counts.
+  // Without the filter, the level that it held back takes effect.
   rsm.send("RSM_SET_FILTER X 0 0");
   edge_after(6, 30);
   EXPECT_EQ(rsm.get("LP_X"), 20);
@@ -138,7 +138,7 @@ TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
 TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreToldOnce) {
   struct Case {
     const char* command;
-    const char* told;  // begins so; empty: nothing is
+    const char* told;  // begins like this; nothing there if it is empty
   };
   constexpr Case kCases[] = {
       {"RSM_SET_FILTER XY 1 2", "rsm: a filter below 1.024 ms is not modelled: "},

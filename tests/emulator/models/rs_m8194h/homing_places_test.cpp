@@ -1,5 +1,5 @@
-// Homing at the device from everywhere, with each combination of its steps, at three speeds. The end is given
-// by a closed form of what each step looks for (6.3, 4.8).
+// Homing at the device from everywhere, with each combination of its steps, at three speeds. The end comes
+// from a closed form of what each step searches for (6.3, 4.8).
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -14,7 +14,7 @@ constexpr std::int64_t kHomeFirst = -40;
 constexpr std::int64_t kHomeLast = 40;
 constexpr std::int64_t kNearFirst = -600;
 constexpr std::int64_t kNearLast = 300;
-constexpr std::int64_t kLimit = 1000;  // and beyond, on both sides
+constexpr std::int64_t kLimit = 1000;  // and further, on both sides
 constexpr std::int64_t kIndexAt = 140;
 constexpr std::int64_t kIndexWidth = 4;
 constexpr std::int64_t kIndexPeriod = 400;
@@ -41,13 +41,13 @@ const Speeds kSpeeds[] = {
     {"with ramps",
      false,
      {"RSM_SET_SV X 100", "RSM_SET_V X 8000", "RSM_SET_HV X 5000", "RSM_SET_A X 100000"}},
-    // The whole machine lies within a tick.
+    // The whole machine lies within one tick.
     {"highest",
      true,
      {"RSM_SET_MAX_V X 4000000", "RSM_SET_SV X 4000000", "RSM_SET_V X 4000000", "RSM_SET_HV X 4000000"}},
 };
 
-/// Beyond, on, beside and between all switches, on an index, too.
+/// Beyond, on, beside and between all switches, and on an index.
 constexpr std::int64_t kPlaces[] = {-1100, -1000, -999, -700, -601, -300, -41,  -40,
                                     0,     40,    41,   141,  301,  999,  1000, 1100};
 
@@ -66,7 +66,7 @@ std::int64_t index_phase(std::int64_t place) {
   return ((place - kIndexAt) % kIndexPeriod + kIndexPeriod) % kIndexPeriod;
 }
 
-/// A limit keeps a drive from going on, or from beginning.
+/// A limit prevents a drive from continuing, or from starting.
 bool meets_limit(std::int64_t from, std::int64_t to, int sign) {
   return sign > 0 ? to >= kLimit || from >= kLimit : to <= -kLimit || from <= -kLimit;
 }
@@ -86,7 +86,7 @@ std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_c
     const bool lies_ahead = w1 > 0 ? place < kNearFirst : place > kNearLast;
     place = !lies_ahead ? at_limit(place, w1).place : w1 > 0 ? kNearFirst : kNearLast;
   }
-  // Wherever step 1 has ended, step 2 reaches the first edge on its way.
+  // Wherever step 1 has ended, step 2 reaches the first edge in its direction.
   if (w2 != 0) place = steps.limit_is_home ? w2 * kLimit : w2 > 0 ? kHomeFirst : kHomeLast;
   if (w3 != 0) {
     const std::int64_t phase = index_phase(place);
@@ -96,7 +96,7 @@ std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_c
     place = edge;
   }
   if (w4 != 0) {
-    // A limit that the last pulse reaches counts as met.
+    // A limit that the last pulse reaches counts as reached.
     if (meets_limit(place, place + w4 * kOffset, w4)) return at_limit(place, w4);
     place += w4 * kOffset;
   }
@@ -184,7 +184,7 @@ TEST(RsM8194hHomingPlaces, IrregularWaysPassTheirStates) {
   }
 }
 
-/// Z that is active outside its mark: it is met where the mark ends.
+/// A Z signal that is active outside its mark is reached where the mark ends.
 TEST(RsM8194hHomingPlaces, AnIndexMayBeActiveBetweenItsMarks) {
   for (const int direction : {1, 2}) {
     OneRsm rsm({.plant = {{0, machine(kIndexAt + 1)}}});

@@ -66,7 +66,7 @@ TEST(RsM8194hMacros, EachDownloadErrorShowsWhatAndWhere) {
     EXPECT_EQ(rsm.get("DOWNLOAD_ERROR"), row.error);
     EXPECT_EQ(rsm.get("DOWNLOAD_LINE"), row.line);
     EXPECT_EQ(rsm.get("DOWNLOAD_CMD") & 0xFF00, 0x0A00);
-    // The old macro has stayed.
+    // The old macro is unchanged.
     rsm.send("RSM_MP_CALL " + std::to_string(row.macro));
     rsm.run(3);
     EXPECT_EQ(rsm.get("VAR1"), 42);
@@ -201,7 +201,7 @@ TEST(RsM8194hMacros, FrnetIsScannedEvery2Point88Milliseconds) {
 }
 
 TEST(RsM8194hMacros, FrnetIsScannedFromPowerUpOn) {
-  constexpr Tick kScans[] = {3, 6, 9, 12, 15, 18, 21, 24, 26, 29, 32};  // 2.88 ms after each other
+  constexpr Tick kScans[] = {3, 6, 9, 12, 15, 18, 21, 24, 26, 29, 32};  // 2.88 ms apart
   for (const Tick before : {0, 7, 1007}) {
     OneRsm rsm;
     rsm.run(before);
@@ -267,7 +267,7 @@ TEST(RsM8194hMacros, ALevelRepeatsItsMacroAlsoInOneLongAdvance) {
     EXPECT_EQ(rsm.ask("06 00 09 00 01"), "06 00 09 00 01");
     for (Value tick = 0; tick < 300; tick += ticks_each) rsm.run(ticks_each);
     counts[ticks_each] = rsm.get("VAR0");
-    EXPECT_GE(counts[ticks_each], 300 / 5);  // 3 ms, and a tick to begin and to end
+    EXPECT_GE(counts[ticks_each], 300 / 5);  // 3 ms, plus one tick each to start and to end
   }
   EXPECT_EQ(counts[1], counts[300]);
 }

@@ -48,7 +48,7 @@ class OneRsm {
   const State& state() const { return rsm().state(); }
   const Ports& ports() const { return *rsm().terminals(); }
 
-  /// Serves a request by its station, and returns the reply's PDU as text.
+  /// Serves a request through its station, and returns the reply's PDU as text.
   std::string ask(const world::Bytes& pdu) {
     const world::ModbusReply reply = world::serve(device(), pdu);
     if (reply.refused.objection) device().register_bank()->exception_answered(reply.refused);

@@ -37,7 +37,8 @@ TEST(RsM8194hOtherReadings, TableWritesOfADownloadAreItsLines) {
   EXPECT_EQ(rsm.ask("10 00 58 00 04 08 00 00 00 07 FF FF FF FF"), "10 00 58 00 04");  // ABS_U, LP_X
   EXPECT_EQ(rsm.ask("10 00 68 00 02 04 00 00 00 08"), "10 00 68 00 02");              // EP_U
   EXPECT_EQ(rsm.ask("10 01 2E 00 02 04 00 00 00 09"), "10 01 2E 00 02");              // VAR1
-  EXPECT_EQ(rsm.ask("06 00 81 00 0A"), "06 00 81 00 0A");  // bVAR1 has no line of its own here: at once
+  EXPECT_EQ(rsm.ask("06 00 81 00 0A"),
+            "06 00 81 00 0A");  // bVAR1 has no line of its own, so it is written at once
   EXPECT_EQ(rsm.get("bVAR1"), 10);
   EXPECT_EQ(rsm.get("VAR1"), 0);
   EXPECT_EQ(rsm.get("LP_X"), 0);
@@ -46,7 +47,7 @@ TEST(RsM8194hOtherReadings, TableWritesOfADownloadAreItsLines) {
             "MP 21\n  RSM_MACRO_FRNET_OUT 1 5\n  RSM_MACRO_FRNET_OUT 2 6\n  RSM_MACRO_MP_CALL 3\n"
             "  RSM_MACRO_ABS_SET_POSITION U 7\n  RSM_MACRO_SET_LP X -1\n  RSM_MACRO_SET_EP U 8\n"
             "  RSM_MACRO_SET_VAR VAR1 9\nEND\n");
-  // Outside a download, they are as usual.
+  // Outside a download, they act as usual.
   rsm.set("VAR1", 3);
   EXPECT_EQ(rsm.get("VAR1"), 3);
 }
@@ -84,7 +85,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathLeavesTheOthersOnIt) {
   EXPECT_EQ(rsm.positions(), (std::vector<Value>{200, at, 400, 0}));
   EXPECT_EQ(rsm.get("ERROR_CODE_Y"), 0x100);
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
-  // All that are left: the path ends.
+  // All that remain: the path ends.
   rsm.send({"RSM_CLEAR_STOP Y", "RSM_LINE_3D 200 200 200"});
   rsm.run(100);
   rsm.send("RSM_STOP_SUDDENLY Y");
@@ -96,7 +97,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathLeavesTheOthersOnIt) {
 }
 
 TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathSlowsDownByItsOwnRamp) {
-  // From 1,000 PPS to 100 by 5,000 PPS/s: 99 pulses, in 180 ms. The line is at its speed from the beginning.
+  // From 1,000 PPS to 100 at 5,000 PPS/s: 99 pulses, in 180 ms. The line is at its speed from the beginning.
   for (const int direction : {+1, -1}) {
     OneRsm rsm(GivenRsm{.choices = {{"stop_one_of_path", "it_alone_stops"}}});
     rsm.send({"RSM_SET_MAX_V XY 8000", "RSM_SET_SV XY 100", "RSM_SET_V XY 100", "RSM_SET_A XY 5000",
@@ -127,7 +128,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathHasBegunAlready) {
   EXPECT_EQ(rsm.get("LP_U"), 77);
   rsm.send({"RSM_SET_LP U 0", "RSM_STOP_SLOWLY X"});
   rsm.run(20);
-  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it slows down";
+  EXPECT_EQ(rsm.get("DRIVING_AXIS") & 1, 1) << "it decelerates";
   EXPECT_EQ(rsm.get("LP_U"), 0) << "D-STA came with the path";
 }
 
@@ -227,7 +228,7 @@ TEST(RsM8194hOtherReadings, AScanAboveItsMaximumIsVoid) {
     const char* scan;
     bool begins;
   };
-  // 4,000,000 PPS by 40 pulses are 100 kHz.
+  // 4,000,000 PPS with a pitch of 40 pulses are 100 kHz.
   constexpr Case kCases[] = {{"RSM_SET_V X 4000000", "RSM_LINE_SCAN X 0 0 0 -39", true},
                              {"RSM_SET_V X 4000000", "RSM_LINE_SCAN X 0 0 0 -38", false},
                              {"RSM_SET_V X 40000", "RSM_LINE_SCAN X 0 0 0 -9", true}};
@@ -239,7 +240,7 @@ TEST(RsM8194hOtherReadings, AScanAboveItsMaximumIsVoid) {
   }
 }
 
-/// The pulses that a path continues after a slow stop, along X alone.
+/// The pulses that a path continues after a slow stop, only along X.
 Value slowing_pulses(const Choices& choices, const char* const stop) {
   SteadyRsm rsm(choices);
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_VECTOR_SPEED 0", "RSM_SET_VSV 100", "RSM_SET_VV 10000",
@@ -350,7 +351,7 @@ TEST(RsM8194hOtherReadings, AShortPauseIsOverOnceTheAxisStands) {
   EXPECT_EQ(rsm.get("CV_X"), 1000);
   rsm.pause();
   rsm.go_on();
-  // It is not at rest yet: it continues to slow down.
+  // It is not at rest yet: it continues to decelerate.
   EXPECT_GT(rsm.get("CV_X"), 900);
   rsm.run(500);
   EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 490, 20);
@@ -385,7 +386,7 @@ TEST(RsM8194hOtherReadings, AStopEndsWhatAPauseHolds) {
   rsm.run(100);
   const Value x = rsm.get("LP_X");
   rsm.send("RSM_STOP_SUDDENLY X");
-  rsm.send("RSM_VSTOP_SUDDENLY");  // is not for what moves alone
+  rsm.send("RSM_VSTOP_SUDDENLY");  // does not apply to an axis that moves on its own
   rsm.go_on();                     // which clears the stop as well
   rsm.run(2000);
   EXPECT_EQ(rsm.get("LP_X"), x);
@@ -404,7 +405,7 @@ TEST(RsM8194hOtherReadings, AReadClearsWhatItHasShown) {
   rsm.send("RSM_FIXED_MOVE XY 5");
   rsm.run(20);
   EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "the MP has ended; it has cleared the module's error";
-  EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "who looks from outside clears nothing";
+  EXPECT_EQ(rsm.get("RINT_STATE_ALL"), 2) << "an observer clears nothing";
   EXPECT_EQ(rsm.ask("04 00 49 00 01"), "04 02 00 00");  // another bit
   EXPECT_EQ(rsm.ask("04 00 4A 00 01"), "04 02 00 01");
   EXPECT_EQ(rsm.ask("04 00 48 00 01"), "04 02 00 00");
@@ -416,7 +417,7 @@ TEST(RsM8194hOtherReadings, AReadClearsWhatItHasShown) {
   rsm.run(5);
   rsm.send("RSM_LINE_3D_CONTINUE 0 1 1 1");
   rsm.run(5);
-  EXPECT_EQ(rsm.ask("04 00 50 00 01"), "04 02 00 01");  // the module's error alone
+  EXPECT_EQ(rsm.ask("04 00 50 00 01"), "04 02 00 01");  // only the module's error
   EXPECT_EQ(rsm.ask("04 00 48 00 01"), "04 02 00 02");
   EXPECT_EQ(rsm.ask("04 00 48 00 01"), "04 02 00 00");
 }

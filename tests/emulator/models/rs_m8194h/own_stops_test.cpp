@@ -1,4 +1,4 @@
-// Stops by a synchronous action on the axis itself, at full speed: exact to the pulse, and for a path as a
+// Stops of an axis by its own synchronous action, at full speed: exact to the pulse, and for a path as a
 // whole.
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 namespace own_stops_test {
 
-/// 4,000 pulses a millisecond.
+/// 4,000 pulses per millisecond.
 struct FastRsm : OneRsm {
   explicit FastRsm(const GivenRsm& given = {}) : OneRsm(given) {
     send({"RSM_SET_MAX_V XYZU 4000000", "RSM_SET_SV XYZU 4000000", "RSM_SET_V XYZU 4000000"});
@@ -26,7 +26,7 @@ TEST(RsM8194hOwnStops, ByAComparatorStopAPathAtItsPulse) {
     rsm.run(50);
     EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0) << stop;
     EXPECT_EQ(rsm.get("LP_X"), stop);
-    // The partner is where the path is: half a pulse.
+    // The partner is where the path is: within half a pulse.
     EXPECT_NEAR(static_cast<double>(rsm.get("LP_Y")), static_cast<double>(stop) / 2, 1) << stop;
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
   }
@@ -53,7 +53,7 @@ struct Against {
   const char* path;
   std::size_t axis;
   Pin pin;
-  int error_x, error_y;  // 0 both: it begins
+  int error_x, error_y;  // both 0: it starts
 };
 const Against kAgainst[] = {
     {"RSM_LINE_2D 100 100", 0, Pin::limit_plus, 4, 0},
@@ -106,7 +106,7 @@ TEST(RsM8194hOwnStops, ASoftLimitThatIsJustReachedIsNotWhatStops) {
     const char* path;
     Value error_x, error_y;
   };
-  // One pulse beyond X's limit a path ends, without ramps; there Y is on its own one, or beyond it as well.
+  // One pulse beyond X's limit a path ends, without ramps; there Y is at its own limit, or beyond it as well.
   constexpr Case kCases[] = {
       {"RSM_SET_SLMT X 500 -2000 0", "RSM_SET_SLMT Y 501 -2000 0", "RSM_LINE_2D 1000 1000", 1, 0},
       {"RSM_SET_SLMT X 500 -2000 0", "RSM_SET_SLMT Y 500 -2000 0", "RSM_LINE_2D 1000 1000", 1, 1},

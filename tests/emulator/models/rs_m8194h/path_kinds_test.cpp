@@ -19,7 +19,7 @@ TEST(RsM8194hPathKinds, AStreamIsConstantWhereItsInitialSaysSo) {
     const char* segment;
     bool is_constant;
   };
-  // 10,000 pulses at 10,000 PPS: ramps of 10,000 PPS/s from 0 make a second of them two.
+  // 10,000 pulses at 10,000 PPS: ramps of 10,000 PPS/s from 0 turn one second into two.
   constexpr Case kCases[] = {
       {"RSM_MIX_2D_INITIAL X Y 0 0 10000 10000", "RSM_MIX_2D_CONTINUE 1 1 0 0 10000 0", true},
       {"RSM_MIX_2D_INITIAL X Y 1 0 10000 10000", "RSM_MIX_2D_CONTINUE 1 1 0 0 10000 0", false},
@@ -35,7 +35,7 @@ TEST(RsM8194hPathKinds, AStreamIsConstantWhereItsInitialSaysSo) {
   }
 }
 
-/// What a mode of VECTOR_SPEED is for (7.2.2).
+/// The paths that a mode of VECTOR_SPEED is for (7.2.2).
 struct Mode {
   bool line_2d, arc, line_3d;
 };
@@ -126,7 +126,7 @@ TEST(RsM8194hPathKinds, RectanglesCloseFromEachOfTheirPoints) {
   }
 }
 
-/// As far as the kernel's arcs go; beyond that the log says it once.
+/// As far as the arcs of the kernel go; beyond that the log reports it once.
 TEST(RsM8194hPathKinds, AHelixBeyondTheKernelIsVoidAndToldOnce) {
   struct Case {
     const char* turns_and_pitch;
@@ -150,7 +150,7 @@ TEST(RsM8194hPathKinds, AHelixBeyondTheKernelIsVoidAndToldOnce) {
     }
     EXPECT_EQ(told.size(), each.told) << each.turns_and_pitch;
   }
-  // Another one that cannot be drawn: its centre is where it begins.
+  // Another one that cannot be drawn: its centre is its start.
   OneRsm rsm;
   rsm.device().set_log([&](const std::string& text) { ADD_FAILURE() << text; });
   rsm.send("RSM_HELIX_3D X Y Z 1 1000 0 0 1 1");

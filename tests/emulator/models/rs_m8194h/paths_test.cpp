@@ -1,5 +1,5 @@
-// Lines, arcs, streams, rectangles, helices: where they end, how long they take, how far from the path
-// (7.2, 7.4).
+// Lines, arcs, streams, rectangles, helices: where they end, how long they take, how far they are from the
+// ideal path (7.2, 7.4).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -199,7 +199,7 @@ bool line_passes(const Place& a, const Place& b, const Place& place) {
   }
   return from <= to;
 }
-/// The same for a circle in the first two.
+/// Like the above for a circle, in the first two coordinates.
 bool circle_passes(const Place& centre, double radius, const Place& place) {
   const double dx = std::abs(place[0] - centre[0]);
   const double dy = std::abs(place[1] - centre[1]);
@@ -267,7 +267,7 @@ std::vector<Course> courses() {
                    if (!circle_passes({1000, 0, 0}, 1000, place)) return false;
                    const double turned = std::atan2(-place[1], 1000 - place[0]) / (2 * std::numbers::pi);
                    const double by_z = place[2] / -700;
-                   // A pulse of Z is a good part of a turn, and one across it a small one.
+                   // A pulse of Z is a good part of a turn, and a pulse across is a small one.
                    const double off = std::remainder(by_z - turned, 1.0);
                    return std::abs(off) <= 0.5 / 700 + 0.71 / (1000 * 2 * std::numbers::pi);
                  }},
@@ -342,7 +342,7 @@ TEST(RsM8194hPaths, AStreamOf20001SegmentsNeverStops) {
   EXPECT_LT(static_cast<double>(rsm.now() - begin - kStep), (at_v + ramp_s - ramp_pulses / 18000) * 1000 + 1);
 }
 
-/// A limit whose active level has been changed since the last tick keeps a path from beginning.
+/// A limit whose active level has changed since the last tick keeps a path from starting.
 TEST(RsM8194hPaths, APathFindsTheSignalsOfThisMoment) {
   for (const std::string axis : {"X", "Y", "Z", "U"}) {
     OneRsm rsm;

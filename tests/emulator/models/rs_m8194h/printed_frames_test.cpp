@@ -39,9 +39,9 @@ TEST(RsM8194hFrames, EachPrintedFrameIsAnsweredAsItShould) {
         inside.send(is_isr ? "RSM_MP_ISR_CREATE 19" : "RSM_MP_CREATE 157");
         const bool is_taken = is_isr ? row->use.in_isr : row->use.in_mp;
         const bool opens = is_isr && (row->verb == lang::Verb::next || row->verb == lang::Verb::exit_for);
-        if (opens) continue;  // FOR is no command of an ISR
+        if (opens) continue;  // an ISR cannot contain FOR
         open_block_before(inside, row->verb);
-        // A GOTO may name a label that comes later.
+        // A GOTO can name a label that comes later.
         EXPECT_EQ(inside.ask(bytes), is_taken ? pdu(fact.at("answer")) : "90 03") << is_isr;
         if (is_taken) continue;
         EXPECT_EQ(inside.get("IllegalFuncErr"), is_isr ? 4 : 5);

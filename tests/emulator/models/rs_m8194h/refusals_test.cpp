@@ -50,7 +50,7 @@ TEST(RsM8194hRefusals, EachHasItsExceptionAndItsReason) {
     for (const std::string_view command : row.before) rsm.send(command);
     EXPECT_EQ(rsm.ask(row.request), row.reply);
     EXPECT_EQ(rsm.get("IllegalFuncErr"), row.reason);
-    // Good requests do not change the reason.
+    // Valid requests do not change the reason.
     EXPECT_EQ(rsm.ask("04 00 47 00 01"), "04 02 00 1E");
     EXPECT_EQ(rsm.get("IllegalFuncErr"), row.reason);
   }
@@ -135,7 +135,7 @@ TEST(RsM8194hRefusals, FirmwaresShowTheirVersions) {
 /// Reasons 4 to 7, whatever their exception is; other reasons keep theirs.
 TEST(RsM8194hRefusals, ExceptionOfTheStateIsOfItsReasonsAlone) {
   struct StateCase {
-    const char* state;  // a command that leads there, and one back
+    const char* state;  // a command that leads to this state, and one that leads back
     const char* back;
     const char* sent;
     Value reason;

@@ -54,7 +54,7 @@ TEST(RsM8194hChoices, AStopThatWaitsIsCarriedOutInItsTurn) {
   rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 100", "RSM_FIXED_MOVE X 100",
             "RSM_STOP_SUDDENLY X", "RSM_FIXED_MOVE X 100"});
   rsm.run_to_rest();
-  // The second drive has just begun when it is stopped; the third one finds X locked.
+  // The second drive has just started when it is stopped; the third one finds X locked.
   EXPECT_EQ(rsm.get("LP_X"), 100);
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0x100);
 }
@@ -111,7 +111,7 @@ TEST(RsM8194hChoices, IsrsComeInTheOrderOfTheirEnabling) {
     std::vector<const char*> enabling;
     Value order;
   };
-  // D-END of X by a factor, and by an action of U that it triggers.
+  // D-END of X through a factor, and through an action of U that it triggers.
   const char* const kFactor = "RSM_INTFACTOR_ENABLE X 7 1";
   const char* const kAction = "RSM_SYNC_ACTION X U 0x20 0 0 0 0 1 0 0 0 2";
   const char* const kClear = "RSM_CLEAR_SYNC_ACTION X";
@@ -164,7 +164,7 @@ TEST(RsM8194hChoices, ParametersMayComeInParts) {
   // Beyond the window's end, and with too many registers, it is refused as usual.
   EXPECT_EQ(twin.ask("10 1FA4 0002 04 0000 0000"), "90 02");
   EXPECT_EQ(twin.ask("10 1F40 0005 0A 0A4E 0001 0000 0001 0000"), "90 03");
-  // A line of a macro, too.
+  // The same for a line of a macro.
   twin.send("RSM_MP_CREATE 1");
   EXPECT_EQ(twin.ask("10 1F41 0004 08 7FFF 0005 0000 0007"), "10 1F 41 00 04");
   EXPECT_EQ(twin.ask("10 1F40 0001 02 0CD2"), "10 1F 40 00 01");

@@ -1,4 +1,4 @@
-// Many ticks in one step equal single ticks: random courses of drives, paths, homing, comparators, macros,
+// Many ticks in one step equal single ticks: random sequences of drives, paths, homing, comparators, macros,
 // inputs, machines that lose pulses, and power. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ class Course {
     }
   }
 
-  /// An event for both, and its name.
+  /// An event for both worlds, and its name.
   std::pair<std::function<void(OneRsm&)>, std::string> act() {
     const auto axis = static_cast<std::size_t>(between(0, 2));
     const bool on = one_in(2);

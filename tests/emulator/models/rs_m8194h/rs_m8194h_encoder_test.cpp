@@ -67,7 +67,7 @@ TEST(RsM8194hEncoder, AloneIsCountedHoweverTimeGoesBy) {
   }
 }
 
-/// SET_ENCODER (3.10): edges of A and B, of A, or A's rising ones; B first counts down. Up and down pulses
+/// SET_ENCODER (3.10): edges of A and B, of A, or rising edges of A; B first counts down. Up and down pulses
 /// are counted one by one.
 TEST(RsM8194hEncoder, IsDividedAndTurnedRound) {
   for (int mode = 0; mode < 4; ++mode) {
@@ -83,7 +83,7 @@ TEST(RsM8194hEncoder, IsDividedAndTurnedRound) {
       world.receive(0, framed({0x01, 0x10, 0x1F, 0x40, 0x00, 0x05, 0x0A, 0x0A, 0x14, 0x00, 0x01, 0x00,
                                byte(mode), 0x00, byte(division), 0x00, 0x00}));
       world.advance_to(world.now() + 5ms);
-      EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << "what was counted stays";
+      EXPECT_EQ(value_of(world, "cell.EP_X"), 40) << "the counts stay";
       const bool is_quadrature = mode == 0 || mode == 2;
       const int by = is_quadrature ? 1 << division : 1;
       const int direction = mode < 2 ? 1 : -1;

@@ -167,19 +167,19 @@ TEST(RsM8194hLanguage, MessagesMakeTheSameTextAgain) {
   EXPECT_EQ(cells.disassemble(rows, settings_with()), kMacros);
   try {
     cells.assemble(kMacros + kTriggers, settings_with());
-    ADD_FAILURE() << "triggers are no messages";
+    ADD_FAILURE() << "triggers are not messages";
   } catch (const ProgramError& error) {
     EXPECT_EQ(in_text(error.first()),
               "line 13, column 1: TRIGGER is not a message to the window; expected macros alone");
   }
   try {
     cells.assemble("\xEF\xBB\xBF  TRIGGER 8.0 on MP1\n\n; no more\n", settings_with());
-    ADD_FAILURE() << "triggers are no messages";
+    ADD_FAILURE() << "triggers are not messages";
   } catch (const ProgramError& error) {
     EXPECT_EQ(in_text(error.first()).substr(0, 17), "line 1, column 3:");
   }
 
-  // A host that sends the messages has stored the same.
+  // A host that sends the messages has stored the same macro.
   OneRsm rsm;
   for (const CellRow& row : rows) {
     std::vector<std::uint16_t> words;

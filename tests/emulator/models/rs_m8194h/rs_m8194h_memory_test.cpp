@@ -49,7 +49,7 @@ TEST(RsM8194hMemory, KeepsWhatTheManualSaysAndLosesTheRest) {
   EXPECT_EQ(rsm.device().user_program()->program_text(),
             "MP 5\n  RSM_MACRO_SET_VAR VAR1 3\nEND\n\nTRIGGER 8.4 on MP5\n");
 
-  // Into another device, by its image.
+  // Into another device, through its image.
   DeviceSettings settings;
   settings.name = "other";
   settings.nv = image;
@@ -132,7 +132,7 @@ TEST(RsM8194hMemory, TheFactorysIsEmpty) {
   EXPECT_TRUE(image.blocks.empty());
 }
 
-/// Something of each kind, for a state that contains everything.
+/// One of each kind, for a state that contains everything.
 std::string_view busy_course(int step) {
   constexpr std::string_view kCommands[] = {"RSM_CONTINUE_MOVE Z 3000",
                                             "RSM_MIX_2D_INITIAL X Y 1 1000 10000 50000",
@@ -214,7 +214,7 @@ TEST(RsM8194hMemory, AFlippedByteIsRefusedOrCanBeLivedOn) {
 }
 
 TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
-  // The same course, with a watcher of every tick and without.
+  // The same sequence, with and without an observer of every tick.
   OneRsm stepped;
   OneRsm crossed;
   const auto both = [&](std::string_view command) {
@@ -236,7 +236,7 @@ TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
   EXPECT_EQ(stepped.positions(), crossed.positions());
 }
 
-/// A command of a random course: most of those that move, stop, hold and wait.
+/// A command of a random sequence: most of those that move, stop, hold and wait.
 std::string random_command(std::uint32_t& seed) {
   const auto draw = [&](std::uint32_t most) {
     seed = seed * 1664525 + 1013904223;

@@ -11,7 +11,7 @@ namespace understudy::emulator::models::rs_m8194h {
 namespace short_segments_test {
 
 struct Zigzag {
-  int across;  // pulses of each segment in X; Y goes as far up and down
+  int across;  // pulses of each segment in X; Y moves the same distance up and down
   int pps;     // along the path
 };
 const Zigzag kZigzags[] = {{1, 1000},    {3, 10000},   {3, 20000},   {7, 50000},
@@ -40,7 +40,7 @@ TEST(RsM8194hShortSegments, AreJoinedWithoutAStop) {
     while (rsm.get("DRIVING_AXIS") != 0 && rsm.now() < begin + 100'000) {
       const auto x = static_cast<double>(rsm.get("LP_X"));
       const auto y = static_cast<double>(rsm.get("LP_Y"));
-      // Within half a pulse, in each coordinate, of some place of the path.
+      // Within half a pulse, in each coordinate, of some point of the path.
       double off = 1e9;
       for (int step = -10; step <= 10; ++step) {
         off = std::min(off, std::abs(y - height(shape, std::max(x + 0.05 * step, 0.0))));

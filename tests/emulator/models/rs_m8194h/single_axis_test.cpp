@@ -24,7 +24,7 @@ std::string number(double value) { return std::to_string(static_cast<long long>(
 /// Ticks from the command to the tick in which the move is over.
 Tick ticks_of(double seconds) { return static_cast<Tick>(std::ceil(seconds * 1000 - 1e-6)) + 1; }
 
-/// Trapezoid with its own deceleration, and AO pulses crept at SV.
+/// A trapezoid with separate deceleration, and AO pulses at SV.
 double trapezoid_s(double distance, double sv, double v, double a, double d, double ao) {
   const double up = (v * v - sv * sv) / (2 * a);
   const double down = (v * v - sv * sv) / (2 * d);
@@ -39,7 +39,7 @@ double s_curve_s(double distance, double sv, double v, double k, double l, doubl
 
 struct Move {
   int mode;
-  double distance, sv, v, a, d, ao;  // a and d: K and L where the mode is an S-curve
+  double distance, sv, v, a, d, ao;  // a and d: K and L if the mode is an S-curve
 };
 constexpr Move kMoves[] = {
     {0, 20000, 1000, 10000, 20000, 0, 0},      {0, 20000, 1000, 10000, 20000, 0, 8},
@@ -177,7 +177,7 @@ TEST(RsM8194hAxis, SoftLimitsStopAndOnlyTheWayBackIsFree) {
 TEST(RsM8194hAxis, SoftLimitsGoByTheCountThatIsSet) {
   struct Case {
     int travel;  // before
-    int count;   // that is set there
+    int count;   // those that are set there
     int by_encoder;
   };
   std::vector<Case> cases;
@@ -198,7 +198,7 @@ TEST(RsM8194hAxis, SoftLimitsGoByTheCountThatIsSet) {
     rsm.run_to_rest();
     EXPECT_EQ(rsm.get(counter), 501);
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 1);
-    rsm.send({set + std::to_string(each.count), "RSM_FIXED_MOVE X -2000"});  // with the limits in force
+    rsm.send({set + std::to_string(each.count), "RSM_FIXED_MOVE X -2000"});  // with the limits in effect
     rsm.run_to_rest();
     EXPECT_EQ(rsm.get(counter), -301);
     EXPECT_EQ(rsm.get("ERROR_CODE_X"), 2);
@@ -233,7 +233,7 @@ TEST(RsM8194hAxis, NewTotalsAndSpeedsActOnTheWay) {
   EXPECT_EQ(rsm.get("LP_X"), -2000);
   rsm.send("RSM_FIXED_MOVE X 5000");
   rsm.run(1001);
-  rsm.send("RSM_SET_PULSE X 500");  // passed already
+  rsm.send("RSM_SET_PULSE X 500");  // already passed
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
   EXPECT_EQ(rsm.get("LP_X"), -1000);
   rsm.send({"RSM_CONTINUE_MOVE X -2000", "RSM_SET_A X 10000"});
@@ -325,7 +325,7 @@ TEST(RsM8194hAxis, AContinuousExternalDriveIsItsInputsAlone) {
   };
   struct Case {
     std::vector<const char*> between;
-    Value speed;  // behind that, the input still closed
+    Value speed;  // after that, the input is still closed
     bool moves;   // once it has opened
   };
   const Case kCases[] = {
@@ -375,7 +375,7 @@ TEST(RsM8194hAxis, ANewSpeedOnTheWayMayBeBelowTheStartSpeed) {
   EXPECT_LT(rsm.get("CV_X"), 2000);
   EXPECT_GT(rsm.get("CV_X"), 1400);
   rsm.run(70);
-  // Below its start speed, and still by its ramp.
+  // Below its start speed, and still along its ramp.
   EXPECT_NEAR(static_cast<double>(rsm.get("CV_X")), 800, 30);
   rsm.run(200);
   EXPECT_EQ(rsm.get("CV_X"), 500);
@@ -384,7 +384,7 @@ TEST(RsM8194hAxis, ANewSpeedOnTheWayMayBeBelowTheStartSpeed) {
   EXPECT_EQ(rsm.get("LP_X") - at, 500);
 }
 
-/// It does not keep the other input from starting one either.
+/// It does not prevent the other input from starting one either.
 TEST(RsM8194hAxis, AnExternalDriveThatALimitEndsIsNone) {
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V X 8000", "RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_EXD_CP X 1000"});

@@ -1,5 +1,5 @@
-// Soft limits and paths (3.9.1, 7.2, 7.4): every kind of limit with every kind of path, also one that leaves
-// the allowed range and returns before its end. The oracle is the same path without limits.
+// Soft limits and paths (3.9.1, 7.2, 7.4): every kind of limit with every kind of path, including one that
+// leaves the allowed range and returns before its end. The oracle is the same path without limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace soft_limits_on_paths_test {
 
 using Commands = std::vector<std::string>;
 
-/// Axis1 meets its limit; `way` mirrors everything to the minus side.
+/// Axis1 reaches its limit; `way` mirrors everything to the minus side.
 struct PathKind {
   const char* name;
   bool has_ramps;
@@ -132,7 +132,7 @@ struct Run {
   }
 
   static GivenRsm given(const LimitKind& limit) {
-    // The rest of a stream after a limit would run as its own stream, so all of it is loaded.
+    // The rest of a stream after a limit would run as a separate stream, so all of it is loaded.
     GivenRsm made{.choices = {{"stream_lookahead", "30"}}};
     if (limit.at_once) made.choices["soft_limit_stop"] = "at_once";
     if (limit.has_encoder) {
@@ -166,20 +166,20 @@ void check(const LimitKind& limit, const PathKind& path, int direction, Value mo
     EXPECT_TRUE(run.places == free.places);
     return;
   }
-  // Until the limit is met, nothing is different.
+  // Until the limit is reached, nothing is different.
   std::size_t met = 0;
   while (free.places[met][0] * direction <= most) ++met;
   for (std::size_t t = 0; t < met; ++t) ASSERT_EQ(run.places[t], free.places[t]) << t;
-  // It continues along the path by its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of
+  // It continues along the path with its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of
   // the path at full speed. The encoder's count comes a tick later.
   const bool slows = path.has_ramps && !limit.at_once;
   const std::size_t ramp = slows ? 240 : 0;
   if (limit.at_once && !limit.has_encoder) {
     EXPECT_EQ(run.places.back()[0], direction * (most + 1));
   }
-  // A line slows down for its own end there.
+  // A line decelerates for its own end there.
   const std::size_t end = std::min(met + ramp, free.places.size() - 1);
-  // Its offset, 8 pulses, is of the end alone.
+  // Its offset, 8 pulses, only applies to the end.
   EXPECT_LE(apart(run.places.back(), free.places[end]), 8) << "tick " << end;
 }
 
@@ -187,7 +187,7 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
   for (const LimitKind& limit : kLimits) {
     for (const PathKind& path : kPaths) {
       for (const int direction : {+1, -1}) {
-        // In the middle; so near its turn that it is back before it stops; by one pulse; not at all.
+        // In the middle; so close to its reversal that it is back before it stops; by one pulse; not at all.
         check(limit, path, direction, static_cast<Value>(path.farthest * 0.7));
         if (is_sanitized()) continue;
         check(limit, path, direction, static_cast<Value>(path.farthest * 0.995));
@@ -231,7 +231,7 @@ TEST(RsM8194hSoftLimitsOnPaths, WhoSeesThatItStandsSeesWhyAndMayClearIt) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
 }
 
-/// A path along one axis slows down as a drive of that axis does, from the same tick on.
+/// A path along one axis decelerates as a drive of that axis does, from the same tick on.
 TEST(RsM8194hSoftLimitsOnPaths, APathSlowsDownWhereADriveDoes) {
   for (const LimitKind& limit : kLimits) {
     if (limit.at_once) continue;

@@ -48,7 +48,7 @@ struct MidstRsm : OneRsm {
 };
 
 struct Left {
-  bool mp = false;  // still runs
+  bool mp = false;  // still running
   bool isr = false;
   bool moves = false;  // X, three seconds later
   bool locked = false;
@@ -107,10 +107,10 @@ const Case kCases[] = {
     {Midst::isr, "RSM_RESET_CARD", {}},
     {Midst::isr, "RSM_FIXED_MOVE Y 100", {.mp = true, .isr = true, .moves = true, .free = 29}},
     {Midst::isr, "+LMTP_X", {.mp = true, .isr = true, .error_x = 4}},
-    // The end of its wait: both come to their ends, and the TIMER has run meanwhile.
+    // The end of its wait: both run to their ends, and the TIMER has run meanwhile.
     {Midst::isr, "+DI_8_0", {.moves = true, .var1 = 1, .var2 = 1}},
 
-    // Segments that remain in the FIFO are void, one after the other.
+    // Segments that remain in the FIFO are void, one after another.
     {Midst::stream, "RSM_STOP_SLOWLY X", {.locked = true, .error_x = kStop}},
     {Midst::stream, "RSM_STOP_SUDDENLY X", {.locked = true, .error_x = kStop}},
     {Midst::stream, "RSM_VSTOP_SLOWLY", {.path_locked = true, .error_x = kStop, .error_y = kStop}},

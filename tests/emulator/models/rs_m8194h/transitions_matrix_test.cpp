@@ -23,10 +23,10 @@ const Situation kStates[] = {
     {"driving", {"RSM_CONTINUE_MOVE X 10000"}},
     {"interpolating", {"RSM_LINE_2D 1000000 500000"}},
     {"homing", {"RSM_SET_HOME_MODE X 1 0 0 0 0", "RSM_HOME_START X"}},
-    // X stands; its drive begins together with that of Y, which moves. A lock of X voids its part alone, and
-    // what is no stop waits behind it (7.5.3, 7.5.4: a stop locks the axes that it names). VSTOP locks all
-    // axes that are assigned, and their drives are void (7.5.5, 7.5.6): none of it is left to wait. EMG ends
-    // Y's drive, too, so this one is tried at once, and void.
+    // X is at rest; its drive starts together with that of Y, which moves. A lock of X voids only its part,
+    // and commands behind it that are not stops wait (7.5.3, 7.5.4: a stop locks the axes that it names).
+    // VSTOP locks all axes that are assigned, and their drives are void (7.5.5, 7.5.6): no part of it waits.
+    // EMG ends Y's drive, too, so this one is tried at once, and is void.
     {"waited for", {"RSM_CONTINUE_MOVE Y 10000", "RSM_FIXED_MOVE XY 100000"}},
     {"held", {"RSM_DRV_HOLD X", "RSM_FIXED_MOVE X 100000"}},
     {"locked", {"RSM_STOP_SUDDENLY X"}},
@@ -43,9 +43,9 @@ struct Edge {
   bool is_emergency = false;
 };
 
-/// What X is afterwards: M moves or S stands, soon and 3 s later; L locked, V locked as an axis of paths, E
-/// in the emergency state; D a drive of it is held, P a path of it is; h it is held; W the FIFO waits; its
-/// error.
+/// The state of X afterwards: M moves or S is at rest, soon and 3 s later; L locked; V locked as an axis of
+/// paths; E in the emergency state; D a drive of it is held; P a path of it is held; h it is held; W the FIFO
+/// waits; its error.
 struct Row {
   Commands before;  // of the situation
   Commands event;
@@ -86,7 +86,7 @@ const Row kRows[] = {
      {"SS",        "MS",        "MS",        "MS",        "SS W",      "SS Dh",      "SS L 100",    "SS V 100",    "SS E 200"}},
     {{"RSM_SYNC_ACTION U X 64 6 0 0 0 0 0 0 0 0"}, {}, kOpensIn3,
      {"SS",        "SS",        "SS",        "SS",        "SS W",      "SS Dh",      "SS L 100",    "SS V 100",    "SS E 200"}},
-    // Settings, SET_PULSE of what is no fixed move
+    // Settings, and SET_PULSE during a motion that is not a fixed move
     {{}, {"RSM_SET_V X 5000", "RSM_SET_LP X 3", "RSM_SET_COMPARE X 0 0 9", "RSM_SET_PULSE X 5"}, {},
      {"SS",        "MM",        "MM",        "MM",        "SS W",      "SS Dh",      "SS L 100",    "SS V 100",    "SS E 200"}},
     // Stops
@@ -102,7 +102,7 @@ const Row kRows[] = {
      {"SS E 200",  "SS E 200",  "SS E 200",  "SS E 200",  "SS E 200",  "SS E 200",   "SS LE 300",   "SS VE 300",   "SS E 200"}},
     {{}, {"RSM_EMERGENCY_STOP 1"}, {},
      {"SS E 200",  "MS E 200",  "MS E 200",  "MS E 200",  "SS E 200",  "SS E 200",   "SS LE 300",   "SS VE 300",   "SS E 200"}},
-    // What takes them away
+    // What clears them
     {{}, {"RSM_CLEAR_STOP X"}, {},
      {"SS",        "MM",        "MM",        "MM",        "SS W",      "SS Dh",      "SS",          "SS V 100",    "SS E 200"}},
     {{}, {"RSM_CLEAR_VSTOP"}, {},

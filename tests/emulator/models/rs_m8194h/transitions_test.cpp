@@ -85,7 +85,7 @@ const Cell kCells[] = {
     {Does::is_in_emergency,
      "RSM_STOP_SUDDENLY X",
      {.locked = true, .emergency = true, .error = kStop | kEmergency}},
-    // VSTOP, of the axes of AXIS_ASSIGN where nothing interpolates
+    // VSTOP, of the axes of AXIS_ASSIGN if nothing interpolates
     {Does::idles, "RSM_VSTOP_SLOWLY", {.path_locked = true, .error = kStop}},
     {Does::drives,
      "RSM_VSTOP_SLOWLY",
@@ -117,7 +117,7 @@ const Cell kCells[] = {
     {Does::is_path_locked,
      "RSM_EMERGENCY_STOP 1",
      {.path_locked = true, .emergency = true, .error = kStop | kEmergency}},
-    // what takes locks away
+    // what clears locks
     {Does::is_locked, "RSM_CLEAR_STOP X", kNothing},
     {Does::is_path_locked, "RSM_CLEAR_STOP X", {.path_locked = true, .error = kStop}},
     {Does::is_in_emergency, "RSM_CLEAR_STOP X", {.emergency = true, .error = kEmergency}},

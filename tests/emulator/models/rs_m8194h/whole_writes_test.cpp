@@ -1,5 +1,5 @@
-// Writes to the tables that by choice are one message: two words for a group of FRnet outputs, and coils that
-// switch servos.
+// Writes to the tables that one of the choices treats as one message: two words for a group of FRnet outputs,
+// and coils that switch servos.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -24,7 +24,7 @@ TEST(RsM8194hWholeWrites, TwoWordsAreANumberForTheirFirstGroup) {
   rsm.set("VAR511", -2);
   EXPECT_EQ(rsm.ask("10 00 00 00 02 04 00 00 FF FF"), "10 00 00 00 02");
   EXPECT_EQ(rsm.ask("10 00 01 00 02 04 7F FF 01 FF"), "10 00 01 00 02");  // VAR511
-  // No other group follows the last one: CALL_MP follows, which is not meant.
+  // There is no group after the last one: CALL_MP follows, which is not meant.
   EXPECT_EQ(rsm.ask("10 00 07 00 02 04 00 00 00 05"), "10 00 07 00 02");
   EXPECT_EQ(groups(rsm), "03 10 FF FF FF FE 00 00 00 00 00 00 00 00 00 00 00 05");
   rsm.run(20);

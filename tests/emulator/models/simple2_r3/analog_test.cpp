@@ -140,7 +140,7 @@ TEST(Analog, TakesEffectOfACalibrationAtOnce) {
   Measuring feeder;
   feeder.apply(5000);
   feeder.set("ADC_10V_A", 2000);
-  EXPECT_EQ(feeder.get("Analog_A"), 2000) << "without a tick: what was measured is seen in another light";
+  EXPECT_EQ(feeder.get("Analog_A"), 2000) << "without a tick: the measured value is interpreted anew";
 }
 
 TEST(Analog, CalibrationOutlivesThePowerAndTheFactorysReset) {
@@ -173,7 +173,7 @@ TEST(Analog, IsLookedAtOnceATick) {
   Measuring feeder;
   feeder.run_to(10);
   feeder.voltage("AIN_A", 5000);
-  EXPECT_EQ(feeder.get("Analog_A"), 0) << "what the tick before saw";
+  EXPECT_EQ(feeder.get("Analog_A"), 0) << "the value that the previous tick read";
   feeder.world().advance_to(time_of(11) - SimTime{1});
   EXPECT_EQ(feeder.get("Analog_A"), 0);
   feeder.run_to(11);

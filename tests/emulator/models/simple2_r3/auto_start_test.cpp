@@ -19,7 +19,7 @@ void prepare(Switched& feeder, Value auto_start) {
 TEST(AutoStart, BeginsAtLine0InTheFirstSlotAfterEachPowerUp) {
   Switched feeder;
   prepare(feeder, 1);
-  EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status")) << "it is looked at when the power comes";
+  EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status")) << "it is read at power-up";
   for (const Tick power_up : {2000, 3001, 4002, 5003}) {
     feeder.run_to(power_up - 5);
     feeder.power(false);
@@ -36,7 +36,7 @@ TEST(AutoStart, BeginsAtLine0InTheFirstSlotAfterEachPowerUp) {
       ASSERT_EQ(feeder.bit("DOUT_4"), tick >= slot + 14) << tick;
     }
     EXPECT_EQ(feeder.get("PROG_MAIN_NowLine"), 4)
-        << "it waits there, and the next power-up begins at 0 again";
+        << "it waits there, and the next power-up starts at 0 again";
   }
 }
 
@@ -61,7 +61,7 @@ TEST(AutoStart, WrittenTooShortlyBeforeThePowerGoesIsLost) {
   EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status"));
 }
 
-/// The EEPROM goes on while the device boots: eight words take 40 ms, and the boot lasts for a second.
+/// The EEPROM continues while the device boots: eight words take 40 ms, and the boot lasts for a second.
 TEST(AutoStart, WhatIsWrittenWhileTheDeviceBootsIsKept) {
   Switched feeder({.choices = {{"boot_time", "1s"}}, .set = {{"AutoStart_MainProg", 1}}});
   feeder.write(0x4000, {0x05, 4, 1, 0, 0xFF, 0, 0, 0});  // Out 4 ON; END

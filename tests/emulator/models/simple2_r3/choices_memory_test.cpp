@@ -125,7 +125,7 @@ TEST(ChoicesPassword, LockedStartIsAllowedOrIgnored) {
     switch_off_and_on(feeder);
     EXPECT_FALSE(feeder.bit("PROG_UNLOCK"));
     feeder.run(2);
-    EXPECT_TRUE(feeder.bit("PROG_MAIN_RunTime_Status")) << option << ": by itself it always starts";
+    EXPECT_TRUE(feeder.bit("PROG_MAIN_RunTime_Status")) << option << ": it always starts automatically";
     feeder.set("PROG_MAIN_RunTime_END", 1);
     feeder.set("PROG_MAIN_RunTime_START", 0);
     EXPECT_EQ(feeder.bit("PROG_MAIN_RunTime_Status"), allowed) << option;

@@ -185,8 +185,8 @@ TEST(ChoicesModes, PwmNeedsTheServoOrNot) {
 }
 
 TEST(ChoicesModes, SyncSlopeIsInRpmOrInPulsesEachPeriod) {
-  // At 60000 pulses a revolution 1 RPM is 1000 a second, 5 in 5 ms. A slope of 3: 15, 30 and 45 pulses in the
-  // first three periods, or 3, 6 and 9.
+  // At 60000 pulses per revolution 1 RPM is 1000 a second, 5 in 5 ms. A slope of 3: 15, 30 and 45 pulses in
+  // the first three periods, or 3, 6 and 9.
   for (const auto& [option, pulses] : each_option("sync_slope", {{"rpm", 90}, {"pulses", 18}})) {
     ReadySimple2 feeder(with("sync_slope", option));
     feeder.set("Aaxis_Resoultion", 60'000);
@@ -204,7 +204,7 @@ TEST(ChoicesModes, SyncPeriodsBeginWithTheCommandOrAtEveryFifthTick) {
   struct Expected {
     Value at_13, at_15, at_17, at_19;
   };
-  // Ten counts, two pulses a tick over a period; the command comes after tick 12.
+  // Ten counts, two pulses per tick over a period; the command comes after tick 12.
   for (const auto& [option, expected] : each_option<Expected>(
            "sync_period", {{"at_sync_start", {2, 6, 10, 10}}, {"every_fifth_tick", {0, 2, 6, 10}}})) {
     ReadySimple2 feeder(with("sync_period", option));
@@ -220,7 +220,7 @@ TEST(ChoicesModes, SyncPeriodsBeginWithTheCommandOrAtEveryFifthTick) {
 }
 
 TEST(ChoicesModes, EncoderSpeedIsOver100Or10Milliseconds) {
-  // 16 counts a tick of 3200 are 300 RPM; after 10 ticks of the last 100, a tenth of that.
+  // 16 counts per tick of 3200 are 300 RPM; after 10 ticks of the last 100, a tenth of that.
   for (const auto& [option, rpm] :
        each_option("encoder_speed", {{"window_of_100ms", 30}, {"window_of_10ms", 300}})) {
     ReadySimple2 feeder(with("encoder_speed", option));

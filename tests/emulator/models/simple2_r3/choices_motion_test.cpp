@@ -67,7 +67,7 @@ TEST(ChoicesMotion, ModeChangeWhileMovingReplacesTheMoveOrIsIgnored) {
       feeder.run(200);
       EXPECT_EQ(feeder.coordinate('A'), 100) << command;
       feeder.set(command, value);
-      EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << "it stands";
+      EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << "it does not move";
     }
   }
 }
@@ -79,7 +79,7 @@ TEST(ChoicesMotion, SpeedWhileMovingWaitsForTheNextMoveOrCountsAtOnce) {
     feeder.set_one_pulse_a_tick('A', 10'000);
     feeder.set("Aaxis_Move_INC", 1);
     feeder.run(100);
-    feeder.set("Aaxis_Speed", 40);  // two pulses a tick, after 10 ms
+    feeder.set("Aaxis_Speed", 40);  // two pulses per tick, after 10 ms
     feeder.run(100);
     const Value before = feeder.coordinate('A');
     feeder.run(100);
@@ -112,7 +112,7 @@ TEST(ChoicesMotion, ResolutionInMotionWaitsForTheNextMoveOrActsAtOnce) {
     feeder.set_one_pulse_a_tick('A', 10'000);
     feeder.set("Aaxis_Move_INC", 1);
     feeder.run(100);
-    feeder.set("Aaxis_Resoultion", 6000);  // 20 RPM are two pulses a tick now
+    feeder.set("Aaxis_Resoultion", 6000);  // 20 RPM are two pulses per tick now
     feeder.run(100);
     const Value before = feeder.coordinate('A');
     feeder.run(100);
@@ -121,7 +121,7 @@ TEST(ChoicesMotion, ResolutionInMotionWaitsForTheNextMoveOrActsAtOnce) {
 }
 
 TEST(ChoicesMotion, PulseRateCapLowersTheSpeedOrDropsTheCommand) {
-  // At 3000 pulses a revolution 100 kHz is 2000 RPM.
+  // At 3000 pulses per revolution 100 kHz is 2000 RPM.
   for (const auto& [option, runs] :
        each_option<bool>("pulse_rate_cap", {{"speed_lowered", true}, {"command_dropped", false}})) {
     ReadySimple2 feeder(with("pulse_rate_cap", option));
@@ -209,7 +209,7 @@ TEST(ChoicesMotion, AlarmReactionStopsNothingOrSwitchesTheServoOffToo) {
     EXPECT_EQ(feeder.moving('A'), option == "none") << option;
     feeder.input(0, false);
     feeder.run(1);
-    EXPECT_EQ(feeder.bit("STATUS.10"), expected.servo) << "it does not come back by itself";
+    EXPECT_EQ(feeder.bit("STATUS.10"), expected.servo) << "it does not come back automatically";
   }
 }
 

@@ -20,7 +20,7 @@ TEST(ChoicesFlags, AreFoundAtEveryWriteOrAtStart) {
     OneSimple2 feeder(with("flags_found", option));
     start_with_program(feeder, {{0, 0, 0, 1}, {kJump, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 0}, kTheEnd});
     feeder.run(50);
-    EXPECT_TRUE(runs(feeder)) << option << ": round and round";
+    EXPECT_TRUE(runs(feeder)) << option << ": in a loop";
     feeder.set("MAIN_LINE3_JMP", 1);  // the last line with the flag, from now on
     feeder.run(50);
     EXPECT_EQ(feeder.output(0), at_once) << option;
@@ -42,7 +42,7 @@ TEST(ChoicesFlags, BehindTheFirstEndCountOrDoNot) {
   for (const auto& [option, counts] :
        each_option<bool>("flags_after_end", {{"counts", true}, {"does_not_count", false}})) {
     OneSimple2 feeder(with("flags_after_end", option));
-    // Without the flag the jump is to line 0, for ever.
+    // Without the flag the jump is to line 0, forever.
     start_with_program(feeder, {{kJump, 1, 0, 0}, {kOut, 1, 1, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
     feeder.run(50);
     EXPECT_EQ(feeder.output(0), counts) << option;
@@ -84,7 +84,7 @@ TEST(ChoicesFlags, OfSeveralTheLastLineCountsOrTheOneWrittenLast) {
     feeder.set("MAIN_LINE3_JMP", 1);
     feeder.run(1000);
     switch_off_and_on(feeder);
-    EXPECT_EQ(goes_to(), 4) << option << ": nobody knows the order any more";
+    EXPECT_EQ(goes_to(), 4) << option << ": the order is not known any more";
   }
 }
 

@@ -50,7 +50,7 @@ struct HomedSimple2 : HomingSimple2 {
     set(name(build.axis, "Move_INC"), 1);
     EXPECT_EQ(milliseconds_to_end(), 60);
     EXPECT_EQ(place(), kStart);
-    EXPECT_TRUE(homed()) << "a move leaves the home bit alone";
+    EXPECT_TRUE(homed()) << "a move does not change the home bit";
   }
   static HomingAxis at_start(HomingAxis build) {
     build.start = kStart;
@@ -62,7 +62,7 @@ struct HomedSimple2 : HomingSimple2 {
     step_by(moment.ms + 1);
     EXPECT_EQ(place(), moment.place) << moment.phase;
     EXPECT_TRUE(homing());
-    EXPECT_FALSE(homed()) << "out as soon as homing begins";
+    EXPECT_FALSE(homed()) << "off as soon as homing starts";
   }
   void expect_at_rest(const Moment& moment) {
     const char letter = axis().axis;

@@ -104,7 +104,7 @@ struct HomingAxis {
   std::optional<world::PulseSpan> home = world::PulseSpan{100, 120};
   std::optional<std::int64_t> behind = -200;
   std::optional<std::int64_t> ahead = 200;
-  Value speed_rpm = 20;  // at 3000 pulses a revolution one pulse a millisecond
+  Value speed_rpm = 20;  // at 3000 pulses per revolution one pulse a millisecond
   Value time_10ms = 1;
   Value resolution = 3000;
   bool home_assigned = true;

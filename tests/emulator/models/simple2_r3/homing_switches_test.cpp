@@ -131,7 +131,7 @@ TEST(HomingSwitches, ASwitchOfOnePulseIsFoundFromBothSides) {
   });
 }
 
-// 10 pulses a tick: of ten neighbouring pulses a tick ends on one, and only there the inputs are looked at.
+// 10 pulses per tick: of ten neighbouring pulses a tick ends on one, and only there the inputs are looked at.
 TEST(HomingSwitches, ANarrowSwitchIsFoundOnlyIfATickEndsOnIt) {
   for (std::int64_t offset = 0; offset < 10; ++offset) {
     for (std::int64_t width = 1; width <= 10; ++width) {

@@ -11,7 +11,7 @@ const Simple2R3& inside(OneSimple2& feeder) { return static_cast<const Simple2R3
 std::int64_t speed_urpm(OneSimple2& feeder) { return inside(feeder).state().axes[0].speed_urpm; }
 
 TEST(VelocityMode, RampsAndCountsAsWorkedOutByHand) {
-  // 65.536 RPM at 32768 uRPM each half millisecond, 3200 pulses a revolution.
+  // 65.536 RPM at 32768 uRPM each half millisecond, 3200 pulses per revolution.
   ReadySimple2 feeder;
   feeder.set("Axis_VelMode_ACC", 32768);
   const Tick begin = feeder.now();
@@ -143,7 +143,7 @@ TEST(SyncMode, IsDroppedInAnAlarmThatWasAssignedJustNow) {
 TEST(SyncMode, IsNoFasterThanItsTopSpeed) {
   ReadySimple2 feeder;
   feeder.set("Aaxis_Resoultion", 6000);
-  feeder.set("Axis_SyncRPM", 10);  // 1000 pulses a second
+  feeder.set("Axis_SyncRPM", 10);  // 1000 pulses per second
   feeder.set("Aaxis_SyncMode", 1);
   feeder.device().axes()->set_encoder(0, 100'000);
   feeder.run(1000);
@@ -159,7 +159,7 @@ TEST(EncoderSpeed, IsTheCountsOfTheLast100Milliseconds) {
   }
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
   feeder.set("Axis_ENC_Polarity", 1);
-  EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "what is counted is counted";
+  EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "counted pulses stay counted";
   for (int i = 301; i <= 400; ++i) {
     feeder.device().axes()->set_encoder(0, 10 * i);
     feeder.run(1);
@@ -177,7 +177,7 @@ TEST(EncoderSpeed, OfAMachineThatTheAxisMovesIsTheAxisSpeed) {
   feeder.set("ENCA_Resoultion", 6000);
   feeder.set_move('A', 100'000, 100, 1, 1);
   feeder.set("Aaxis_Move_INC", 1);
-  feeder.run(200);  // at 5333.3 pulses or 10,000 counts a second since 10 ms
+  feeder.run(200);  // at 5333.3 pulses or 10,000 counts per second since 10 ms
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
 }
 
@@ -227,7 +227,7 @@ TEST(Homing, TurnsRoundAtTheLimitAndGivesUpAtTheSecond) {
   feeder.input(3, false);
   const Value turned = feeder.coordinate('A');
   feeder.run(100);
-  EXPECT_GT(feeder.coordinate('A'), turned) << "searches the other way";
+  EXPECT_GT(feeder.coordinate('A'), turned) << "searches in the other direction";
   feeder.input(2, true);
   feeder.run(50);
   EXPECT_FALSE(feeder.bit("STATUS.6"));

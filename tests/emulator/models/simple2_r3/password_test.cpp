@@ -123,10 +123,10 @@ TEST(Password, IsOpenedByItselfAloneAndClosedByAnythingElse) {
 TEST(Password, NewOneIsVoidWhileItIsLocked) {
   Locked feeder;
   feeder.lock_with(1234);
-  EXPECT_EQ(feeder.words(kNewPwd), world::Words{0}) << "it is not told";
+  EXPECT_EQ(feeder.words(kNewPwd), world::Words{0}) << "it is not reported";
   feeder.write_word(kNewPwd, 5555);
   feeder.write_word(kNewPwd, 0);
-  EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << "nothing is kept of it";
+  EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << "no part of it is stored";
   EXPECT_EQ(feeder.words(kNewPwd), world::Words{0});
   for (const std::size_t wrong : {5555, 0}) {
     feeder.write_word(kPwdInput, wrong);
@@ -137,7 +137,7 @@ TEST(Password, NewOneIsVoidWhileItIsLocked) {
   EXPECT_FALSE(feeder.unlocked());
   feeder.write_word(kPwdInput, 1234);
   EXPECT_TRUE(feeder.unlocked());
-  EXPECT_EQ(feeder.words(kNewPwd), world::Words{1234}) << "who knows it may read it";
+  EXPECT_EQ(feeder.words(kNewPwd), world::Words{1234}) << "a client with the token can read it";
 }
 
 TEST(Password, NewOneDoesNotShutOutWhoSetsIt) {
@@ -197,7 +197,7 @@ TEST(Password, LetsProgramsBeWrittenStartedAndErasedWhileLocked) {
   feeder.cycle();
   feeder.write_word(kPwdInput, 3);
   EXPECT_EQ(feeder.words(0x4000, 8), (world::Words{0x05, 6, 1, 0, 0xFF, 0, 0, 0}))
-      << "and what was written is kept";
+      << "and the written value is kept";
   feeder.write_word(kPwdInput, 0);
   feeder.set("PROG_MAIN_Erase_ALL", 1);
   feeder.write_word(kPwdInput, 3);
@@ -238,7 +238,7 @@ TEST(Password, OfAFactoryResetThatLostItsPowerIsStillThere) {
 TEST(Password, RegistersAreRefusedWhereTheMapSaysSo) {
   Locked feeder;
   EXPECT_EQ(world::answer(feeder.device(), world::write_request(kUnlock, 1)), "86 02")
-      << "PROG_UNLOCK can only be read";
+      << "PROG_UNLOCK is read-only";
   EXPECT_EQ(world::answer(feeder.device(), world::write_request(kPwdInput, {1, 1, 1})), "90 02");
   EXPECT_EQ(feeder.words(kPwdInput, 3), (world::Words{0, 1, 0}));
 }

@@ -9,9 +9,8 @@ namespace power_cut_test {
 // -----------------------------------------------------------------------------------------
 
 TEST(PowerCut, KeepsExactlyWhatTheEepromHadDoneAndNeverHalfAPair) {
-  // Three position sets in one request: of each the pair takes 10 ms and the words 5 each, one after the
-  // other from tick 1 on. So set n (from 0) has its pair at 11 + 25 n, then Speed, AccTime and DecTime 5 ms
-  // apart.
+  // Three position sets in one request: of each the pair takes 10 ms and the words 5 each, one after another
+  // from tick 1 on. So set n (from 0) has its pair at 11 + 25 n, then Speed, AccTime and DecTime 5 ms apart.
   for (Tick cut = 0; cut <= 80; ++cut) {
     Switched feeder;
     world::Words words;
@@ -64,7 +63,7 @@ TEST(PowerCut, DuringAnErasureLeavesEverythingAsItWas) {
       EXPECT_EQ(feeder.get("AutoStart_MainProg"), reset ? 0 : 1);
       EXPECT_EQ(feeder.get("ADC_1V_A"), 401);
       feeder.run(10);
-      EXPECT_EQ(feeder.bit("DOUT_4"), !erased) << "the program that there is runs";
+      EXPECT_EQ(feeder.bit("DOUT_4"), !erased) << "the present program runs";
     }
   }
 }

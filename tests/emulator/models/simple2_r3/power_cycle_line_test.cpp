@@ -63,7 +63,7 @@ TEST(PowerCycleOnTheLine, AFrameOfWhichItMissedABeginningIsNotHeard) {
       line.to(200ms);
       EXPECT_EQ(line.heard(), world::Bytes{}) << before << timing;
       EXPECT_EQ(world::get(line.world, "feeder.Aaxis_Speed"), 0) << before;
-      EXPECT_EQ(line.ask(kReadHardware), kHardware) << "and it hears the next one";
+      EXPECT_EQ(line.ask(kReadHardware), kHardware) << "and it receives the next one";
     }
   }
 }
@@ -132,7 +132,8 @@ TEST(PowerCycleOnTheLine, WithoutPowerItIsSilentAndTheOtherStationIsNot) {
     EXPECT_EQ(world::get(line.world, "feeder.Aaxis_Speed"), 0);
     EXPECT_EQ(world::get(line.world, "turner.Aaxis_Speed"), 123);
     EXPECT_EQ(line.ask(kReadHardware), kHardware);
-    EXPECT_EQ(line.world.line(0).stations[kFeeder]->counters().requests, 1u) << "those that it could hear";
+    EXPECT_EQ(line.world.line(0).stations[kFeeder]->counters().requests, 1u)
+        << "the requests that it could receive";
   }
 }
 
@@ -239,7 +240,7 @@ TEST(PowerCycleOnTheLine, PulseFormatIsThatOfTheSwitchWhenThePowerComes) {
   EXPECT_EQ(feeder.axes()->pulse_format(), "CW/CCW");
   line.cycle(kFeeder);
   EXPECT_EQ(feeder.axes()->pulse_format(), "PLS/DIR");
-  EXPECT_EQ(feeder.line_settings(0).baud, 19'200) << "DIP1 is another one";
+  EXPECT_EQ(feeder.line_settings(0).baud, 19'200) << "DIP1 is a different switch";
 }
 
 }  // namespace power_cycle_line_test

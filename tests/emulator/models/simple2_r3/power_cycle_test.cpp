@@ -232,7 +232,7 @@ TEST(PowerCycle, StopsWhateverWasGoingOnAndForgetsItWholly) {
           ASSERT_EQ(world::read(feeder.device(), r.address, 1), world::read(twin.device(), r.address, 1))
               << r.name << " " << looks;
         }
-        ASSERT_EQ(feeder.place(0), places[0]) << "the machine stands";
+        ASSERT_EQ(feeder.place(0), places[0]) << "the machine does not move";
         ASSERT_EQ(feeder.place(1), places[1]);
         feeder.run(looks == 0 ? 1 : 3000);
         twin.run(looks == 0 ? 1 : 3000);

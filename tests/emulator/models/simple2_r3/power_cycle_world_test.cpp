@@ -20,7 +20,7 @@ std::uint64_t seed() {
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 81'002;
 }
 
-/// Counts in MEM0 and moves A to and fro, with waits of many kinds; lines of CMD, DATA1, DATA2, JMP.
+/// Counts in MEM0 and moves A back and forth, with waits of many kinds; lines of CMD, DATA1, DATA2, JMP.
 const std::vector<std::uint16_t> kProgram{
     0x2A, 0,  0, 1,  // SVON_A
     0x6B, 0,  0, 0,  // VAR_Inc MEM0
@@ -176,7 +176,7 @@ TEST(PowerCycleInAWorld, AtRandomTimesBulkTicksAreSingleTicksBitForBit) {
   EXPECT_GT(crossed, 10'000u);
   EXPECT_GT(run, 10'000u);
   EXPECT_GT(power_ups, 100);
-  EXPECT_GT(counted, 100) << "programs began by themselves";
+  EXPECT_GT(counted, 100) << "programs started automatically";
 }
 
 TEST(PowerCycleInAWorld, WhatWasKeptOnceIsThereAfterEachPowerUp) {
@@ -193,7 +193,7 @@ TEST(PowerCycleInAWorld, WhatWasKeptOnceIsThereAfterEachPowerUp) {
     const NvImage kept = world.device(0).memory()->nv_image();
     world.switch_power(0, false);
     if (outside.between(0, 1) == 0) world.advance_to(time += kTickLength * outside.between(0, 50));
-    EXPECT_EQ(world.device(0).memory()->nv_image(), kept) << "it rests while there is no power";
+    EXPECT_EQ(world.device(0).memory()->nv_image(), kept) << "it is idle without power";
     world.switch_power(0, true);
     EXPECT_EQ(world.device(0).memory()->nv_image(), kept);
     for (const auto& [name, value] : kept.registers)
@@ -212,7 +212,7 @@ TEST(PowerCycleInAWorld, AWireFromADeviceGoesDeadOneTickAfterItsPower) {
   EXPECT_EQ(world::get(world, "turner.DIN_10"), 1);
   world.switch_power(0, false);
   world.advance_to(time_of(11));
-  EXPECT_EQ(world::get(world, "turner.DIN_10"), 1) << "looked at before the wire is";
+  EXPECT_EQ(world::get(world, "turner.DIN_10"), 1) << "checked before the wire";
   world.advance_to(time_of(12));
   EXPECT_EQ(world::get(world, "turner.DIN_10"), 0);
   world.switch_power(0, true);

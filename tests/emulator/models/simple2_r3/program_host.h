@@ -53,7 +53,7 @@ struct ProgramHost {
     return words.size() < 2 ? 0 : static_cast<std::int32_t>(words[0] | std::uint32_t{words[1]} << 16);
   }
 
-  /// Sets both axes to one pulse a millisecond: 3000 pulses a revolution, 20 RPM, ramps of 10 ms.
+  /// Sets both axes to one pulse a millisecond: 3000 pulses per revolution, 20 RPM, ramps of 10 ms.
   void set_pace() {
     write_32(0xF002, 3000);
     write_32(0xF004, 3000);

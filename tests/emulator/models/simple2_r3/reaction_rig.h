@@ -61,7 +61,7 @@ class Rig : public OneSimple2 {
     set("Aaxis_Move_INC", 1);
   }
 
-  std::int64_t turns = 0;  // counts a tick
+  std::int64_t turns = 0;  // counts per tick
 
  private:
   std::int64_t turned_ = 0;

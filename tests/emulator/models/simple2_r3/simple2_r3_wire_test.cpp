@@ -95,7 +95,7 @@ TEST(Simple2Wire, A16BitRangeIsAcceptedToBothEndsAndNotBeyond) {
       EXPECT_EQ(world::answer(*device, world::write_request(fact.address, world::Words{word})),
                 kWriteManyBadValue);
     }
-    EXPECT_TRUE(same_state(*device, *world::make_simple2())) << "a refused write changed something";
+    EXPECT_TRUE(same_state(*device, *world::make_simple2())) << "a refused write has changed something";
     for (const Value value : {min, max}) {
       const world::Bytes request = world::write_request(fact.address, static_cast<std::uint16_t>(value));
       EXPECT_EQ(world::answer(*device, request), world::text(request)) << value;
@@ -121,7 +121,7 @@ TEST(Simple2Wire, A32BitRangeIsAcceptedToBothEndsAndNotBeyond) {
       EXPECT_EQ(world::answer(*device, write_whole(fact.address, max + 1)), kWriteManyBadValue);
       EXPECT_EQ(world::answer(*device, write_whole(fact.address, fact.highest())), kWriteManyBadValue);
     }
-    EXPECT_TRUE(same_state(*device, *world::make_simple2())) << "a refused write changed something";
+    EXPECT_TRUE(same_state(*device, *world::make_simple2())) << "a refused write has changed something";
     for (const Value value : {min, max}) {
       const world::Bytes request = write_whole(fact.address, value);
       EXPECT_EQ(world::answer(*device, request), accepted(request)) << value;

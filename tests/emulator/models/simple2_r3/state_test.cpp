@@ -165,7 +165,7 @@ TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
     Number greatest;
   };
   constexpr Number kReach = Number{1} << 61;
-  constexpr Number kFastest = INT64_MAX / 4 / 3200;  // at 3200 pulses a revolution
+  constexpr Number kFastest = INT64_MAX / 4 / 3200;  // at 3200 pulses per revolution
   const Bounded fields[] = {
       {"pulses_this_tick", [](State& s, Number v) { s.axes[0].pulses_this_tick = v; }, -kReach, kReach},
       {"alarm_clear_until", [](State& s, Number v) { s.axes[0].alarm_clear_until = v; }, -kReach, kReach},

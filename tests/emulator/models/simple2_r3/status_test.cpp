@@ -38,7 +38,7 @@ TEST(Status, AnAssignedInputLightsItsBitAloneOneTickLater) {
     feeder.run(5);
     EXPECT_EQ(feeder.get("STATUS"), 0) << input;
     feeder.input(input, true);
-    EXPECT_EQ(feeder.get("STATUS"), 0) << input << " before the tick that looks at it";
+    EXPECT_EQ(feeder.get("STATUS"), 0) << input << " before the tick that reads it";
     feeder.run(1);
     EXPECT_EQ(feeder.get("STATUS"), bit < 0 ? 0 : Value{1} << bit) << input;
     feeder.input(input, false);

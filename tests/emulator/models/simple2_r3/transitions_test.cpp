@@ -23,13 +23,13 @@ class Cell {
       }
     }
     EXPECT_EQ(static_cast<int>(simple2_r3::activity(rig_.axis())), static_cast<int>(activity))
-        << "what the test begins with";
+        << "the initial state of the test";
     // The device tells the slope's end from its middle by nothing: it is moving to it, and reacts alike.
     const bool runs_down = activity == Activity::sync && phase == Phase::slowing;
     if (phase != Phase::servo_off) {
       EXPECT_EQ(static_cast<int>(phase_of(rig_.axis(), rig_.now())),
                 static_cast<int>(runs_down ? Phase::moving : phase))
-          << "what the test begins with";
+          << "the initial state of the test";
     }
     way_ = heading(rig_.axis());
     cause(rig_, phase, event);
@@ -173,7 +173,7 @@ class Cell {
   void expect_change() {
     if (doing_ == Activity::pwm) return expect_beginning();
     if (event_ == Event::move_towards || event_ == Event::move_away) return expect_move_on();
-    EXPECT_EQ(sum(rig_.watch(5)) * way_ >= 4, way_ != 0) << "from the speed that there was";
+    EXPECT_EQ(sum(rig_.watch(5)) * way_ >= 4, way_ != 0) << "from the present speed";
     rig_.watch(1500);
     const std::int64_t pulses = sum(rig_.watch(100));
     const std::int64_t wanted = event_ == Event::velocity_zero   ? 0
@@ -226,7 +226,7 @@ TEST(Reactions, NameTheirChoicesOrTheManualsSections) {
                                         [&](const RegisterRow& reg) { return reg.section == section; });
     EXPECT_TRUE(is_choice || is_section || section == "附錄 A" || section == "程式指令列表") << row.source;
     if (row.other.is_there) {
-      EXPECT_TRUE(is_choice) << row.source << ": who chooses otherwise must find the row";
+      EXPECT_TRUE(is_choice) << row.source << ": a bench with another option must find the row";
     }
   }
 }
@@ -272,7 +272,7 @@ TEST(Reactions, ANewPolarityCountsNothing) {
   EXPECT_EQ(rig.get("ENCA_RPM") > 0, rpm > 0);
   rig.turns = 10;
   rig.watch(10);
-  EXPECT_EQ(rig.get("ENCA"), 0) << "and edges count the other way from now on";
+  EXPECT_EQ(rig.get("ENCA"), 0) << "and edges count in the other direction from now on";
   rig.turns = 0;
   rig.set("Axis_ENC_Polarity", 0);
   rig.watch(1);

@@ -36,7 +36,7 @@ TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
   }
   {
     DialogueScript script(1, {{"pulses_per_revolution", "1000"}});
-    // A tenth of the pulses a second: 10000 are 0.6 + 0.1 s.
+    // A tenth of the pulses per second: 10000 are 0.6 + 0.1 s.
     EXPECT_EQ(all_said(script, "MA 10000"), "");
     script.pass(695);
     EXPECT_EQ(all_said(script, "?MD"), "1|");

@@ -1,8 +1,8 @@
-// What each form of SLIM's command list does, as one line of steps apart by ";":
-//   MA 100            is typed; nothing may be said to it
-//   ?PE -> 100        is typed; said to it is this, or several lines apart by "|"
+// The effects of each form of SLIM's command list, as one line of steps separated by ";":
+//   MA 100            is typed; there must be no reply
+//   ?PE -> 100        is typed; this is the reply, or several lines separated by "|"
 //   .                 an empty line is typed
-//   < DONE            is said unasked
+//   < DONE            arrives without a request
 //   @250              this many milliseconds pass
 //   P3 is 1           the level of an output
 //   IN3 = 1, off, on  as in dialogue_script.h
@@ -36,13 +36,13 @@ inline std::vector<std::string> steps_of(std::string_view text) {
   }
 }
 
-/// The steps that a name stands for; `line` is what stands behind it.
+/// The steps that a name stands for; `line` is the text after it.
 inline std::string meaning_of(const std::string& name, const std::string& line) {
   const std::string map = "TX=0; TY=1; TZ=2; TW=3; ";
   const std::string off = "HOFF; T1HOFF; T2HOFF; T3HOFF; @2; ";
   if (name == "map") return map;
-  if (name == "runs") return "PG; WI 8; .; G; @2";  // a program that waits for ever
-  if (name == "full") {                             // all 32 places of T0's buffer, the first one under way
+  if (name == "runs") return "PG; WI 8; .; G; @2";  // a program that waits forever
+  if (name == "full") {                             // all 32 places of T0's buffer, the first one in progress
     std::string steps = "MA 1000000; ";
     for (int i = 0; i < 31; ++i) steps += "CHG P4; ";
     return steps;
@@ -50,7 +50,7 @@ inline std::string meaning_of(const std::string& name, const std::string& line) 
   // Conditions that refuse a motion: a motor without control, a pause.
   const std::string halted = line + " -> ERR 9; {new}; TAPZ; " + line + " -> ERR 6; ";
   if (name == "moves") return "{new}; " + off + halted;
-  if (name == "moves_axis") {  // by its letter: also where no module has it
+  if (name == "moves_axis") {  // by its letter: also if no module has it
     return "{new}; " + line + " -> ERR 4; {new}; " + map + off + line + " -> ERR 9; {new}; " + map +
            "TAPZ; " + line + " -> ERR 6; ";
   }
@@ -59,12 +59,12 @@ inline std::string meaning_of(const std::string& name, const std::string& line) 
            map + "T1PR2=50; " + line + " -> ERR 7; ";
   }
   if (name == "queued") return "{new}; {full}; " + line + " -> ERR 8; ";
-  if (name == "stored") return "{new}; " + map + line + " -> ERR 3; ";  // not to be typed
+  if (name == "stored") return "{new}; " + map + line + " -> ERR 3; ";  // cannot be typed
   ADD_FAILURE() << "no steps by the name of " << name;
   return "";
 }
 
-/// Without names, but for "{new}": a device as it leaves the factory.
+/// Without names, except "{new}": a device with factory settings.
 inline std::vector<std::string> expanded(std::string_view text) {
   std::vector<std::string> steps;
   for (const std::string& step : steps_of(text)) {

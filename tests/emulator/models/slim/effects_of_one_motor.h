@@ -1,4 +1,4 @@
-// The manual's first list: what each form does, and what refuses it. Worked by hand:
+// The manual's first list: the effect of each form, and what refuses it. Calculated by hand:
 //   A move at VM 1000 RPM = 166667 pulses/s with VA 10000 RPM/s = 1666667 pulses/s2, from the first tick
 //   after its command on. 10000 pulses take 2 sqrt(10000 / 1666667) = 0.1549 s, 100000 take 0.6 + 0.1 = 0.7
 //   s, and from 0.3 s of the latter on it slows down within 0.1 s and 8333 pulses: 41667 + 8333 = 50000. A
@@ -57,7 +57,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     // --- motor control
     {"HON", "HOFF; @2; ?ST -> 0; HON; @2; ?ST -> 1; MA 5; @20; ?PE -> 5; {queued HON}"},
     {"TpHON", "T1HOFF; @2; ?T1ST -> 0; ?ST -> 1; T1HON; @2; ?T1ST -> 1; T5HON -> ERR 5; TX=1; T1HON"},
-    // In its turn: the earlier move is completed, the later one is refused.
+    // In order: the earlier move is completed, the later one is refused.
     {"HOFF", "MR 10000; HOFF; MR 5 -> ERR 9; @200; ?PE -> 10000; ?ST -> 32; {queued HOFF}"},
     {"TpHOFF",
      "T2JGF; @20; T2IN1 = 1; T2HOFF; T2JG0; @50; ?T2ST -> 0; T2MA 5 -> ERR 9; ?ST -> 1; "
@@ -85,7 +85,7 @@ inline constexpr Effect kOneMotorEffects[] = {
      "P4 is 1; OUTP 16 -> ERR 2; {queued OUTP 1}"},
     {"ISET Pn", "{full}; ISET P1; @1; P1 is 1; ISET P5 -> ERR 2; {new}; {runs}; ISET P2; @1; P2 is 1"},
     {"ICLR Pn", "SET P1; @1; {full}; ICLR P1; @1; P1 is 0; ICLR P0 -> ERR 2"},
-    // A period of 100 ms, 30 of them on.
+    // A period of 100 ms, of which it is on for 30.
     {"PWM Pn,f,duty",
      "PWM P1,10,30; @15; P1 is 1; @30; P1 is 0; @70; P1 is 1; @30; P1 is 0; "
      "PWM P1,10,101 -> ERR 2; {queued PWM P1,10,30}"},
@@ -124,7 +124,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"JNE c,#var,addr",
      "PG; JNE R1,R5,2; OUT \"PASSED\"; OUT \"THERE\"; .; G; @5; < PASSED; < THERE; R5=0.5; "
      "G; @5; < THERE; JNE 3,N5,2 -> ERR 3"},
-    // The variable is the greater one.
+    // The variable is greater.
     {"JG c,#var,addr",
      "PG; JG 3,N5,2; OUT \"PASSED\"; OUT \"THERE\"; .; N5=3; G; @5; < PASSED; < THERE; N5=4; "
      "G; @5; < THERE; JG 3,N5,2 -> ERR 3"},
@@ -189,7 +189,7 @@ inline constexpr Effect kOneMotorEffects[] = {
      "VM=500; ULC -> PN10=500|PN14=100|FU=0|VA=10000|LL=0|EL=0|PN37=34952|PN44=1|PN45=1|PN46=1|PN50=1|"
      "PR2=1000|PR3=100|PR7=0|SYN=0; {new}; {runs}; ULC -> ERR 3",
      1},
-    // --- numbers in and out
+    // --- input and output of numbers
     {"GETI",
      "PG; GETI; N3=GETI; OUT N3; .; G; @5; 2.5 -> ERR 1; 7; @5; 40000 -> ERR 2; -8; @5; < -8; "
      "GETI -> ERR 3; N3=GETI -> ERR 3; ?N3 -> -8"},
@@ -241,7 +241,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"?VER", "?VER -> 1.00"},
     {"?N#", "N64=-5; ?N64 -> -5; NS(7)=6; ?NS(7) -> 6; ?N65 -> ERR 2"},
     {"?R#", "R64=0.1; ?R64 -> 0.1; RS(7)=1e10; ?RS(7) -> 10000000000; ?R65 -> ERR 2"},
-    // Two pulses are a unit.
+    // Two pulses are one unit.
     {"?PE", "PN45=2; MA 5; @20; ?PE -> 5; PN45=1; PN46=1; ?PE 3 -> ERR 1"},
     {"?LL", "LL=75.5; ?LL -> 75.5"},
     {"?EL", "EL=500; ?EL -> 500"},

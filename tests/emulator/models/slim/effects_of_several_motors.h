@@ -1,5 +1,5 @@
-// The manual's second list, in the same manner. At TVM 100 and TVA 1000 a path of L takes L / 100 + 0.1 s, or
-// 2 sqrt(L / 1000) s where L < 10:
+// The manual's second list, in the same form. At TVM 100 and TVA 1000 a path of L takes L / 100 + 0.1 s, or 2
+// sqrt(L / 1000) s if L < 10:
 //   L  111.8  5       130  20 (10 each)  78.54 (quarter of 50)  63.03 (turn of 10, 5 high)  100
 //   s  1.2180 0.1414  1.4  0.3           0.8854                 0.7303                      1.1
 // 100 long, it is at 45 after 0.5 s and needs 5 more to stop within 0.1 s.
@@ -78,7 +78,7 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     {"SAR Rx,Ry,Ra,Rz",
      "{map}; R1=10; R3=360; R4=-5; CS 3; T2CS 4; PG; SAR R1,R2,R3,R4; .; G; @724; ?ST -> 259; "
      "@12; ?PE -> 3; ?T2PE -> -1; {stored SAR R1,R2,R3,R4}"},
-    // --- all axes: 256 + 8 + 1, in a pause with a command half done
+    // --- all axes: 256 + 8 + 1, in a pause with a half-done command
     {"TAPZ",
      "{map}; 2MA 100,0; @501; TAPZ; @110; ?PE -> 50; ?ST -> 265; @500; ?PE -> 50; MA 5 -> ERR 6; "
      "N0=3; TAPZ; {new}; {runs}; TAPZ; ?ST -> 13"},
@@ -123,13 +123,14 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     {"WDN",
      "TW=0; PG; T1MR 100000; WMR 10000; WDN; OUT \"W\"; .; G; @152; @10; < W; {stored WDN}; {new}; PG; "
      "WDN; .; G; @2; ?ERR -> 4"},
-    // If 50 applies from the beginning: 2 + 0.05 s. If from 45 at 0.5 s on: it decelerates to 50 within 0.05
-    // s and 3.75, to 0 within another 0.05 s and 1.25, and the 50 in between take 1.1 s more.
+    // If 50 applies from the beginning: 2 + 0.05 s. If it applies from 45 at 0.5 s on: the path decelerates
+    // to 50
+    // within 0.05 s and 3.75, to 0 within another 0.05 s and 1.25, and the 50 in between take 1.1 s more.
     {"TVM=f32",
      "{map}; TVM=50; ?TVM -> 50; ?T3PR3 -> 50; 2MA 100,0; @2044; ?ST -> 259; @12; ?PE -> 100; "
      "TVM=0 -> ERR 2; {new}; {map}; 2MA 100,0; @501; TVM=50; @1093; ?ST -> 259; @12; ?PE -> 100; "
      "{new}; {runs}; TVM=20; ?T2TVM -> 20"},
-    // --- two times 50: 0.6 s each, or 1.1 s in one; 512 in blend
+    // --- two times 50: 0.6 s each, or 1.1 s in one; 512 if they blend
     {"CM 0",
      "{map}; CM 1; CM 0; 2MR 50,0; 2MR 50,0; @1194; ?ST -> 259; @12; ?PE -> 100; ?ST -> 1; {new}; {runs}; "
      "CM 0 -> ERR 3"},

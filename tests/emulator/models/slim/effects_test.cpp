@@ -16,7 +16,7 @@ std::vector<Effect> all_effects() {
   return all;
 }
 
-/// A line of its steps that is of the very form; nothing if there is none.
+/// Returns a line of its steps that has exactly this form; nothing if there is none.
 std::string sample_of(const Effect& effect) {
   for (const std::string& step : expanded(effect.steps)) {
     const lang::ParseResult parsed = lang::parse_line(typed_by(step));
@@ -42,7 +42,7 @@ TEST(SlimEffects, EachFormDoesWhatItSaysAndIsRefusedWhereItMustBe) {
   for (const Effect& effect : all_effects()) play_effect(effect);
 }
 
-/// The forms that are answered with ERR 3 where they are typed.
+/// The forms that get ERR 3 when they are typed.
 template <typename Prepare>
 std::set<std::string_view> not_allowed(Prepare prepare, const std::map<std::string, std::string>& choices) {
   std::set<std::string_view> refused;
@@ -64,7 +64,8 @@ std::set<std::string_view> all_but(const std::set<std::string_view>& some) {
   return rest;
 }
 
-/// The column 外部, strictly: three forms have it. And what ends a program: nothing else could.
+/// The column 外部, strictly: three forms have it, and the commands that end a program, because nothing else
+/// could.
 TEST(SlimEffects, WhatAHostMaySayBesidesAProgramByTheColumnAlone) {
   EXPECT_EQ(not_allowed(run_a_program, {{"while_program_runs", "external_column_only"}}),
             all_but({"TAPZ", "TASTOP", "TVM=f32", "EXIT"}));
@@ -82,8 +83,8 @@ TEST(SlimEffects, WhatAHostMaySayBesidesAProgram) {
   EXPECT_EQ(not_allowed(run_a_program, {{"while_program_runs", "reset_too"}}), all_but(taken));
 }
 
-/// What can only be stored: the flow of a program, and what has no mark under 立即. GETI and GETR have nobody
-/// to give their number to.
+/// What can only be stored: the flow of a program, and forms without a mark under 立即. GETI and GETR have
+/// nothing to give their number to.
 TEST(SlimEffects, WhatCannotBeTyped) {
   const std::set<std::string_view> flow{"JP addr",
                                         "JI i,addr",
@@ -114,7 +115,7 @@ TEST(SlimEffects, WhatCannotBeTyped) {
   std::set<std::string_view> stored = flow;
   stored.insert(waits.begin(), waits.end());
   const auto nothing = [](DialogueScript&) {};
-  // With its column taken for what it is not, a form of variables is refused for what it means, if at all.
+  // If its column is misread, a form of variables is refused for its meaning, if at all.
   EXPECT_EQ(not_allowed(nothing, {{"immediate_column", "taken"}}), stored);
   stored.insert(of_variables.begin(), of_variables.end());
   EXPECT_EQ(not_allowed(nothing, {}), stored);

@@ -15,7 +15,7 @@ constexpr int kPulses = 1000;  // a user unit
 
 using Place = std::array<double, 4>;
 
-/// The place after `s` on a straight line from the origin.
+/// The position after `s` on a straight line from the origin.
 std::function<Place(double)> straight(const Place& end) {
   return [end](double s) {
     double length = 0;
@@ -25,7 +25,7 @@ std::function<Place(double)> straight(const Place& end) {
     return place;
   };
 }
-/// On a circle about a centre from the origin, the third axis by its part of the length.
+/// On a circle about a centre from the origin, with the third axis in proportion to the length.
 std::function<Place(double)> round_about(double x, double y, double degrees, double rise = 0) {
   return [=](double s) {
     const double radius = std::hypot(x, y);
@@ -116,7 +116,8 @@ TEST(SlimGolden, AxesWithUnitsOfTheirOwn) {
 }
 
 TEST(SlimGolden, ASpiralEndsWhereItsRadiusHasGrownTo) {
-  // SPI 10,0,720,5 from the origin: radius 10, after two turns 20, at the angle it began at: 180 degrees.
+  // SPI 10,0,720,5 from the origin: radius 10, after two turns 20, at the angle at which it began: 180
+  // degrees.
   OneChain bench;
   bench.map({0, 1});
   bench.scale_all(kPulses);
@@ -171,7 +172,7 @@ TEST(SlimGolden, APathOfNoLengthIsDoneAtOnce) {
 TEST(SlimGolden, AnArcAboutWhereItStandsIsItsRiseAlone) {
   OneChain bench;
   bench.map({0, 1, 2});
-  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::none);  // over at once
+  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::none);  // ends at once
   EXPECT_TRUE(bench.all_done());
   ArcOrder rising = about(0, 0, 90);
   rising.height_units = 50;

@@ -78,7 +78,7 @@ TEST(SlimGroups, APathBehindAJogEndsByWhereTheJogStopped) {
   bench.finish();
   EXPECT_GT(bench.travel(0), 800);
   EXPECT_EQ(bench.travel(1), 50);
-  // What follows begins at its end.
+  // The next command starts at its end.
   ASSERT_EQ(bench.line({0, 0}, true), Error::none);
   bench.finish();
   EXPECT_EQ(bench.travel(0), 0);
@@ -94,7 +94,7 @@ TEST(SlimGroups, ACommandStartsAtTheHeadOfAllItsFifos) {
   bench.map({0, 2});
   bench.line({50, 0});  // waits behind it in module 0's FIFO
   bench.map({3, 4});
-  bench.line({50, 0});  // waits for nothing: 0.6 s
+  bench.line({50, 0});  // does not wait: 0.6 s
   EXPECT_EQ(bench.chain.groups_running(), 1);
   EXPECT_FALSE(bench.chain.done(2));
   bench.steps(1 + 600);

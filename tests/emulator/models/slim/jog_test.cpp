@@ -112,7 +112,7 @@ TEST(SlimThrust, PushesUntilItIsStopped) {
   bench.finish();
   EXPECT_EQ(bench.travel(0), 100);
   EXPECT_EQ(bench.chain.module_at(0).thrust, 0);
-  // From a jog: when that has stopped.
+  // From a jog: after that has stopped.
   bench.chain.jog(0, +1);
   bench.steps(1001);
   bench.chain.thrust(0, 9);
@@ -141,7 +141,7 @@ TEST(SlimThrust, MayRunByChoice) {
   EXPECT_EQ(bench.chain.module_at(0).thrust, 0);
 }
 
-// What is only queued decides already what is within reach.
+// A command that is only queued already decides what is within reach.
 TEST(SlimMove, IsRefusedAtOnceWhereItWouldLeadTooFar) {
   OneChain bench;
   EXPECT_EQ(bench.chain.move(0, true, 1e13), Error::range);
@@ -161,7 +161,7 @@ TEST(SlimMove, IsOutOfItsBufferInTheTickOfItsArrival) {
     bench.step();
     EXPECT_EQ(bench.travel(0), 100);
     EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
-    // And nothing is left to go on with, whatever comes in that tick.
+    // And nothing remains to be continued, whatever arrives in that tick.
     if (pauses) {
       bench.chain.pause();
     } else {

@@ -57,7 +57,7 @@ TEST(SlimJoints, ASharpCornerInCm1IsPassedAtFullSpeedOnThePath) {
   EXPECT_EQ(bench.tick - 1, 1100);  // 100/100 + 0.1
 }
 
-/// The time of two commands of 50 units each, the second one issued in another mode, perhaps.
+/// Returns the time of two commands of 50 units each; the second one can be issued in another mode.
 Tick pair_ms(int first_mode, int second_mode, double pr7, bool turn_back = false) {
   OneChain bench = at_origin();
   bench.chain.settings().set_smooth_corner(0, pr7);
@@ -92,7 +92,7 @@ TEST(SlimJoints, TheThresholdIsReadWhenTheSecondIsIssued) {
 }
 
 TEST(SlimJoints, ArcsJoinByTheirTangents) {
-  // East 50, then a half circle about (50, 50): length 50 pi, straight on where they meet.
+  // East 50, then a half circle about (50, 50): length 50 pi, without a corner where they meet.
   OneChain bench = at_origin();
   bench.chain.set_continuous_path(2);
   bench.line({50, 0});
@@ -123,7 +123,7 @@ TEST(SlimJoints, OnlyTheSameModulesOnTheSameLettersAreJoined) {
   bench.chain.set_continuous_path(1);
   bench.line({50, 0});
   bench.map({1, 0});
-  bench.line({0, 50});  // module 0 goes on by 50 all the same
+  bench.line({0, 50});  // module 0 moves on by 50 all the same
   EXPECT_EQ(bench.finish() - 1, 1200);
   EXPECT_EQ(bench.travel(0), 100 * kPulses);
 }
@@ -142,7 +142,7 @@ TEST(SlimJoints, WhatLiesBetweenTwoCommandsKeepsThemApart) {
 }
 
 TEST(SlimJoints, ASuccessorThatComesTooLateBeginsFromRest) {
-  // 2MR 100,0 slows down from 95 on, 1000 ms after its beginning, and is over after 1100.
+  // 2MR 100,0 decelerates from 95 on, 1000 ms after its beginning, and ends after 1100.
   struct Row {
     Tick issued_after, ms;
   };
@@ -161,7 +161,7 @@ TEST(SlimJoints, ThirtyTwoShortPiecesAreOneMotion) {
   bench.chain.set_continuous_path(1);
   for (int i = 0; i < 32; ++i) ASSERT_EQ(bench.line({0.5, 0}), Error::none);
   EXPECT_EQ(bench.line({0.5, 0}), Error::buffer_full);
-  // 16 units in all: none of the pieces alone is long enough to stop in.
+  // 16 units in all: none of the pieces alone is long enough to stop within it.
   EXPECT_EQ(bench.finish() - 1, ticks_of(Trapezoid{16, 100, 1000}.duration_s()));
 }
 

@@ -1,5 +1,5 @@
 // The marks of an activity on its module are gone when it ends, in any way: every activity with every way to
-// end; afterwards the module equals one that has never moved, and moves like it.
+// end. Afterwards the module equals one that has never moved, and moves like it.
 #include "emulator/models/slim/motor/marks.h"
 
 #include <gtest/gtest.h>
@@ -35,12 +35,12 @@ OneChain bench_with(const ChainOptions& options) {
 
 using Act = void (*)(OneChain& bench);
 
-/// What runs, and what it has marked by then.
+/// A running activity, and its marks at that time.
 struct Motion {
   const char* name;
   Act begin;
-  Act before = nullptr;  // what came first, a while ago
-  Tick ticks = 100;      // that it has run
+  Act before = nullptr;  // what happened first, a while ago
+  Tick ticks = 100;      // the mark that it has run
 };
 
 void analog(OneChain& bench, int value) {
@@ -136,7 +136,7 @@ struct WayOut {
   enum Leaves : std::uint8_t { later, only_avm, nothing };
   const char* name;
   Act act;
-  Leaves leaves = later;  // marks that are still set right after it; `later`: it takes its time
+  Leaves leaves = later;  // marks that are still set right after it; `later`: it takes some time
 };
 constexpr WayOut kWaysOut[] = {
     {"its end", [](OneChain& bench) { bench.steps(20'000); }},
@@ -235,7 +235,7 @@ constexpr WayOut kWaysOut[] = {
     {"CLR BUF", [](OneChain& bench) { bench.chain.clear_queues(); }},
 };
 
-/// What cuts a motion off at once clears all marks, before anything else could.
+/// An event that stops a motion at once clears all marks, before anything else could.
 void expect_left(const Module& module, WayOut::Leaves leaves) {
   for (const ModuleMark& mark : kModuleMarks) {
     const bool may_be_left =
@@ -244,7 +244,7 @@ void expect_left(const Module& module, WayOut::Leaves leaves) {
   }
 }
 
-/// What has not ended by its way out is ended; then all is as the bench's settings have it.
+/// An activity that its own end has not ended is ended here; then everything is as the bench set it.
 void come_to_rest(OneChain& bench) {
   Chain& chain = bench.chain;
   chain.resume();
@@ -259,7 +259,7 @@ void come_to_rest(OneChain& bench) {
   bench.step();
 }
 
-/// A module that has only stood at that place: it has no mark at all.
+/// A module that has only been at that position: it has no mark at all.
 Module unmarked(const Module& like) {
   Module module;
   module.settings = like.settings;
@@ -324,7 +324,7 @@ TEST(SlimMarks, EveryWayOutOfEveryActivityTakesThemOff) {
   }
 }
 
-/// A row clears its own member and no other; which events clear it is tried above.
+/// A row clears its own member and no other; the events that clear it are tested above.
 TEST(SlimMarks, ARowClearsItsOwnMemberAlone) {
   for (const ModuleMark& mark : kModuleMarks) {
     Module module;
@@ -338,7 +338,7 @@ TEST(SlimMarks, ARowClearsItsOwnMemberAlone) {
   }
 }
 
-/// A move that AVM has stopped stands, and is no jog that waits for its voltage.
+/// A move that AVM has stopped is at rest, and is not a jog that waits for its voltage.
 TEST(SlimMarks, AMoveWithoutVoltageLeavesNoneToItsSuccessor) {
   OneChain bench = bench_with({});
   by_analog(bench);

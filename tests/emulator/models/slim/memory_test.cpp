@@ -96,7 +96,7 @@ on
 )");
 }
 
-/// A display may speak another code than UTF-8: its bytes are kept as they are.
+/// A display may use an encoding other than UTF-8: its bytes are kept as they are.
 TEST(SlimMemory, KeepsTheBytesOfAText) {
   const std::string line = "OUT \"" + std::string(120, '\xFF') + "\"";
   DialogueScript script(1);

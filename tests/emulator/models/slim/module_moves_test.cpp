@@ -11,7 +11,7 @@ TEST(SlimMove, TakesTheTimeOfATrapezoid) {
     double distance, pps, pps2;
     Tick ms;
   };
-  // L/v + v/a, or 2 sqrt(L/a) where L < v^2/a.
+  // L/v + v/a, or 2 sqrt(L/a) if L < v^2/a.
   for (const Row& row : {Row{10'000, 10'000, 100'000, 1100}, Row{-10'000, 10'000, 100'000, 1100},
                          Row{1000, 10'000, 100'000, 200}, Row{250, 10'000, 100'000, 100},
                          Row{1, 10'000, 100'000, 7}, Row{1'000'000, 500'000, 5'000'000, 2100}}) {
@@ -27,7 +27,8 @@ TEST(SlimMove, TakesTheTimeOfATrapezoid) {
 }
 
 TEST(SlimMove, SpeedsAreRevolutionsByTheUnitThatFuGives) {
-  // 1000 rpm at 10000 pulses a revolution is 166666.7 pps, VA 10000 rpm/s ten times that: 0.1 s of ramp.
+  // 1000 rpm at 10000 pulses per revolution is 166666.7 pps, and VA 10000 rpm/s is ten times that: 0.1 s of
+  // ramp.
   OneChain bench;
   ASSERT_EQ(bench.chain.move(0, true, 1'000'000), Error::none);
   EXPECT_EQ(bench.finish() - 1, 6100);  // 6 s + 0.1 s
@@ -98,7 +99,7 @@ TEST(SlimMove, AFullFifoRefusesAndLeavesThingsAsTheyAre) {
   EXPECT_EQ(bench.chain.module_at(1).fifo.size(), 0U);
   bench.map({});
   EXPECT_EQ(bench.chain, before);
-  // What bypasses it does so.
+  // Commands that bypass it do so.
   EXPECT_EQ(bench.chain.set_output_at_once(0, 1, true), Error::none);
   EXPECT_TRUE(bench.chain.output(0, 1));
   bench.finish();
@@ -132,7 +133,7 @@ TEST(SlimAvm, TheSpeedIsThatPartOfVmAtEveryMoment) {
   bench.steps(1 + 1000);  // at 500: 500 * 1 - 12.5 = 487.5 done
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 500);
   bench.chain.set_analog(0, 0);
-  bench.steps(200);  // 12.5 further, and stands
+  bench.steps(200);  // 12.5 further, and stops
   EXPECT_EQ(bench.travel(0), 500);
   EXPECT_FALSE(bench.chain.moving(0));
   EXPECT_FALSE(bench.chain.done(0));
@@ -154,14 +155,14 @@ TEST(SlimAvm, AndPauseTogether) {
   bench.steps(200);
   bench.chain.pause();
   bench.chain.set_analog(0, 500);
-  bench.steps(200);  // slows down all the time: 320 further, at 600
+  bench.steps(200);  // decelerates all the time: 320 further, at 600
   bench.chain.resume();
   bench.steps(100);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 500);
   bench.chain.set_analog(0, 800);
   bench.steps(300);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 800);
-  // Paused, and no voltage when it goes on: it stays.
+  // Paused, and without a voltage when it continues: it stays.
   bench.chain.pause();
   bench.chain.set_analog(0, 0);
   bench.steps(100);
@@ -185,7 +186,7 @@ TEST(SlimAvm, AJogFollowsItAndVmEndsIt) {
   bench.chain.set_analog(0, 250);
   bench.steps(200);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 250);
-  bench.chain.set_analog(0, 2000);  // as far as it goes
+  bench.chain.set_analog(0, 2000);  // as far as it can
   bench.steps(200);
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
   bench.chain.set_analog(0, 0);

@@ -12,8 +12,8 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Values: FU=1, VM=1, VJ=1, VA=10 and 1000 pulses a revolution make 1000 pulses a second, reached within 0.1
-/// s and 50 pulses. Paths use 100 and 1000.
+/// The values FU=1, VM=1, VJ=1, VA=10 and 1000 pulses per revolution give 1000 pulses per second, reached
+/// within 0.1 s and 50 pulses. Paths use 100 and 1000.
 class MotionScript : public DialogueScript {
  public:
   MotionScript(const std::string& id, const std::string& option)

@@ -15,7 +15,7 @@ TEST(SlimNumbers, ACoordinateIsExactToThePulse) {
     EXPECT_EQ(script.ask("?PE"), units);
   }
   play({}, "> FU=1\n> VM=1000\n> VA=100000\n> MA 33333333\n@ 4000\n> ?PE\n< 33333333\n");
-  // Fractions: of 3, 1000 and 2^31 - 1 pulses a unit.
+  // Fractions of 3, 1000 and 2^31 - 1 pulses per unit.
   play({}, R"(
 > PN45=3
 > MA 1
@@ -115,7 +115,7 @@ TEST(SlimNumbers, TwoLettersOfPn37AreTwoModules) {
   play({{"axis_values", "is_taken_from_its_letter"}}, "> PN37=0\n> ?PN37\n< 0\n");
 }
 
-// --- whose an error is -----------------------------------------------------------------------------
+// --- whose error it is -----------------------------------------------------------------------------
 
 const std::string kOfLines[] = {"T1FT 0",  "T1MA 1e44", "T1MA",     "T1PR3=0",   "T1VM=0",
                                 "T1FOO=1", "?T1FOO",    "T1PN50=3", "T1PR3=abc", "T1MA 1e13"};
@@ -140,7 +140,7 @@ TEST(SlimErrors, WhatAMotorRefusesIsItsOwn) {
 }
 
 TEST(SlimErrors, T0KnowsWhyItsProgramHasEnded) {
-  // By a line of T1's that is wrong, and by one that T1 refuses.
+  // By a wrong line for T1, and by one that T1 refuses.
   DialogueScript wrong(2);
   wrong.play("> PG\n> T1PR3=R0\n>\n> G\n@ 5\n> ?ERR\n< 2\n> ?ST\n< 33\n> ?T1ERR\n< 0\n");
   DialogueScript refused(2);
@@ -174,7 +174,7 @@ TEST(SlimEntry, LinesAreCheckedAsTheyAreEntered) {
                                   {"T1PR3=0", "ERR 2"},
                                   {"FOO=R0", "ERR 1"},
                                   {"PWM P1,0,50", "ERR 2"},
-                                  // Lines and links may come later.
+                                  // Lines and links can come later.
                                   {"T7MR 5", ""},
                                   {"CALL 3000", ""},
                                   {"PR3=R0", ""},
@@ -198,7 +198,7 @@ TEST(SlimEntry, LinesAreCheckedAsTheyAreEntered) {
     } else {
       EXPECT_THROW(loaded.device().user_program()->load_program(each.line), ProgramError) << each.line;
     }
-    // By choice it is stored, and fails when its turn comes.
+    // With this option it is stored, and fails when it runs.
     DialogueScript later(1, {{"program_check", "when_it_runs"}});
     later.type("PG");
     EXPECT_EQ(later.ask(each.line), "(nothing)") << each.line;

@@ -34,7 +34,7 @@ inline Tick ticks_of(double seconds) { return static_cast<Tick>(std::ceil(second
 struct OneChain {
   Chain chain;
   Tick tick = 0;
-  std::array<std::int64_t, kModules> sent{};  // as they came out, in all
+  std::array<std::int64_t, kModules> sent{};  // as they were sent, in all
 
   explicit OneChain(const ChainOptions& options = {}) : chain(options) {
     for (int module = 0; module < kModules; ++module) chain.settings().set_linked(module, true);
@@ -51,7 +51,7 @@ struct OneChain {
   void scale_all(std::int64_t pulses_per_unit) {
     for (int module = 0; module < kModules; ++module) chain.settings().set_scale(module, pulses_per_unit, 1);
   }
-  /// VM and VA in pulses, with 10000 a revolution.
+  /// VM and VA in pulses, with 10000 per revolution.
   void speeds(int module, double pps, double pps2) {
     chain.settings().set_speed_unit(module, SpeedUnit::rps);
     chain.settings().set_working_speed(module, pps / 10'000);

@@ -42,10 +42,10 @@ TEST(SlimListOptions, TheSpeedOf2Ma) {
             {"pr4_of_its_own",
              begin + "> ?PR3\n< 100\n@ 2040\n> ?MD\n< 4\n@ 12\n> ?MD\n< 0\n> T1PR4=40\n> 2MR 1,0\n< ERR 7\n"
                      "> AR 5,0,0\n> PR4=40\n> SAVE C\noff\non\n> ?PR4\n< 40\n> ?PR3\n< 100\n"},
-            // What runs is told at once, each by its own; TVM= tells all.
+            // A running motion receives it at once, each module its own; TVM= sets all.
             {"pr4_of_its_own", begin + "@ 551\n> ?PE\n< 26\n> PR3=5\n@ 500\n> ?PE\n< 51\n> PR4=10\n@ 1000\n"
                                        "> ?PE\n< 62\n> TVM=100\n@ 700\n> ?PE\n< 100\n"},
-            // A line and an arc have two speeds then, and a stop between them: 0.6 + 0.6 s.
+            // A line and an arc then have two speeds, and a stop between them: 0.6 + 0.6 s.
             {"pr4_of_its_own", kMap + "> CM 1\n> 2MR 50,0\n> 2MR 50,0\n> 3MR 0,0,0\n< ERR 4\n@ 1101\n"
                                       "> ?MD\n< 0\n> 2MR 50,0\n> AR 0,5,0.0001\n@ 602\n> ?PE\n< 150\n"}});
 }
@@ -60,7 +60,7 @@ TEST(SlimListOptions, WhatClrBufDropsInAPause) {
                           "@ 500\n> ?PE\n< 500\n> REDO\n@ 1000\n> ?PE\n< 1000\n"
                           "> ?T1MD\n< 2\n> ?ST\n< 1\n"},
        {"what_waits", moves + "> TAPZ\n" + after + "> TAREDO\n@ 1000\n> ?PE\n< 1000\n"},
-       // What has not begun goes: a move that waits for the jog in front of it.
+       // A command that has not started is dropped: a move that waits for the jog before it.
        {"what_waits", "> JGF\n> MR 5\n@ 201\n> PZ\n" + after + "> REDO\n@ 201\n> JG0\n@ 200\n> ?ST\n< 1\n"},
        {"what_waits", kMap + "> 2MR 100,0\n> 2MR 5,0\n> MR 7\n@ 501\n> PZ\n" + after +
                           "> REDO\n@ 700\n> ?PE\n< 100\n> ?ST\n< 1\n"}});
@@ -73,7 +73,7 @@ TEST(SlimListOptions, WhetherPzPausesTheProgram) {
             {"program_pauses_too", program + "> ?ST\n< 13\n> REDO\n@ 5\n< A\n@ 100\n> REDO\n@ 5\n< B\n"},
             {"program_pauses_too", program + "> TASTOP\n@ 50\n> ?ST\n< 1\n"},
             {"program_pauses_too", program + "> EXIT\n> REDO\n@ 50\n> ?ST\n< 1\n"},
-            // TAPZ is of the motion alone.
+            // TAPZ only pauses motion.
             {"program_pauses_too", "> PG\n> TAPZ\n> OUT \"A\"\n>\n> G\n@ 5\n< A\n"}});
 }
 
@@ -138,7 +138,7 @@ TEST(SlimListOptions, WhichFunctionsThereAre) {
   play_all("functions",
            {{"what_queries_show_too", program},
             {"ain_tm_geti_getr", "> R0=PE\n< ERR 1\n> PG\n> R0=PE\n< ERR 1\n> R0=AIN\n>\n"},
-            // An event that looks at what moves, and where nothing else happens.
+            // An event that checks motion, while nothing else happens.
             {"what_queries_show_too",
              "> PG\n> SET EV1 G,PE,R0\n> SET EV2 NG,PE,R0\n> ON EV1,$LESS\n> ON EV2,$MORE\n"
              "> $W JP $W\n> $LESS OUT \"LESS\"\n> RET\n> $MORE OUT \"MORE\"\n> RET\n>\n> R0=500\n"
@@ -158,7 +158,7 @@ TEST(SlimListOptions, EventsWithoutAProgram) {
   play_all("events_without_program",
            {{"waits_for_a_program", event + "> G\n@ 50\n< EVENT\n"},
             {"run_their_routine", event + "< EVENT\n> ?ST\n< 1\nIN8 = 0\n@ 50\nIN8 = 1\n@ 50\n< EVENT\n"},
-            // To nowhere.
+            // Leads nowhere.
             {"run_their_routine", "> SET EV1 I,8\n> ON EV1,$E\nIN8 = 1\n@ 50\n> ?ERR\n< 13\n"}});
 }
 

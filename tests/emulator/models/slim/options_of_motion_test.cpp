@@ -1,6 +1,6 @@
 // Options about motion: each one in a dialogue, compared with the default.
 //
-// What is typed begins in the next millisecond, so 500 ms of a motion are over after 501.
+// A typed command starts in the next millisecond, so 500 ms of a motion are over after 501.
 #include "tests/emulator/models/slim/motion_option_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -59,11 +59,11 @@ TEST(SlimMotionOptions, CoordinateWhileSomethingMoves) {
 }
 
 TEST(SlimMotionOptions, WhatResetClears) {
-  // Homed, with the motor on: 17. On the way after 500 ms: 450 pulses.
+  // Homed, with the motor on: 17. During the motion after 500 ms: 450 pulses.
   const std::string begin = "HORG = 1\n> H\n@ 10\n> ?ST\n< 17\n> MA 1000\n@ 501\n> RESET\n";
   play_all("reset", {{"error_motion_and_buffer", begin + "> ?PE\n< 450\n> ?ST\n< 17\n"},
                      {"coordinate_too", begin + "> ?PE\n< 0\n> ?ST\n< 1\n> MA 20\n@ 200\n> ?PE\n< 20\n"}});
-  // T0's ends a pause, and nothing that it has held goes on.
+  // T0's command ends a pause, and nothing that it has held continues.
   const std::string paused =
       "> MR 1000\n> T1MR 1000\n> T2JGF\n@ 501\n> TAPZ\n> PZ\n@ 300\n> T1RESET\n> RESET\n";
   play_all(
@@ -83,7 +83,7 @@ TEST(SlimMotionOptions, WhetherThePausesAreOne) {
        {"one_pause", moves + "> TAPZ\n> REDO\n@ 700\n> ?PE\n< 1000\n"},
        {"one_pause", moves + "> TAUPZ\n> REDO\n@ 700\n> ?PE\n< 500\n> ?ST\n< 1\n"},
        {"one_pause", "> MR 1000\n@ 501\n> TAPZ\n@ 300\n> CLR BUF\n> MR 5\n@ 300\n> ?PE\n< 505\n"}});
-  // A program's line waits in either pause, also one that cannot stand in the buffer.
+  // A program's line waits in either pause, even one that cannot be in the buffer.
   const std::string program = "> PG\n> PZ\n> JGF\n> OUT \"GOES\"\n>\n> G\n@ 50\n> ?ST\n< 13\n";
   play_all("pauses", {{"each_ends_by_its_own", program + "> REDO\n@ 5\n< GOES\n> ?MD\n< 2\n"},
                       {"one_pause", program + "> TAREDO\n@ 5\n< GOES\n> ?MD\n< 2\n"}});
@@ -137,10 +137,10 @@ TEST(SlimMotionOptions, PositionOutputsThatStayArmed) {
     // Back over 600, which clears, and 500, which sets, if they are still armed.
     script.play("> MA 0\n@ 1300\n");
     EXPECT_EQ(script.output(2), stays);
-    // At another coordinate they are at other places.
+    // With another coordinate they are at other positions.
     script.play("> ICLR P2\n> CS 550\n> MA 490\n@ 300\n");
     EXPECT_EQ(script.output(2), stays);
-    // Given anew it is another one.
+    // Sent again, it is another one.
     script.play("> ICLR P2\n> P1SET P3,480\n> MA 550\n@ 300\n");
     EXPECT_FALSE(script.output(2));
     EXPECT_FALSE(script.output(3));
@@ -157,7 +157,7 @@ TEST(SlimMotionOptions, PositionOutputsThatStayArmed) {
 }
 
 TEST(SlimMotionOptions, WhatPzHolds) {
-  // Of 100 units 45 are done after 500 ms; they come to a stop at 50, or 30 and 40. T2 has done 450.
+  // After 500 ms 45 of 100 units are done; they stop at 50, or 30 and 40. T2 has done 450.
   const std::string path =
       "> TX=0\n> TY=1\n> 2MR 60,80\n> YMR 10\n> T2MR 1000\n@ 501\n> PZ\n@ 700\n"
       "> ?PE\n< 30\n> ?T1PE\n< 40\n> ?T2PE\n< ";
@@ -180,7 +180,7 @@ TEST(SlimMotionOptions, WhatPzHolds) {
        {"t0", behind + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T1PE\n< 100\n"},
        {"t0", behind + "> PZ\n@ 200\n> ?T1PE\n< 0\n> CLR BUF\n@ 400\n> ?PE\n< 500\n> ?T1PE\n< 100\n"},
        {"t0", both + "> ?PE\n< 500\n> ?T2PE\n< 1000\n> REDO\n@ 700\n> ?PE\n< 1000\n"},
-       // A path of other modules does not matter of T0's.
+       // A path of other modules does not affect T0's.
        {"t0", "> TX=1\n> TY=2\n> 2MR 60,80\n@ 501\n> PZ\n@ 700\n> ?T2PE\n< 80\n"}});
 }
 
@@ -188,7 +188,7 @@ TEST(SlimMotionOptions, AJogWhileAMoveRuns) {
   const std::string moves = "> MR 1000\n> MR 5\n@ 501\n";
   play_all("jog_while_moving",
            {{"error_3", moves + "> JGF\n< ERR 3\n> FT 5\n< ERR 3\n@ 900\n> ?PE\n< 1005\n"}});
-  // It stops at 500 within 100 ms. After 200 ms of the jog 150 more are done, and 50 to stop.
+  // It stops at 500 within 100 ms. After 200 ms of the jog another 150 are done, plus 50 to stop.
   play_all(
       "jog_while_moving",
       {{"ends_the_move", moves + "> JGF\n> ?PE\n< 450\n@ 300\n> ?PE\n< 650\n> ?MD\n< 2\n> JG0\n"
@@ -204,7 +204,7 @@ TEST(SlimMotionOptions, AJogWhileAMoveRuns) {
        {"ends_the_move", "> H\n@ 101\n> JGF\n@ 300\n> ?PE\n< 50\n"},
        // In its first millisecond nothing has moved.
        {"ends_the_move", "> MR 1000\n> JGR\n@ 201\n> ?PE\n< -150\n"},
-       // A path ends at 30 and 40; T1 goes on with what is its own.
+       // A path ends at 30 and 40; T1 continues with its own commands.
        {"ends_the_move",
         "> TX=0\n> TY=1\n> 2MR 60,80\n> YMR 10\n> 2MR 5,5\n> YMR 1\n@ 501\n> JGF\n@ 200\n"
         "> ?PE\n< 80\n> ?T1PE\n< 51\n> JG0\n@ 200\n> ?PE\n< 130\n> ?T1PE\n< 51\n"},
@@ -244,7 +244,7 @@ TEST(SlimMotionOptions, AccelerationWhileSomethingIsCoordinated) {
             {"next_command", two + "> ?TVA\n< 250\n> 2MR 1,1\n< ERR 7\n> T1PR2=250\n> 2MR 30,40\n> TVA=1000\n"
                                    "@ 1099\n> ?ST\n< 291\n@ 1\n> ?PE\n< 60\n> ?T1PE\n< 80\n"
                                    "@ 400\n> ?PE\n< 72\n> ?T1PE\n< 96\n@ 500\n> ?PE\n< 90\n> ?ST\n< 33\n"}});
-  // What has another acceleration begins from rest, whatever CM says: 0.6 + 0.9 s instead of 1.1.
+  // A command with another acceleration starts from rest, whatever CM says: 0.6 + 0.9 s instead of 1.1.
   for (const bool changes : {false, true}) {
     MotionScript script("acceleration_in_motion", "next_command");
     script.play("> TX=0\n> TY=1\n> CM 1\n> 2MR 30,40\n");
@@ -259,7 +259,7 @@ TEST(SlimMotionOptions, WhoseCmCounts) {
     std::string first, second, direction;
     Tick ours_ms, new_ms;
   };
-  // Two lines of 50: joined 1.1 s, else 0.6 s each. CM 2 with PR7 = 0 joins what goes straight on.
+  // Two lines of 50: joined 1.1 s, otherwise 0.6 s each. CM 2 with PR7 = 0 joins paths without a corner.
   for (const Pair& pair : {Pair{"0", "1", "50,0", 1200, 1100}, Pair{"1", "0", "50,0", 1200, 1200},
                            Pair{"0", "2", "50,0", 1200, 1100}, Pair{"0", "2", "0,50", 1200, 1200},
                            Pair{"2", "1", "0,50", 1200, 1100}, Pair{"1", "2", "0,50", 1200, 1200},
@@ -274,8 +274,9 @@ TEST(SlimMotionOptions, WhoseCmCounts) {
 }
 
 TEST(SlimMotionOptions, ASuccessorThatComesLate) {
-  // 100 units slow down from 1000 ms on. After 1050 it is at 98.75 with 50 left: 50 ms and 3.75 to speed up,
-  // 92.5 at 100, 5 to stop within 100 ms, in all 1050 + 50 + 925 + 100. After 1000 nothing is lost yet.
+  // 100 units decelerate from 1000 ms on. After 1050 the position is 98.75 with speed 50: 50 ms and 3.75 to
+  // accelerate, 92.5 at 100, 5 to stop within 100 ms, in all 1050 + 50 + 925 + 100. After 1000 nothing is
+  // lost yet.
   for (const auto& [after, ms] : {std::pair<Tick, Tick>{999, 2100}, {1050, 2125}}) {
     MotionScript script("late_successor", "speeds_up_again");
     script.play("> TX=0\n> TY=1\n> CM 1\n> 2MR 100,0\n");
@@ -285,7 +286,7 @@ TEST(SlimMotionOptions, ASuccessorThatComesLate) {
     EXPECT_EQ(script.ask("?PE"), "200");
   }
   const std::string late = "> TX=0\n> TY=1\n> CM 1\n> 2MR 100,0\n@ 1051\n> 2MR 100,0\n";
-  // From rest at 1100: 300 ms later 25. Going on: 98.75 + 3.75 + 10 after 150 ms.
+  // From rest at 1100: 300 ms later 25. Continuing: 98.75 + 3.75 + 10 after 150 ms.
   play_all("late_successor", {{"begins_from_rest", late + "@ 350\n> ?PE\n< 125\n@ 800\n> ?PE\n< 200\n"},
                               {"speeds_up_again", late + "@ 175\n> ?PE\n< 115\n@ 900\n> ?PE\n< 200\n"}});
 }
@@ -299,7 +300,7 @@ TEST(SlimMotionOptions, APathWithoutLength) {
              map + "> 2MR 0,0\n< ERR 2\n> 2MA 0,0\n< ERR 2\n> AR 5,0,0\n< ERR 2\n> SAR 5,0,0,0\n< ERR 2\n"
                    "> SPI 5,0,0,1\n< ERR 2\n> 3MR 0,0,0\n< ERR 2\n> MR 0\n> XMR 0\n> SAR 5,0,0,1\n"
                    "> CM 1\n> 2MR 5,0\n> 2MA 5,0\n< ERR 2\n@ 300\n> ?PE\n< 5\n> RESET\n"
-                   // Where a jog will end nobody knows yet; the command is dropped then.
+                   // The end of a jog is not known yet; the command is dropped then.
                    "> JGF\n> 2MR 0,0\n@ 200\n> ?ERR\n< 0\n> JG0\n@ 200\n> ?ERR\n< 2\n> ?ST\n< 33\n"}});
 }
 
@@ -315,7 +316,7 @@ TEST(SlimMotionOptions, HowManyCommandsWait) {
 }
 
 TEST(SlimMotionOptions, HowMovesOfOneAxisSpeedUp) {
-  // 1000 pulses at 1000: by 1000, 4000 and (10 pulses a unit) 10000 pulses/s2 within 2, 1.25 and 1.1 s.
+  // 1000 pulses at 1000: with 1000, 4000 and (10 pulses per unit) 10000 pulses/s2 within 2, 1.25 and 1.1 s.
   const std::string begin = "> T1PR2=4000\n> T2PN45=10\n> MR 1000\n> T1MR 1000\n> T2MR 100\n";
   play_all(
       "single_axis_profile",
@@ -333,7 +334,7 @@ TEST(SlimMotionOptions, HowMovesOfOneAxisSpeedUp) {
 }
 
 TEST(SlimMotionOptions, TheWayHome) {
-  // 150 of the way before the input comes on, and 50 to stop.
+  // 150 pulses before the input comes on, and 50 to stop.
   const std::string home = "> H\n@ 201\nHORG = 1\n> ?PE\n< ";
   const std::string there = "\n@ 300\n> ?PE\n< 0\n> ?ST\n< 17\n> MA ";
   play_all("homing", {{"at_vj_backwards_to_horg_then_0", home + "-150" + there + "1\n"},
@@ -350,7 +351,7 @@ TEST(SlimMotionOptions, AvmAndMotion) {
             // Without a voltage it waits for one.
             {"starts_a_jog", "> AVM\n@ 100\n> ?PE\n< 0\nAIN = 400\n@ 142\n> ?PE\n< 48\nAIN = 0\n@ 100\n"},
             {"starts_a_jog", "> JGF\n@ 201\n> AVM\n@ 200\n> ?PE\n< 200\nAIN = 400\n@ 142\n> ?PE\n< 248\n"},
-            // Refused it changes no speed.
+            // A refused command changes no speed.
             {"starts_a_jog",
              "AIN = 400\n> MR 1000\n@ 501\n> AVM\n< ERR 3\n@ 600\n> ?PE\n< 1000\n> TAPZ\n> AVM\n< ERR 6\n"
              "> TAUPZ\n> HOFF\n> AVM\n< ERR 9\n> ?MD\n< 0\n"}});
@@ -381,9 +382,9 @@ TEST(SlimMotionOptions, WhatIsRefusedForAModuleWithALetter) {
                                  "> T1H\n@ 201\nT1HORG = 1\n@ 200\n> ?T1PE\n< 0\n> ?T1ST\n< 49\n"}});
 }
 
-// Found on the way, and of ours.
+// Found during the motion, and belongs to us.
 TEST(SlimMotionOptions, AnalogSpeedNeitherBreaksNorRevivesAJog) {
-  // Turning round, with no voltage, and round again: it waits for some.
+  // Reversing, without a voltage, and reversing again: it waits for a voltage.
   play_all("analog_speed",
            {{"sets_the_speed_only",
              "> JGF\n@ 201\n> JGR\n> AVM\n> JGF\n@ 200\n> ?PE\n< 200\n> ?MD\n< 5\n"

@@ -103,12 +103,12 @@ on
   const world::World again(bench, world::WorldOptions{}, [](const std::string&) {});
   EXPECT_EQ(dynamic_cast<const Slim&>(again.device(0)).program_text(), "OUT \"A\"\n$B NONSENSE\n");
 
-  // A device that checks earlier takes back no state that it cannot have come to.
+  // A device that checks earlier accepts no state that it cannot have reached.
   DialogueScript early(1);
   EXPECT_THROW(early.device().restore_state(late.device().save_state()), StateError);
 }
 
-/// What is stored unchecked fits the line all the same, and is taken back.
+/// A line that is stored unchecked still fits, and is restored.
 TEST(SlimProgramEntryChoices, ProgramCheckOfLinesAsLongAsChosen) {
   for (const auto& [option, longest] : {std::pair{"127_characters_then_error_1", 127},
                                         {"80_characters_then_error_1", 80},
@@ -160,7 +160,7 @@ TEST(SlimProgramEntryChoices, ARefusedLine) {
   play({}, begin + "< ERR 3\n> MR 500\n@ 300\n> ?PE\n< 0\n> PL\n< 0: MR 500\n");
   // It was meant for the program.
   play({{"refused_line", "ends_editing"}}, begin + "< 33\n> MR 500\n@ 300\n> ?PE\n< 500\n> PL\n< 0: RET\n");
-  // One that is too long, an empty one, EXIT and ESC.
+  // A line that is too long, an empty one, EXIT and ESC.
   for (const std::string end : {"", "EXIT", "\x1B"}) {
     DialogueScript script(1, {{"prompt", "greater_than"}});
     const auto prompted = [&](const std::string& line) {

@@ -23,7 +23,7 @@ const std::string kAsking = R"(
 
 TEST(SlimProgramChoices, GetNumberExit) {
   play({}, kAsking + "> ?ST\n< 1\n");
-  // It is not a number, and the program waits for one still.
+  // It is not a number, so the program keeps waiting for one.
   play({{"get_number_exit", "nothing"}}, kAsking + R"(
 < ERR 1
 @ 50
@@ -78,7 +78,7 @@ on
 < 5: DF
 < 6: SAVE P
 )");
-  // Where a host is refused DF, a program is, too.
+  // If a host is refused DF, a program is refused it, too.
   play(chosen, R"(
 > PG
 > MR 100000
@@ -99,13 +99,13 @@ TEST(SlimProgramChoices, LinesATick) {
   play({}, kTwoLines + "@ 1\n< A\n> ?PE\n< 0\n@ 1\n< B\n@ 9\n< C\n< D\n< E\n");
   play({{"lines_a_tick", "four_a_millisecond"}},
        kTwoLines + "@ 1\n< A\n< B\n< C\n< D\n> ?PE\n< 0\n@ 1\n< E\n");
-  // In the milliseconds that 4 divides: 4, 8, 12, 16, 20.
+  // In the milliseconds divisible by 4: 4, 8, 12, 16, 20.
   play({{"lines_a_tick", "one_in_4_milliseconds"}},
        kTwoLines +
            "@ 3\n> ?PE\n< 0\n@ 1\n< A\n@ 3\n> ?PE\n< 0\n@ 1\n< B\n@ 11\n< C\n< D\n> ?PE\n< 0\n@ 1\n< E\n");
 }
 
-/// The most that a program has had waiting for a line of 960 characters a second.
+/// Returns the longest output that a program has had waiting for a line of 960 characters per second.
 std::size_t most_waiting(const Choices& choices) {
   world::Bench bench = slim_bench(1, choices);
   bench.lines[0].timing = pty::Timing::wire;
@@ -123,7 +123,7 @@ std::size_t most_waiting(const Choices& choices) {
 }
 
 TEST(SlimProgramChoices, PrintAhead) {
-  // Texts of 50 characters, with their ends: the first count of them that is no less than the bound.
+  // Texts of 50 characters, with their ends: the smallest count of them that is not below the limit.
   EXPECT_EQ(most_waiting({}), 1050u);
   EXPECT_EQ(most_waiting({{"print_ahead", "128_characters_then_it_waits"}}), 150u);
 }
@@ -181,7 +181,7 @@ IN1 = 0
 
 TEST(SlimProgramChoices, EventCheck) {
   play({}, kPulses + "< E\n");
-  // Looked at in 20, 24, 28 and 32.
+  // Checked at 20, 24, 28 and 32.
   play({{"event_check", "each_4_milliseconds"}}, kPulses + R"(
 > ?PE
 < 0
@@ -229,12 +229,12 @@ TEST(SlimProgramChoices, CallDepth) {
     script.play("> PG\n> $A OUT \"X\"\n> CALL $A\n>\n> G\n");
     script.pass(2 * depth + 1);
     EXPECT_EQ(script.device().state().execution.stack.size(), static_cast<std::size_t>(depth));
-    // As deep as that it can be saved and restored.
+    // Deep enough that it can be saved and restored.
     DialogueScript other(1, {{"call_depth", option}});
     other.pass(2 * depth + 1);
     EXPECT_NO_THROW(other.device().restore_state(script.device().save_state()));
     script.pass(100);
-    // Each call that succeeds leads to the line in front of it once more.
+    // Each call that succeeds leads once more to the line before it.
     for (int i = 0; i < depth + 1; ++i) EXPECT_EQ(script.next(), "X");
     EXPECT_EQ(script.ask("?ERC"), "13");
   }
@@ -244,7 +244,7 @@ TEST(SlimProgramChoices, CallDepth) {
                StateError);
 }
 
-/// Ticks that are left out are not to be seen, and what is saved goes on alike, whatever was chosen.
+/// Skipped ticks make no difference, and a saved state continues in the same way, with every option.
 TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
   const std::string busy = R"(
 > PG

@@ -7,7 +7,7 @@ namespace understudy::emulator::models::slim {
 
 namespace options_of_stops_test {
 
-// The first move is under way, and the program waits for its end.
+// The first move is in progress, and the program waits for its end.
 const std::string kAtDone = R"(
 > PG
 > SET EV1 I,8
@@ -29,7 +29,7 @@ const std::string kAtDone = R"(
 TEST(SlimStopOptions, ATypedStopEndsTheProgram) {
   play({}, kAtDone + "> TASTOP\n@ 500\n> ?ST\n< 1\n");
   play({{"emergency_stop_program", "ends_also_by_its_own_line"}}, kAtDone + "> TASTOP\n@ 500\n> ?ST\n< 1\n");
-  // Full speed again, and nobody has asked for it.
+  // Full speed again, which nobody has commanded.
   play({{"emergency_stop_program", "goes_on"}}, kAtDone + "> TASTOP\n@ 500\n< ONE\n> ?ST\n< 263\n");
 }
 
@@ -46,7 +46,7 @@ TEST(SlimStopOptions, AProgramsOwnStopLeavesItTheWord) {
   play({{"emergency_stop_program", "ends_also_by_its_own_line"}}, own + "> ?ST\n< 1\n");
 }
 
-/// A line that waits for a number, beside a long path.
+/// A line that waits for a number, during a long path.
 const std::string kAtNumber = R"(
 > TX=0
 > TY=1
@@ -61,13 +61,13 @@ const std::string kAtNumber = R"(
 )";
 
 TEST(SlimStopOptions, TheChainIsSteeredWhileANumberIsAwaited) {
-  // At 95 of 100 a second after the first; stopped at 100 units along, and on at 50.
+  // At 95 of 100 a second after the first; stopped at 100 units along, and continued at 50.
   DialogueScript script(2);
   script.play(kAtNumber + "> TAPZ\n@ 200\n> ?PE\n< ERR 1\n");
   EXPECT_DOUBLE_EQ(script.device().named_values()->value_named("PE").value(), 60);
   script.play("> TVM=50\n> TAREDO\n@ 1051\n> TASTOP\n@ 10\n> ?ST\n< 33\n> ?PE\n< 91\n");  // 1.25 in 50 ms,
-                                                                                          // and 50 a second
-  // What asks for a number takes none of that.
+                                                                                          // and 50 per second
+  // A command that asks for a number accepts none of that.
   DialogueScript later(2);
   later.play(kAtNumber + "> TAPZ\n> TAREDO\n> NONSENSE\n< ERR 1\n> 7\n@ 2\n< 7\n");
 }
@@ -75,7 +75,7 @@ TEST(SlimStopOptions, TheChainIsSteeredWhileANumberIsAwaited) {
 TEST(SlimStopOptions, NumbersOnlyMeansNumbersOnly) {
   DialogueScript script(2, {{"lines_for_a_number", "numbers_only"}});
   script.play(kAtNumber + "> TAPZ\n< ERR 1\n> TVM=5\n< ERR 1\n> TASTOP\n< ERR 1\n> EXIT\n> ?MD\n< 4\n");
-  // By the column alone a pause can begin, and the number must come before it ends.
+  // By the column alone, a pause can begin, and the number must arrive before it ends.
   DialogueScript strict(2, {{"while_program_runs", "external_column_only"}});
   strict.play(kAtNumber + "> TAPZ\n> TAREDO\n< ERR 1\n> EXIT\n> TAREDO\n> ?MD\n< 4\n");
 }

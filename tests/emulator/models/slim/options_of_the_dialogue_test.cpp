@@ -123,7 +123,7 @@ TEST(SlimDialogueOptions, Errors) {
   });
 }
 
-/// Nobody is T1: its move fails, in line 1.
+/// No module is T1: its move fails, in line 1.
 const char* const kFailingProgram = "> PG\n> WT 5\n> T1MA 5\n> OUT \"ON\"\n> \n> G\n";
 
 TEST(SlimDialogueOptions, FailedLinesOfAProgram) {
@@ -163,16 +163,16 @@ TEST(SlimDialogueOptions, AModuleThatIsNotLinked) {
   DialogueScript silent(1, {{"unlinked_module", "silence"}, {"acknowledgement", "ok"}});
   silent.play(
       "> T1MA 5\n> ?T1PE\n> T1VM=5\n> TX=1\n< OK\n> XMA 5\n> TY=0\n< OK\n> 2MA 5,5\n> ?PE\n< 0\n> ?ERC\n< 0\n"
-      // What T0 itself cannot read is its own to refuse; and nothing was done to T1.
+      // Lines that T0 itself cannot read are T0's to refuse, and nothing is done to T1.
       "> T9MA 5\n< ERR 2\n> T1NONSENSE\n< ERR 1\n> PN50=3\n< OK\n> ?T1VM\n< 1000\n> ?T1PE\n< 0\n");
   DialogueScript in_a_program(1,
                               {{"unlinked_module", "silence"}, {"unasked_text", "errors_of_a_program_too"}});
   in_a_program.play(program + "@ 20\n< ON\n> ?ERC\n< 0\n");
   in_a_program.play("> PG\n> T1DN\n> OUT \"PAST\"\n> \n> G\n@ 5\n< PAST\n> ?ERC\n< 0\n");
   DialogueScript prompted(1, {{"unlinked_module", "silence"}, {"prompt", "greater_than"}});
-  prompted.send("?T1PE\r?PE\r");  // T0 is ready for the next line all the same
+  prompted.send("?T1PE\r?PE\r");  // T0 is still ready for the next line
   EXPECT_EQ(prompted.next(), ">0");
-  // Past the line somebody is there to be told.
+  // After the line, there is a module to report to.
   EXPECT_TRUE(silent.device().named_values()->assign("T2VM", 5).value_or("").starts_with(
       "belongs to a module that is not linked"));
 }
@@ -223,7 +223,7 @@ TEST(SlimDialogueOptions, IntegerRangeOfWhatIsKept) {
   EXPECT_EQ(load({}), "-32767");
   try {
     load({{"integer_range", "from_minus_32766"}});
-    FAIL() << "it was taken";
+    FAIL() << "it was accepted";
   } catch (const NvError& error) {
     EXPECT_STREQ(error.what(), "registers: 'N3': -32767 does not fit; expected -32766 to 32766");
   }
@@ -235,7 +235,7 @@ TEST(SlimDialogueOptions, AxisMap) {
        {},
        2,
        "> TX=1\n> TY=1\n< ERR 2\n> XMA 5\n@ 100\n> ?T1PE\n< 5\n> TY=6\n< ERR 2\n"},
-      // XMA finds nobody then, and TX takes the module back.
+      // XMA then finds no module, and TX takes the module back.
       {"a module is taken",
        {{"axis_values", "is_taken_from_its_letter"}},
        2,
@@ -249,7 +249,7 @@ TEST(SlimDialogueOptions, AxisMap) {
        2,
        "> TX=1\n> ?PN37\n< 34945\noff\non\n> ?PN37\n< 34952\n> XMA 5\n< ERR 4\n"
        "> TX=1\n> TX=1\n> TY=1\n< ERR 2\n> ?PN37\n< 34945\n> SAVE C\noff\non\n> XMA 5\n@ 100\n> ?T1PE\n< 5\n"
-       // 0x8810 is 34832: X went to T0, Y to T1.
+       // 0x8810 is 34832: X is now T0, Y is T1.
        "> TX=0\n> TY=1\n> ?PN37\n< 34832\n"},
       // 0x8818 is 34840: X has lost T1.
       {"both letters change",
@@ -279,7 +279,7 @@ TEST(SlimDialogueOptions, Parameters) {
   });
 }
 
-/// Of ULC, which goes on.
+/// An error of ULC, which continues.
 std::string first_parameters(DialogueScript& script) {
   script.type("ULC");
   std::string lines;
@@ -314,7 +314,7 @@ TEST(SlimDialogueOptions, NamesOfSpeedsTheOtherWayRound) {
   EXPECT_EQ(other.device().named_values()->assign("PN10", 9), std::nullopt);
   EXPECT_EQ(other.ask("?VJ"), "9");
   EXPECT_EQ(other.device().named_values()->value_named("PN14"), 600.0);
-  // VJ counts for a jog: at 600 RPM and 10000 pulses a revolution 100 pulses a millisecond.
+  // VJ applies to a jog: at 600 RPM and 10000 pulses per revolution 100 pulses per millisecond.
   other.play("> PN10=600\n> VA=1000000000\n> JGF\n@ 10\n");
   EXPECT_DOUBLE_EQ(other.device().axes()->speed_pps(0), 100000);
 }

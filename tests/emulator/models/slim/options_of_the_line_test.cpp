@@ -10,7 +10,7 @@ namespace understudy::emulator::models::slim {
 namespace options_of_the_line_test {
 
 using namespace std::chrono_literals;
-/// A line as it is, without any idea of where lines end.
+/// A line as raw bytes, without any idea of where lines end.
 struct Wire {
   explicit Wire(const Choices& choices, pty::Timing timing = pty::Timing::instant)
       : bench(slim_bench(1, choices)) {
@@ -23,7 +23,7 @@ struct Wire {
     pass(SimTime{0});
   }
   void pass(SimTime time) { world->advance_to(world->now() + time); }
-  /// What has come since the last call.
+  /// Returns what has arrived since the last call.
   std::string heard() {
     const pty::Line& line = world->line(0).line;
     const std::string text(line.output().begin(), line.output().end());
@@ -72,7 +72,7 @@ TEST(SlimLineOptions, LongLines) {
     Wire wire(Choices{{"longest_line", one.option}});
     EXPECT_EQ(wire.answer(padded(one.longest)), "0\r\n") << one.option;
     EXPECT_EQ(wire.answer(padded(one.longest + 1)), "ERR 1\r\n") << one.option;
-    // A program's lines, whichever way they come: OUT "..." of that length.
+    // A program's lines, whichever way they are entered: OUT "..." of that length.
     const std::string text(one.longest - 6, 'x');
     const std::string line = "OUT \"" + text + "\"";
     EXPECT_EQ(wire.answer("PG\r" + line + "\r\rSAVE P\r"), "") << one.option;
@@ -110,13 +110,13 @@ TEST(SlimLineOptions, XoffHoldsWhatIsSaidAndXonLetsItGoOn) {
   Wire wire(Choices{{"flow_control", "xon_xoff"}});
   EXPECT_EQ(wire.answer("?P\x13"
                         "E\r"),
-            "");  // it hears
+            "");  // it receives
   EXPECT_EQ(wire.answer("nonsense\r\x13"), "");
   wire.pass(5s);
   EXPECT_EQ(wire.heard(), "");
   EXPECT_EQ(wire.answer("\x11"), "0\r\nERR 1\r\n");
   EXPECT_EQ(wire.answer("\x11?PE\r"), "0\r\n");
-  // Unasked too: a program has its text ready, and that follows what was answered before.
+  // Without a request too: a program has its text ready, and that follows the previous reply.
   EXPECT_EQ(wire.answer("PG\rOUT \"A\"\rWT 20\rOUT \"B\"\r\r\x13G\r?PE\r"), "");
   wire.pass(10ms);
   wire.send("?PE\r");
@@ -154,13 +154,14 @@ TEST(SlimLineOptions, XoffOutlivesASnapshot) {
 }
 
 TEST(SlimLineOptions, OnAWireXoffHoldsFromTheNextCharacterOn) {
-  // 9600 8N1: ten bits a character, 1.0417 ms. "?VM" and CR are over after 4.167 ms, XOFF after 5.208 ms: in
-  // that time one character of "1000" has left, and the second begins no more ... but it begins at the very
-  // moment at which XOFF ends. So the host sends XOFF half a character later: the second is on its way then.
+  // 9600 8N1: ten bits per character, 1.0417 ms. "?VM" and CR end after 4.167 ms, XOFF after 5.208 ms. By
+  // then one character of "1000" has left, and the second should not start, but it starts at the very moment
+  // at which XOFF ends. So the host sends XOFF half a character later: the second one is then already on the
+  // wire.
   Wire wire(Choices{{"flow_control", "xon_xoff"}}, pty::Timing::wire);
   wire.send("?VM\r");
   wire.pass(SimTime{4'687'500});
-  wire.send("\x13");  // over at 5.729 ms; the second character is over at 6.250 ms
+  wire.send("\x13");  // ends at 5.729 ms; the second character ends at 6.250 ms
   wire.pass(100ms);
   EXPECT_EQ(wire.heard(), "10");
   wire.send("\x11");

@@ -62,8 +62,8 @@ TEST(SlimOutputs, APulseLastsFourMillisecondsAUnit) {
     OneChain bench;
     bench.steps(10);
     bench.chain.pulse_output(0, 2, width);
-    EXPECT_TRUE(bench.chain.done(0));        // nothing waits for it
-    EXPECT_FALSE(bench.chain.output(0, 2));  // it begins with a tick
+    EXPECT_TRUE(bench.chain.done(0));        // no command waits for it
+    EXPECT_FALSE(bench.chain.output(0, 2));  // it starts with a tick
     EXPECT_EQ(bench.chain.next_active_tick(bench.tick), 11);
     bench.step();
     Tick on = 0;
@@ -105,7 +105,7 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
   for (const Row& row : {Row{10, 25, 250}, Row{100, 70, 700}, Row{1, 50, 500}, Row{500, 50, 500},
                          Row{10, 0, 0}, Row{10, 100, 1000}, Row{5000, 80, 1000}, Row{5000, 20, 0}}) {
     OneChain bench;
-    bench.step();  // in the first tick every axis looks around
+    bench.step();  // in the first tick every axis updates its environment
     ASSERT_EQ(bench.chain.pwm(0, 1, row.hz, row.duty), Error::none);
     EXPECT_EQ(bench.chain.module_at(0).outputs[0].frequency_hz, row.hz);
     EXPECT_EQ(bench.chain.module_at(0).outputs[0].duty_percent, row.duty);
@@ -135,7 +135,7 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
 TEST(SlimTriggers, FireOnceInTheTickThatPassesThemFromEitherSide) {
   for (const int direction : {+1, -1}) {
     OneChain bench;
-    bench.speeds(0, 100'000, 1'000'000);  // up to 100 pulses a tick
+    bench.speeds(0, 100'000, 1'000'000);  // up to 100 pulses per tick
     bench.chain.set_output_at_once(0, 4, true);
     ASSERT_EQ(bench.chain.arm(0, 1, 3, true, direction * 12'345), Error::none);
     ASSERT_EQ(bench.chain.arm(0, 2, 4, false, direction * 20'000), Error::none);
@@ -145,7 +145,7 @@ TEST(SlimTriggers, FireOnceInTheTickThatPassesThemFromEitherSide) {
       EXPECT_EQ(bench.chain.output(0, 3), bench.travel(0) * direction >= 12'345) << bench.tick;
       EXPECT_EQ(bench.chain.output(0, 4), bench.travel(0) * direction < 20'000) << bench.tick;
     }
-    // Once, also where the coordinate is set again.
+    // Once, even if the coordinate is set again.
     bench.chain.set_outputs(0, 0b1000);
     bench.chain.set_coordinate(0, direction * 30'000);
     bench.chain.move(0, true, 0);
@@ -174,21 +174,22 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   bench.map({0, 1});
   bench.chain.arm(1, 1, 1, true, 150);
   bench.chain.set_coordinate(1, 100);
-  bench.line({0, 100});  // from 100 to 200: there half way
+  bench.line({0, 100});  // from 100 to 200: half way at 150
   while (!bench.chain.output(1, 1) && bench.tick < 5000) bench.step();
   EXPECT_EQ(bench.travel(1), 50);
   // Another P1SET replaces the armed one.
   bench.chain.arm(1, 1, 2, true, 160);
   bench.chain.arm(1, 1, 3, true, 170);
   bench.finish();
-  EXPECT_EQ(levels(bench.chain, 1), 0b1);  // armed behind the motion
+  EXPECT_EQ(levels(bench.chain, 1), 0b1);  // armed after the motion
   bench.line({0, -100});
   bench.finish();
   EXPECT_EQ(levels(bench.chain, 1), 0b101);
   EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::range);
 }
 
-/// Both triggers of one output in the same millisecond: the one that is passed last stays, either way.
+/// Both triggers of one output in the same millisecond: the one that is passed last wins, in either
+/// direction.
 TEST(SlimTriggers, OfOneMillisecondActInTheirOrder) {
   for (const bool forwards : {true, false}) {
     for (const bool first_sets : {true, false}) {

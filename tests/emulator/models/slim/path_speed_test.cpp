@@ -37,7 +37,7 @@ TEST(SlimTvm, ChangesOnThePathWithTheSlopeThereIs) {
     worst = std::max(worst, std::abs(off) * kPulses);
   }
   EXPECT_LE(worst, kHalfEach);
-  // 160 ms down (120 mean * 0.16 = 19.2), what is left at 40 but for 0.8 of the last 40 ms.
+  // 160 ms down (120 mean * 0.16 = 19.2), the rest at 40, except 0.8 for the last 40 ms.
   const double left = length - 95 - 15 - 180 - 19.2 - 0.8;
   EXPECT_EQ(bench.tick - 1, ticks_of(2.0 + 0.16 + left / 40 + 0.04));
   EXPECT_EQ(bench.travel(0), 0);
@@ -53,7 +53,7 @@ TEST(SlimTvm, Pr3OfOneModuleInMotionCountsAtOnce) {
     int module;
     Tick ms;
   };
-  // 45 of 100 at 100, 80 ms down to 20 (4.8), 50 at 20, and 20 ms to stop: or as if nothing had been.
+  // 45 of 100 at 100, 80 ms down to 20 (4.8), 50 at 20, and 20 ms to stop; or as if nothing had happened.
   for (const Row& row : {Row{kWholePath, 0, 3100}, Row{kWholePath, 1, 3100}, Row{kByX, 0, 3100},
                          Row{kByX, 1, 1100}, Row{kNextCommand, 0, 1100}}) {
     ChainOptions options;
@@ -62,7 +62,7 @@ TEST(SlimTvm, Pr3OfOneModuleInMotionCountsAtOnce) {
     bench.line({100, 0});
     bench.steps(501);
     EXPECT_EQ(bench.chain.settings().set_path_speed(row.module, 20), Error::none);
-    EXPECT_EQ(bench.chain.settings().set_path_speed(5, 50), Error::none);  // of one that is on no path
+    EXPECT_EQ(bench.chain.settings().set_path_speed(5, 50), Error::none);  // of a module without a path
     EXPECT_EQ(bench.finish() - 1, row.ms);
     EXPECT_EQ(bench.travel(0), 100 * kPulses);
   }
@@ -91,7 +91,7 @@ TEST(SlimTvm, TvaIsRefusedOfAModuleOnAPath) {
   bench.steps(500);
   EXPECT_EQ(bench.chain.settings().set_path_acceleration(0, 500), Error::not_allowed);
   EXPECT_EQ(bench.chain.settings().set_path_acceleration(1, 500), Error::not_allowed);
-  EXPECT_EQ(bench.chain.settings().set_path_acceleration(2, 500), Error::none);  // on no path
+  EXPECT_EQ(bench.chain.settings().set_path_acceleration(2, 500), Error::none);  // without a path
   EXPECT_EQ(bench.finish() - 1, 1100);
   for (int module = 0; module < 2; ++module) {
     EXPECT_EQ(bench.chain.settings().set_path_acceleration(module, 500), Error::none);

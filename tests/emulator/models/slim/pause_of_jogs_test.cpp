@@ -6,7 +6,7 @@
 namespace understudy::emulator::models::slim {
 namespace pause_of_jogs_test {
 
-/// At 1000 pulses a second, reached within 0.1 s and 50 pulses.
+/// At 1000 pulses per second, reached within 0.1 s and 50 pulses.
 OneChain at_jog(const ChainOptions& options = {}) {
   OneChain bench(options);
   bench.speeds(6, 10'000, 10'000);
@@ -63,7 +63,7 @@ TEST(SlimPauseTable, AMoveBehindAJogStillWaitsAfterThePause) {
 }
 
 TEST(SlimPauseTable, WhatAJogWasAboutToBeGoesOn) {
-  // The pause comes while it reverses, and while it is being stopped.
+  // The pause comes while the axis reverses, and while it is being stopped.
   OneChain turning = at_jog();
   turning.chain.jog(6, -1);
   turning.steps(50);
@@ -76,7 +76,7 @@ TEST(SlimPauseTable, WhatAJogWasAboutToBeGoesOn) {
   turning.steps(1001);
   EXPECT_EQ(turning.travel(6), 50);
 
-  for (const bool before : {false, true}) {  // JG0 before the pause, and in it
+  for (const bool before : {false, true}) {  // JG0 before the pause, and during it
     OneChain stopping = at_jog();
     if (before) stopping.chain.jog(6, 0);
     stopping.steps(50);
@@ -111,7 +111,7 @@ TEST(SlimPauseTable, AJogIsGivenUpAndStoppedLikeAnything) {
 
 TEST(SlimPauseTable, AThrustGoesOnAfterThePause) {
   for (const bool runs : {false, true}) {
-    for (const Tick wait : {30, 300}) {  // while it slows down, and at rest
+    for (const Tick wait : {30, 300}) {  // while it decelerates, and at rest
       ChainOptions options;
       if (runs) options.choose(option("thrust", "runs_at_vj"));
       OneChain bench(options);

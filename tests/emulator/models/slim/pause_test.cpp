@@ -17,7 +17,7 @@ OneChain at_origin(const ChainOptions& options = {}) {
   return bench;
 }
 
-/// 50 east, then half a circle to (50, 100): one length, and the place on it.
+/// 50 east, then half a circle to (50, 100): one length, and the position on it.
 constexpr double kLine = 50;
 constexpr double kArc = 50 * std::numbers::pi;
 
@@ -27,7 +27,7 @@ void line_and_arc(OneChain& bench, int mode = 1) {
   ASSERT_EQ(bench.chain.arc({.centre_x_units = 50, .centre_y_units = 50, .sweep_deg = 180}), Error::none);
 }
 
-/// Returns how far the modules are from the nearest place of that path, in pulses, and how far along it they
+/// Returns how far the modules are from the nearest point of that path, in pulses, and how far along it they
 /// are.
 struct OnPath {
   double off_pulses = 0;
@@ -46,7 +46,7 @@ const double kHalfEach = std::sqrt(0.5) + 1e-6;
 
 TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
   // Within the first command; so late in it that the stop lies beyond its end (from 45 on, 5 units are
-  // needed); within the second; while it speeds up; while it slows down for the end.
+  // needed); within the second; while it accelerates; while it decelerates for the end.
   for (const Tick pause_at : std::initializer_list<Tick>{50, 300, 520, 545, 900, 2100}) {
     SCOPED_TRACE(pause_at);
     OneChain bench = at_origin();
@@ -54,7 +54,7 @@ TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
     const Trapezoid whole{kLine + kArc, 100, 1000};
     bench.steps(pause_at + 1);
     ASSERT_EQ(bench.chain.pause(), Error::none);
-    // Speed and place by the closed form, and where it stops from there.
+    // Speed and position by the closed form, and where it stops from there.
     const double t = static_cast<double>(pause_at) / 1000;
     const double s = whole.at(t);
     const double remaining_s = whole.duration_s() - t;
@@ -90,7 +90,7 @@ TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
 TEST(SlimPause, WithoutContinuousPathItStopsAtTheNextBorder) {
   OneChain bench = at_origin();
   line_and_arc(bench, 0);
-  bench.steps(1 + 570);  // 600 ms for the line; slowing down since 500
+  bench.steps(1 + 570);  // 600 ms for the line; decelerating since 500
   bench.chain.pause();
   bench.steps(200);
   EXPECT_EQ(bench.travel(0), 50 * kPulses);
@@ -98,7 +98,7 @@ TEST(SlimPause, WithoutContinuousPathItStopsAtTheNextBorder) {
   const Tick resumed = bench.tick;
   bench.chain.resume();
   bench.finish();
-  // The arc begins from rest; the run needs a tick to see that its line is over.
+  // The arc starts from rest; it needs a tick to detect that its line has ended.
   EXPECT_NEAR(static_cast<double>(bench.tick - resumed - 1),
               static_cast<double>(ticks_of(Trapezoid{kArc, 100, 1000}.duration_s())), 1);
 }
@@ -132,7 +132,7 @@ TEST(SlimPause, SingleMovesPauseAndGoOnAsWell) {
   bench.finish();
   EXPECT_EQ(bench.tick - resumed - 1, 3000);  // 2/1 + 1
   EXPECT_EQ(bench.travel(5), 4000);
-  // And before it stands: 0.5 s down from 1 to 0.5 (0.375), the same up.
+  // And before it stops: 0.5 s down from 1 to 0.5 (0.375), and the same up.
   bench.chain.move(5, false, 4);
   const Tick began = bench.tick;
   bench.steps(2001);
@@ -148,9 +148,9 @@ TEST(SlimPause, SingleMovesPauseAndGoOnAsWell) {
 
 TEST(SlimPauseTable, RunAndTapz) {
   OneChain bench = at_origin();
-  EXPECT_EQ(bench.chain.pause(), Error::none);  // idle as well
+  EXPECT_EQ(bench.chain.pause(), Error::none);  // even when idle
   EXPECT_TRUE(bench.chain.paused());
-  bench.step();  // the first one, in which every axis looks around
+  bench.step();  // the first tick, in which every axis updates its environment
   EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
 }
 
@@ -177,7 +177,7 @@ TEST(SlimPauseTable, RunAndTastopStopsNowAndForgetsEverything) {
   bench.chain.move(5, true, 0);
   bench.chain.jog(6, +1);
   bench.chain.thrust(7, 100);
-  bench.chain.set_output(0, 1, true);  // behind the motion: forgotten with it
+  bench.chain.set_output(0, 1, true);  // after the motion: discarded with it
   bench.steps(300);
   const std::array<std::int64_t, 3> at{bench.travel(0), bench.travel(5), bench.travel(6)};
   ASSERT_GT(at[0], 0);
@@ -217,7 +217,7 @@ TEST(SlimPauseTable, PauseRefusesMotionAndAcceptsTheRest) {
   bench.line({100, 0});
   bench.steps(500);
   bench.chain.pause();
-  for (const Tick later : {0, 10, 500}) {  // from the instant on
+  for (const Tick later : {0, 10, 500}) {  // from this moment on
     bench.steps(later);
     EXPECT_EQ(bench.line({1, 1}), Error::paused);
     EXPECT_EQ(bench.chain.arc({.centre_x_units = 1, .sweep_deg = 10}), Error::paused);
@@ -254,17 +254,17 @@ TEST(SlimPauseTable, TvmInPauseCountsFromThenOn) {
 }
 
 TEST(SlimPauseTable, PauseAndTaupzDiscardsAndAcceptsMotionAgain) {
-  for (const Tick wait : {0, 40, 300}) {  // while it slows down, too: then it does so to the end
+  for (const Tick wait : {0, 40, 300}) {  // even while it decelerates: then it decelerates to the end
     OneChain bench = at_origin();
     line_and_arc(bench);
     bench.chain.move(5, true, 50);
-    bench.steps(521);  // 47 done: stops at 52, beyond the border
+    bench.steps(521);  // 47 done: stops at 52, beyond the joint
     bench.chain.pause();
     bench.steps(wait);
     EXPECT_EQ(bench.chain.discard(), Error::none);
     EXPECT_FALSE(bench.chain.paused());
     EXPECT_EQ(bench.chain.module_at(0).fifo.size(), 0U);
-    // 2MA back to the origin: begins from rest, from where it stands then.
+    // 2MA back to the origin: starts from rest, from its present position.
     EXPECT_EQ(bench.line({0, 0}, true), Error::none);
     while (bench.chain.moving(0) && wait < 100 && bench.tick < 521 + 100) {
       bench.step();

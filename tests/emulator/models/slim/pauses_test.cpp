@@ -1,4 +1,4 @@
-// Every cell of pauses.h, as each option has it, with a path, a move and a jog under way.
+// Every cell of pauses.h, with each option, with a path, a move and a jog in progress.
 #include "emulator/models/slim/rules/pauses.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ class PauseCell {
   Error give_motions() {
     const Error error = chain().move(kIdle, false, 100);
     EXPECT_EQ(chain().home(4), error);
-    if (error == Error::none) return error;  // what follows would stand in the buffers that are counted
+    if (error == Error::none) return error;  // the next commands would be in the buffers that are counted
     EXPECT_EQ(chain().move_axis(Letter::x, true, 1), error);
     EXPECT_EQ(bench_.line({1, 1}), error);
     EXPECT_EQ(chain().arc({.centre_x_units = 1, .sweep_deg = 10}), error);
@@ -118,7 +118,7 @@ class PauseCell {
     EXPECT_EQ(chain().module_at(kOnMove).fifo.size(), commands);
     EXPECT_TRUE(chain().busy(kOnJog));
     EXPECT_EQ(speeds(), stands ? kStanding : running_);
-    // Held motion is shown as what it is.
+    // Held motion is reported as what it is.
     EXPECT_EQ(chain().status(kOnPath).mode, Mode::coordinated);
     EXPECT_EQ(chain().status(kOnMove).mode, Mode::position);
     EXPECT_EQ(chain().status(kOnJog).mode, Mode::jog);
@@ -194,7 +194,7 @@ TEST(SlimPauses, NameTheListOrARowOfTheChoices) {
   for (const PauseRow& row : pauses::kRows) {
     const bool is_row = std::ranges::any_of(kChoices, [&](const ChoiceRow& c) { return c.id == row.by; });
     EXPECT_TRUE(is_row || row.by.starts_with("list, ")) << row.by;
-    // A cell that an option changes is not a list's.
+    // A cell that an option changes does not come from a list.
     EXPECT_TRUE(!row.other.chosen || row.other.result != row.result) << row.by;
   }
 }
@@ -212,7 +212,7 @@ TEST(SlimPauses, OfT0AloneHoldNoOthers) {
   EXPECT_EQ(bench.travel(0), 0);
   EXPECT_EQ(bench.travel(6), 50);
   EXPECT_NE(bench.chain.speed_pps(5), 0);
-  // CLR BUF ends it there alone; TAPZ holds them all.
+  // CLR BUF ends it only there; TAPZ holds all of them.
   bench.chain.clear_queues();
   EXPECT_NE(bench.chain.speed_pps(5), 0);
   EXPECT_FALSE(bench.chain.busy(0));

@@ -35,7 +35,7 @@ TEST(SlimPrograms, PalletisingWithArcs) {
 }
 
 TEST(SlimPrograms, AnOctagonWithoutStopping) {
-  // Eight sides of 10: each by itself takes 0.2 s, all in one 80 / 100 + 0.1 = 0.9 s.
+  // Eight sides of 10: each separately takes 0.2 s, all in one 80 / 100 + 0.1 = 0.9 s.
   DialogueScript(2).play(R"(
 > PG
 > TX=0
@@ -115,7 +115,8 @@ TEST(SlimPrograms, AHelix) {
 }
 
 TEST(SlimPrograms, APausedProgramGoesOnOnItsPath) {
-  // 100 along x, 1.1 s. Slowing down from 100 at 1000 takes 0.1 s and 5 units; so does speeding up again.
+  // 100 along x, 1.1 s. Decelerating from 100 at 1000 takes 0.1 s and 5 units, and so does accelerating
+  // again.
   DialogueScript(2).play(R"(
 > PG
 > TX=0

@@ -1,7 +1,7 @@
-// Programs as people write them, run in simulated time with the whole dialogue compared. Times are worked out
-// by hand: a move of L from rest to rest takes L/v + v/a, or 2 sqrt(L/a) where L < v^2/a. For single axes v
-// is 1000 RPM x 10000 / 60 = 166667 pulses/s and a ten times that a second; for coordinated ones 100 and 1000
-// units. A line takes 1 ms; the scripts look a few lines' time before and after each moment.
+// Programs as people write them, run in simulated time with the whole dialogue compared. Times are calculated
+// by hand: a move of L from rest to rest takes L/v + v/a, or 2 sqrt(L/a) if L < v^2/a. For single axes v is
+// 1000 RPM x 10000 / 60 = 166667 pulses/s and a is ten times that per second; for coordinated ones v is 100
+// and a is 1000 units. A line takes 1 ms; the scripts check a few lines' time before and after each moment.
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
@@ -11,7 +11,7 @@ namespace understudy::emulator::models::slim {
 namespace programs_test {
 
 TEST(SlimPrograms, PickAndPlace) {
-  // 10000 pulses: 2 sqrt(10000 / 1666667) = 0.1549 s. Twice, and 50 ms between: 0.360 s and 8 lines.
+  // 10000 pulses: 2 sqrt(10000 / 1666667) = 0.1549 s. Twice, with 50 ms between: 0.360 s and 8 lines.
   DialogueScript(1).play(R"(
 > PG
 > MA 10000
@@ -42,7 +42,7 @@ TEST(SlimPrograms, PickAndPlace) {
 }
 
 TEST(SlimPrograms, AnEventHoldsAndReleases) {
-  // 100000 pulses: 0.7 s. Held from 0.3 s on: it has slowed down at 0.4 s, at 50000. From 1.0 s on the other
+  // 100000 pulses: 0.7 s. Held from 0.3 s on: it has decelerated at 0.4 s, at 50000. From 1.0 s on the other
   // 50000 take 0.4 s.
   DialogueScript(1).play(R"(
 > PG
@@ -105,8 +105,8 @@ TEST(SlimPrograms, WritesToADisplay) {
 
 TEST(SlimPrograms, JogsAsFastAsTheAnalogInputSays) {
   // VJ 100 RPM, half of it: 8333.3 pulses/s. The jog is at its beginning one tick after the command, and
-  // slows down from the moment of the other one: 0.999 s between them, 8325 pulses in all, as both ramps are
-  // alike.
+  // decelerates from the moment of the other one: 0.999 s between them, 8325 pulses in all, because both
+  // ramps are equal.
   DialogueScript(1).play(R"(
 AIN = 500
 @ 1
@@ -127,7 +127,7 @@ AIN = 500
 }
 
 TEST(SlimPrograms, AJogWithoutAnalogSpeedBeginsWhenTheInputComes) {
-  // As above, but everything has stood still for a second when the input comes.
+  // As above, but everything has been at rest for a second when the input comes on.
   DialogueScript script(1);
   script.play(R"(
 > AVM
@@ -138,7 +138,7 @@ AIN = 500
 > JG0
 @ 50
 )");
-  EXPECT_NEAR(*script.device().named_values()->value_named("PE"), 8333, 20) << "a tick or two more or less";
+  EXPECT_NEAR(*script.device().named_values()->value_named("PE"), 8333, 20) << "within a tick or two";
 }
 
 TEST(SlimPrograms, AsksTheHostForNumbers) {
@@ -189,7 +189,7 @@ TEST(SlimPrograms, PrintsNoFasterThanItsLineCarries) {
     world.take_output(0, line.output().size());
     EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().speech.size(), 2 * 1024u);
   }
-  // 960 characters a second, but for what is typed first and for pauses of a tick between texts.
+  // 960 characters per second, except for the typed commands and for pauses of a tick between texts.
   EXPECT_GT(said, 17'000U);
   EXPECT_LE(said, 20U * 960U);
 }

@@ -83,8 +83,8 @@ TEST(SlimQueues, ClrBufInAPathStopsAtTheFirstBorderWithinReach) {
     std::int64_t end;
     Tick ms;
   };
-  // Pieces of 20 at 100 and 1000: 5 to speed up, 5 to stop. After 150 ms 10 are done: 20 can be met (0.3 s).
-  // After 240 ms 19 are done: 24 is the soonest, so 40 (0.5 s).
+  // Pieces of 20 at 100 and 1000: 5 to accelerate, 5 to stop. After 150 ms 10 are done: 20 is within reach
+  // (0.3 s). After 240 ms 19 are done: 24 is the earliest, so 40 (0.5 s).
   for (const Row& row : {Row{150, 2000, 300}, Row{200, 2000, 300}, Row{240, 4000, 500}}) {
     OneChain bench;
     bench.scale_all(100);
@@ -95,7 +95,7 @@ TEST(SlimQueues, ClrBufInAPathStopsAtTheFirstBorderWithinReach) {
     bench.chain.clear_queues();
     EXPECT_EQ(bench.finish() - 1, row.ms) << row.after;
     EXPECT_EQ(bench.travel(0), row.end) << row.after;
-    // A later command is not joined to anything.
+    // A later command is not joined to any other.
     bench.line({20, 0});
     bench.finish();
     EXPECT_EQ(bench.travel(0), row.end + 2000);
@@ -109,7 +109,7 @@ TEST(SlimQueues, APathBehindClrBufBeginsWhereWhatIsLeftEnds) {
   bench.chain.set_continuous_path(1);
   for (int i = 0; i < 5; ++i) bench.line({20, 0});
   bench.steps(151);
-  bench.chain.clear_queues();  // 20 are left
+  bench.chain.clear_queues();  // 20 remain
   bench.line({20, 0});
   bench.finish();
   EXPECT_EQ(bench.travel(0), 4000);

@@ -37,7 +37,7 @@ TEST(SlimSeen, AModuleThatIsLinkedLaterIsThere) {
   };
   EXPECT_TRUE(shown("robot.T1"));
   EXPECT_FALSE(shown("robot.T2"));
-  script.type("PN50=5");  // T0 and T2: T1 is still on its place
+  script.type("PN50=5");  // T0 and T2: T1 is still at its position
   EXPECT_TRUE(shown("robot.T1"));
   EXPECT_TRUE(shown("robot.T2"));
   EXPECT_FALSE(shown("robot.T3"));

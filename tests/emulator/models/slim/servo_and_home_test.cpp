@@ -56,7 +56,7 @@ TEST(SlimServo, OffEndsAJogAndWhatWaitsForItIsDroppedWithItsError) {
   bench.chain.jog(0, 0);
   bench.chain.jog(0, +1);
   const std::int64_t at = bench.travel(0);
-  // After the waiting move: its turn does not come.
+  // After the waiting move: that never starts.
   bench.chain.set_servo(0, false);
   bench.step();
   EXPECT_TRUE(bench.chain.axis(0).servo_on);
@@ -81,7 +81,7 @@ TEST(SlimServo, OffOfOneStopsItsGroupAndItsCommandsOnly) {
   EXPECT_EQ(bench.line({1, 1}), Error::servo_off);
   bench.finish();
   EXPECT_EQ(bench.travel(1), at);
-  EXPECT_EQ(bench.travel(0), 0);  // its own move was carried out
+  EXPECT_EQ(bench.travel(0), 0);  // its own move was executed
   EXPECT_EQ(bench.travel(5), 100);
 }
 

@@ -46,7 +46,7 @@ std::vector<Moment> moments() {
        "@ 300\n> TAREDO\n@ 9\n"},
       {"paused", path + program("> 2MR 100,50\n> 2MR 5,5\n> XDN\n> OUT \"END\"\n") + "@ 501\n> TAPZ\n@ 200\n",
        "@ 100\n> TAREDO\n"},
-      // 20 units take 300 ms, the last 100 slowing down: the pause is reached on the end.
+      // 20 units take 300 ms, of which the last 100 decelerate: the pause comes at the end.
       {"paused on the end of a path", path + "> 2MR 20,0\n@ 270\n> TAPZ\n@ 76\n", ""},
       {"held", "> MR 100000\n> T1MR 5\n> T1MR -20000\n@ 301\n> PZ\n@ 40\n", "@ 200\n> REDO\n"},
       {"a program in front of a pause", path + "> TAPZ\n" + program("> 2MR 9,9\n> OUT \"END\"\n") + "@ 50\n",
@@ -110,7 +110,7 @@ std::string seen_of(DialogueScript& script) {
   return seen + std::to_string(device.state_hash());
 }
 
-/// Everything from now on, millisecond by millisecond for a while and then at longer steps.
+/// Everything from now on, every millisecond for a while and then at longer steps.
 std::vector<std::string> lived(DialogueScript& script, const Moment& moment) {
   std::vector<std::string> all{seen_of(script)};
   const auto live = [&](Tick span, Tick step) {
@@ -126,7 +126,7 @@ std::vector<std::string> lived(DialogueScript& script, const Moment& moment) {
   return all;
 }
 
-/// The levels from outside belong to its environment, not to its state.
+/// The levels from outside belong to the device's environment, not to its state.
 void put_inputs(DialogueScript& from, DialogueScript& to) {
   const world::World& world = from.world();
   for (int i = 0; i < static_cast<int>(model().terminals.size()); ++i) {
@@ -253,7 +253,7 @@ TEST(SlimState, QuietTicksMakeNoDifference) {
   EXPECT_GT(crossed, 100'000u);
 }
 
-/// It returns like a device that has only kept its memory, permanently.
+/// It returns like a device that has only kept its memory, and stays so.
 TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
   for (const Moment& moment : moments()) {
     SCOPED_TRACE(moment.name);
@@ -271,7 +271,7 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
     }
     EXPECT_EQ(cut.device().memory()->nv_image(), kept);
 
-    // Saved while dead, too.
+    // It is also saved while it has no power.
     const std::vector<std::byte> dead = cut.device().save_state();
     cut.device().restore_state(dead);
     ASSERT_EQ(cut.device().save_state(), dead);
@@ -283,7 +283,7 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
     }
     EXPECT_EQ(cut.ask("?time"), "0:00:00");
     EXPECT_EQ(cut.ask("XMA 5"), "ERR 4") << "the map of PN37";
-    EXPECT_EQ(cut.ask("G"), "ERR 13") << "no program is kept";
+    EXPECT_EQ(cut.ask("G"), "ERR 13") << "no program is stored";
     cut.play("> RESET\n");
     for (int i = 0; i < 30; ++i) {
       cut.pass(100);

@@ -34,7 +34,7 @@ Lines motion_of(Doing doing) {
   }
 }
 
-/// Lines of a program that reach it, and then print B.
+/// Lines of a program that cause it, and then print B.
 Lines lines_of(Doing doing) {
   const Lines loop{"OUT \"B\"", "$L CHG P1", "JP $L"};
   Lines lines;

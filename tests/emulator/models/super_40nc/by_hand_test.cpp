@@ -1,5 +1,5 @@
 // A SUPER-40NC moved by hand: jog, ZERO, the hand wheel, the panel's keys, and what stops them. Positions and
-// times are closed forms of the manual's ramps: 4000 pulses a revolution, 0 to 5000 rpm in 500 ms.
+// times are closed forms of the manual's ramps: 4000 pulses per revolution, 0 to 5000 rpm in 500 ms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(Super40ncJog, RunsAsLongAsItsContactIsOn) {
 
 TEST(Super40ncJog, APulseBetweenScansJogsForOne) {
   OneSuper40nc one;
-  one.set("D9176", 50);  // at its speed at once
+  one.set("D9176", 50);  // reaches its speed at once
   one.set("M8103", 1);
   one.set("M8103", 0);
   EXPECT_FALSE(one.on("M8120"));
@@ -128,7 +128,7 @@ TEST(Super40ncJog, TheHighestSpeedIsNotPassed) {
   one.set("D9175", 200);
   one.set("M8103", 1);
   one.run(1000);
-  // 200 rpm are 13333 pps, and the chip's step 300 / floor(300 * 65535 / 13333) pps.
+  // 200 rpm is 13333 pps, and the chip's step is 300 / floor(300 * 65535 / 13333) pps.
   EXPECT_EQ(one.get("D8170"), std::lround(pps(200) / (300.0 / std::floor(300.0 * 65535 / pps(200)))));
 }
 
@@ -326,7 +326,7 @@ TEST(Super40ncWheel, IsSelectedByD8020AndD8021) {
 
 TEST(Super40ncWheel, CountsBeyondTheHighestSpeedAreLost) {
   OneSuper40nc one;
-  one.set("D9175", 15);  // 1000 pps: a pulse a tick
+  one.set("D9175", 15);  // 1000 pps: one pulse per tick
   one.set("M8108", 1);
   one.run(2);
   one.input("MPG", 500);
@@ -397,7 +397,7 @@ TEST(Super40ncKeys, ZeroComesInItsOrder) {
   for (const char* position : positions) one.set(position, 10000);
   one.set("D9184", 3);
   one.set("D9284", 1);
-  one.set("D9384", 1);  // U never
+  one.set("D9384", 1);  // U never does
   one.press("M8593");
   EXPECT_TRUE(one.on("M8298") && one.on("M8398"));
   EXPECT_FALSE(one.on("M8198"));

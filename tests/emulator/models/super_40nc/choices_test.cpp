@@ -21,7 +21,7 @@ struct Case {
   Writes set;
   std::vector<Step> steps;
   std::string shown;                                     // a register
-  std::vector<std::pair<std::string, Value>> by_option;  // ours first
+  std::vector<std::pair<std::string, Value>> by_option;  // our option first
 };
 
 const std::vector<Case>& cases() {
@@ -54,7 +54,7 @@ const std::vector<Case>& cases() {
        {{{}, 10}, {{{"D0", 0}, {"D9002", 1}}, 200}},
        "D0",
        {{"0", 200}, {"100_ms_without_a_scan", 100}}},
-      // An EL where a soft limit pauses, and the other way round.
+      // An EL while a soft limit pauses, and the other way round.
       {"soft_limit_resets",
        "AREA X\nNOP\nRPM K100\nDRV K5000\nEND",
        {},

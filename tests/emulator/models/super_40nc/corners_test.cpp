@@ -11,7 +11,7 @@
 namespace understudy::emulator::models::super_40nc {
 namespace corners_test {
 
-/// 65,535 steps of the chip's greatest multiplier, 100 (6.55 Mpps in print).
+/// 65,535 steps of the chip's largest multiplier, 100 (printed as 6.55 Mpps).
 TEST(Super40ncCorners, NoMotionIsFasterThanTheChip) {
   OneSuper40nc one({.set = {{"D9003", 1}}, .program = "AREA C\nF K9999999\nLIN K90000000\nEND"});
   one.set("D9170", 131072);
@@ -45,7 +45,7 @@ TEST(Super40ncCorners, AFileHasTheRoomOfD9042) {
   EXPECT_EQ(one.get("D8094"), 10);
   EXPECT_EQ(text().find("AREA C"), std::string::npos);
   one.set("D9001", 0);
-  EXPECT_NE(text().find("FILE 1"), std::string::npos);  // it is as it was
+  EXPECT_NE(text().find("FILE 1"), std::string::npos);  // it is unchanged
   EXPECT_THROW(one.device().user_program()->load_program(file), ProgramError);
   EXPECT_EQ(one.get("D8094"), 10);
   one.set("D9045", 9);
@@ -54,7 +54,7 @@ TEST(Super40ncCorners, AFileHasTheRoomOfD9042) {
   EXPECT_NE(text().find("AREA C"), std::string::npos);
 }
 
-/// A listing is checked on a box without power.
+/// A listing is checked by a controller without power.
 TEST(Super40ncCorners, AListingIsCheckedAgainstTheFactorysRoom) {
   std::string text = "AREA C\n";
   for (int i = 0; i < 374; ++i) text += "LIN K1\n";
@@ -62,7 +62,7 @@ TEST(Super40ncCorners, AListingIsCheckedAgainstTheFactorysRoom) {
   EXPECT_FALSE(model().language->check(text + "LIN K1\nEND\n", {}).empty());
 }
 
-/// By EA/EB, as from the factory: what comes out in a tick is counted in it.
+/// By EA/EB, the factory setting: the pulses of a tick are counted in that tick.
 TEST(Super40ncCorners, AnEncoderIsNotBehind) {
   world::PlantSetup plant;
   plant.encoder_counts_per_revolution = 4000;
@@ -84,7 +84,7 @@ TEST(Super40ncCorners, APathDoesNotBeginIntoALimit) {
     const char* line;
     const char* input;
     const char* soft;  // D8x44, D8x45
-    Value code;        // 0: it begins
+    Value code;        // 0: it starts
   };
   for (const auto& [line, input, soft, code] :
        {Case{"LIN K1000 K1000", "X1", "", 11}, Case{"LIN K1000 K1000", "X5", "", 0},
@@ -121,7 +121,7 @@ TEST(Super40ncCorners, MrkWithoutADistanceMeetsItsSignal) {
     EXPECT_EQ(one.on("M8100"), code == 0) << input;
     one.press("M8102");
     one.input(input, 1);
-    one.set("M8103", 1);  // and is none again
+    one.set("M8103", 1);  // and is not one again
     one.run(5);
     EXPECT_TRUE(one.on("M8120")) << input;
   }
@@ -193,7 +193,7 @@ TEST(Super40ncCorners, ComparatorsSeeEveryNumber) {
     const std::string where = std::to_string(source) + " by " + std::to_string(method);
     EXPECT_EQ(one.on("M8120"), !stops) << where;
     EXPECT_EQ(one.get("D8094"), stops ? 23 : 0) << where;
-    const Value kPulsesOfATick = source == 0 ? -1 : 4;  // 50 rpm; the chip's own, to the pulse
+    const Value kPulsesOfATick = source == 0 ? -1 : 4;  // 50 rpm; by the chip, exact to the pulse
     if (stops) {
       EXPECT_LE(std::abs(one.get("D8140") - value), kPulsesOfATick + 1) << where;
     }
@@ -231,7 +231,7 @@ TEST(Super40ncCorners, WhatIsOnAtPowerUpIsNoEdge) {
   }
 }
 
-/// M8514 as the HOME key has that one's digit.
+/// M8514 acts like the HOME key with that digit.
 TEST(Super40ncCorners, TheOriginKeyObeysItsLock) {
   for (const auto& [mask, homes] : {std::pair{0, true}, std::pair{100000, false}, std::pair{1000, true}}) {
     OneSuper40nc one({.set = {{"D9199", 1}, {"D9025", mask}}, .choices = {{"m8514_meaning", "home"}}});
@@ -240,7 +240,7 @@ TEST(Super40ncCorners, TheOriginKeyObeysItsLock) {
   }
 }
 
-/// Lock (D9198) and X52 (D9197) count when a key is pressed: the axis stops with the key, whatever they are
+/// Lock (D9198) and X52 (D9197) apply when a key is pressed: the axis stops with the key, whatever they are
 /// by then.
 TEST(Super40ncCorners, AJogKeyThatIsLetGoAlwaysStops) {
   for (const auto& [parameter, value] : {std::pair{"D9197", 1}, std::pair{"D9198", 11000000}}) {
@@ -269,7 +269,7 @@ TEST(Super40ncCorners, AJogKeyThatIsLetGoAlwaysStops) {
   one.set("M8560", 1);
   one.run(100);
   one.set("D9197", 1);
-  one.set("M8561", 1);  // jogs + as well now
+  one.set("M8561", 1);  // now jogs + as well
   one.run(10);
   one.set("M8560", 0);
   one.run(100);

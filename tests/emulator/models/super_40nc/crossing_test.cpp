@@ -1,6 +1,6 @@
-// Random days of a SUPER-40NC in three worlds: one goes tick by tick, one crosses many ticks in one step, and
-// one is now and then put into a snapshot of the first. They stay the same, in the midst of everything:
-// programs of all areas, arcs, homes, the wheel, files, recipes, power and frames on both lines.
+// Random days of a SUPER-40NC in three worlds: one runs tick by tick, one skips many ticks in one step, and
+// one is sometimes replaced by a snapshot of the first. They stay equal, in the middle of everything:
+// programs of all areas, arcs, homing, the wheel, files, recipes, power and frames on both lines.
 // UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ Given drawn(std::uint64_t seed) {
   plant.pulses_per_revolution = 4000;
   plant.index = world::IndexSetup{.at = 0, .width = 1, .period = 4000};
   given.plant[0] = plant;
-  if (seed % 2 == 0) given.set.emplace_back("D9200", 3);  // Y turned round
+  if (seed % 2 == 0) given.set.emplace_back("D9200", 3);  // Y reversed
   given.plant[1] = given.plant[2] = plant;
   return given;
 }
@@ -136,10 +136,10 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
     ticks_skipped += crossed.world().ticks_skipped();
     EXPECT_EQ(single.world().ticks_skipped(), 0U);
   }
-  EXPECT_GT(ticks_skipped, 10'000U) << "worth something only if much is";
+  EXPECT_GT(ticks_skipped, 10'000U) << "meaningful only if much is";
 }
 
-/// Also where an input has changed since the last tick.
+/// Also if an input has changed since the last tick.
 TEST(Super40ncCrossing, ARestoredWorldIsTheOneThatWasSaved) {
   for (const std::string input : {"X0", "X1", "X4", "X7", "X20", "ALM_Y", "CEMG", "PLC_RUN"}) {
     OneSuper40nc one(drawn(7));

@@ -1,6 +1,6 @@
-// The effects of the chip's comparators, its latch and the pins LTC and CLR belong to their pulse: the table
-// kind of motion x kind of edge x effect, at speeds from a pulse in 100 ms to 4,000 in one, compared with
-// closed forms.
+// The effects of the chip's comparators, its latch and the pins LTC and CLR belong to their pulse. The table
+// is kind of motion x kind of edge x effect, at speeds from one pulse in 100 ms to 4,000 in one, compared
+// with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace understudy::emulator::models::super_40nc {
 namespace edges_in_a_tick_test {
 
-/// Pulses a second, as revolutions a minute of so many pulses; X's pulse with the edge, an odd one.
+/// Pulses per second, as revolutions per minute of this many pulses; X's pulse with the edge, an odd one.
 struct Speed {
   Value pps, rpm, pulses_per_revolution, edge;
 };
@@ -37,7 +37,7 @@ enum class Edge : std::uint8_t {
   counter1_as_the_fifth,  // the axis itself has four comparators
   counter2_of_pulses,
   counter2_of_the_encoder,
-  counter3_of_the_encoder,  // pulses less counts, of which there is one for two of them
+  counter3_of_the_encoder,  // pulses minus counts, one count for two pulses
   counter3_of_the_wheel,
   counter4_of_pulses,
   counter4_of_the_wheel,
@@ -73,7 +73,7 @@ struct Cell {
   bool can_be() const {
     if ((edge == Edge::clr) != (does == Does::clears)) return false;
     if (is_switch() && does == Does::stops) return false;
-    // The wheel turns for its own motion; COUNTER3 is then what it is not followed by: 0.
+    // The wheel turns for its own motion; COUNTER3, which nothing follows, is then 0.
     if (edge == Edge::counter4_of_the_wheel && motion != Motion::wheel) return false;
     if (edge == Edge::counter3_of_the_wheel && motion == Motion::wheel) return false;
     return edge != Edge::remaining || motion == Motion::drive || motion == Motion::last_of_a_drive ||
@@ -111,7 +111,7 @@ Given bench_of(const Cell& cell) {
   return given;
 }
 
-/// Sets a comparator: 3 to stop at once, 4 to latch, and 5 for what the others cannot do.
+/// Sets a comparator: 3 to stop at once, 4 to latch, and 5 for everything else.
 void compare(OneSuper40nc& one, const Cell& cell, Value source, Value number) {
   const bool stops = cell.does == Does::stops;
   const bool is_fifth = source > 3 || cell.edge == Edge::counter1_as_the_fifth;
@@ -158,7 +158,7 @@ void set_speed(OneSuper40nc& one, const Speed& by) {
   for (const char* const name : {"D9176", "D9177", "D9194", "D9195", "D9196"}) one.set(name, by.rpm);
 }
 
-/// The counts of the wheel up to a tick: as even as whole counts can be.
+/// Returns the counts of the wheel up to a tick: as evenly spaced as whole counts can be.
 void turn(OneSuper40nc& one, const Speed& by, Tick ticks) {
   one.input("MPG", static_cast<std::int32_t>(by.pps * ticks / 1000));
 }
@@ -170,12 +170,12 @@ Value move(OneSuper40nc& one, const Cell& cell) {
                               : cell.motion == Motion::line  ? "M8000"
                                                              : "M8100";
   one.set(contact, 1);
-  // A line speeds up on its path, at its own pace.
+  // A line accelerates on its path, at its own rate.
   const Tick most = 5 * cell.by.edge * 1000 / cell.by.pps + (cell.motion == Motion::line ? 4000 : 3);
   for (Tick ticks = 1; ticks <= most; ++ticks) {
     if (cell.motion == Motion::wheel) turn(one, cell.by, ticks);
     one.run(1);
-    // COUNTER3 has 16 bits: it comes to its number again.
+    // COUNTER3 has 16 bits, so it reaches its number again.
     if (cell.does == Does::latches && one.get("D8165") != 0) break;
   }
   const Value latched = one.get("D8165");
@@ -247,7 +247,7 @@ TEST(Super40ncEdgesInATick, ALatchReadsAndClearsAllCounters) {
   }
 }
 
-/// The wheel turns beside a jog, by 37 counts a tick: X is where it is when the count comes.
+/// The wheel turns during a jog, by 37 counts per tick: X is where it is when the count arrives.
 TEST(Super40ncEdgesInATick, AreOfTheMomentOfTheWheelsCount) {
   constexpr Value kCounts = 37;
   for (const Speed& by : kSpeeds) {
@@ -274,7 +274,7 @@ TEST(Super40ncEdgesInATick, AreOfTheMomentOfTheWheelsCount) {
   }
 }
 
-/// D9x46 = 5: between two ticks of a ramp the speed is a straight line, and met at its place on that.
+/// D9x46 = 5: between two ticks of a ramp the speed is a straight line, and is met at its point on that.
 TEST(Super40ncEdgesInATick, ASpeedIsMetWhereTheRampHasIt) {
   for (const Speed& by : {kSpeeds[2], kSpeeds[3]}) {
     const auto begin = [&](OneSuper40nc& one) {
@@ -315,7 +315,7 @@ TEST(Super40ncEdgesInATick, ASpeedIsMetWhereTheRampHasIt) {
   }
 }
 
-/// D9x09 = 2: while CLR is ON COUNTER1 stays 0, so it passes nothing, and counts from its end on. It does not
+/// D9x09 = 2: while CLR is ON COUNTER1 stays 0, so it passes nothing, and counts from then on. It does not
 /// matter whether that or CLR comes first.
 TEST(Super40ncEdgesInATick, AHeldCounterPassesNothing) {
   const std::pair<const char*, Value> kHeld[] = {{"D9127", 15}, {"D9109", 2}};
@@ -342,7 +342,7 @@ TEST(Super40ncEdgesInATick, AHeldCounterPassesNothing) {
       one.run(3);
       one.set("M8103", 1);
       one.run(6 * by.edge * 1000 / by.pps);
-      // CLR goes off behind the edge; COUNTER2 is first to come to its number.
+      // CLR goes off after the edge; COUNTER2 is the first to reach its number.
       EXPECT_EQ(one.world().sent_pulses(0, 0), by.edge + 1 + by.edge - 3) << by.pps;
       EXPECT_EQ(one.get("D8140"), by.edge - 3);
       EXPECT_EQ(one.get("D8141"), by.edge - 3);
@@ -350,7 +350,7 @@ TEST(Super40ncEdgesInATick, AHeldCounterPassesNothing) {
   }
 }
 
-/// D9x30 stops COUNTER2: what stands still passes nothing.
+/// D9x30 stops COUNTER2: a stopped counter passes nothing.
 TEST(Super40ncEdgesInATick, ACounterThatIsStoppedPassesNothing) {
   OneSuper40nc one({.set = {{"D9130", 1}, {"D9123", 1}, {"D9139", 1}, {"D9140", 1}, {"D9141", 1}}});
   one.set("D8146", 100);

@@ -1,5 +1,5 @@
-// What happens to motions that no step program waits for: each against each event, cell by cell (5.6 of what
-// we made of 《M8 特殊接點的功用》, 《M8x 特殊接點的功用》 and 《STP 指令》).
+// What happens to motions that no step program waits for: each with each event, cell by cell (5.6 of our
+// conclusions from 《M8 特殊接點的功用》, 《M8x 特殊接點的功用》 and 《STP 指令》).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -15,7 +15,7 @@ enum class Comes { on, ramp, stop };
 struct Motion {
   std::string name;
   std::function<void(OneSuper40nc&)> begin;
-  std::function<void(OneSuper40nc&)> let_go;  // its contact OFF; none: there is none
+  std::function<void(OneSuper40nc&)> let_go;  // its contact OFF; none if it has none
   Comes contact_off = Comes::on;
   Comes plc_stop = Comes::on;
   bool is_wheel = false;
@@ -149,7 +149,7 @@ TEST(Super40ncEvents, NothingStartsWhileInhibited) {
   }
 }
 
-/// Both ports write at once; each is answered on its own line, and no 32 bits are torn.
+/// Both ports write at once; each gets its reply on its own line, and no 32-bit value is torn.
 TEST(Super40ncEvents, TwoHostsAreServedSideBySide) {
   OneSuper40nc one({.program = kProgram});
   for (int i = 0; i < 50; ++i) {

@@ -37,7 +37,8 @@ TEST(Super40ncFinePoints, PanelParametersAreTheManuals) {
       EXPECT_EQ(row.name, name) << number;
       EXPECT_EQ(row.least, fact.at("least")) << number;
       EXPECT_EQ(row.most, fact.at("most")) << number;
-      // Where the table of D9 has another, the meaning tells the panel's; else the factory's is the panel's.
+      // If the table of D9 has another value, the meaning decides for the panel's; otherwise the factory
+      // value is the panel's.
       const std::string told = "on the panel's page ";
       const std::size_t place = row.meaning.find(told);
       const bool is_told = place != std::string_view::npos;
@@ -73,7 +74,7 @@ TEST(Super40ncFinePoints, EveryProgramHasItsEndSignal) {
   }
 }
 
-/// M8006 and M8008 act when they come ON, not as long as they are.
+/// M8006 and M8008 act when they come ON, not while they are ON.
 TEST(Super40ncFinePoints, RisingContactsActOnce) {
   OneSuper40nc one({.program = "AREA C\nTMR K10000\nEND"});
   one.set("M8008", 1);
@@ -113,7 +114,7 @@ TEST(Super40ncFinePoints, SoftLimitsOfAnotherCounterStop) {
   }
 }
 
-/// A value that was passed before a comparator is set has not met it.
+/// A comparator that is set after its value was passed has not met it.
 TEST(Super40ncFinePoints, AComparatorThatComesLateMeetsNothing) {
   for (const int number : {1, 3}) {
     OneSuper40nc one({.set = {{"D9123", 1}}});  // COUNTER2: pulses
@@ -155,7 +156,7 @@ TEST(Super40ncFinePoints, ATurningAxisIsWhoseLineWasLast) {
   }
 }
 
-/// X13 beyond the speed: it runs at it without a ramp, as the chip's FL.
+/// X13 above the speed: it runs at X13 without a ramp, like the chip's FL.
 TEST(Super40ncFinePoints, AMotionWithoutARampFeedsAtFl) {
   OneSuper40nc one({.set = {{"D9176", 3000}}, .program = "AREA X\nRPM K100\nDRV K5000\nEND"});
   one.set("M8100", 1);
@@ -181,7 +182,7 @@ TEST(Super40ncFinePoints, APauseThatIsTakenBackInItsRampGoesOn) {
   EXPECT_EQ(one.get("D8117"), 50'000);
 }
 
-/// In the text that it names, whatever base that uses.
+/// In the text that it names, whatever base the text uses.
 TEST(Super40ncFinePoints, APlaceIsALineOfTheText) {
   for (const char* base : {"", " BASE 500", " BASE 0"}) {
     OneSuper40nc one({.program = std::string("AREA X") + base + "\nNOP\nTMR K10000\nEND"});
@@ -255,8 +256,8 @@ TEST(Super40ncFinePoints, AnObserverSeesWhatStoppedAProgram) {
   EXPECT_EQ(why(1), why(0));
 }
 
-/// If another zero has moved a target while the axis went there, it is not the base of the next move: the
-/// present position is.
+/// If a new zero has moved a target during the move, the target is not the base of the next move: the present
+/// position is.
 TEST(Super40ncFinePoints, APositionSetOnTheWayIsTheNextBase) {
   for (const char* line : {"DRV", "LIN"}) {
     for (const char* set : {"PSET K0", "MOV K0 D8117", "MOV K0 D8140"}) {
@@ -276,7 +277,8 @@ TEST(Super40ncFinePoints, APositionSetOnTheWayIsTheNextBase) {
   }
 }
 
-/// It was never in memory, so leaving its number does not save an empty one, whatever room there is by then.
+/// It was never in memory, so leaving its number does not save an empty one, whatever the capacity is by
+/// then.
 TEST(Super40ncFinePoints, AFileThatWasTooLongIsFoundAgain) {
   for (const bool loses_power : {false, true}) {
     OneSuper40nc one({.program = "AREA C\nEND\nFILE 1\nINC D1\nINC D1\nINC D1\nINC D1\nEND"});

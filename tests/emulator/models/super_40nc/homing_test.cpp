@@ -1,5 +1,5 @@
 // SUPER-40NC's 13 homing modes (《X20.》), to the pulse. The DOG is from 50,000 to 70,000, the limit at
-// 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis slows down within 833 pulses.
+// 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis decelerates within 833 pulses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void prepare(OneSuper40nc& one, int mode, int direction) {
 struct Case {
   int mode;
   int end;
-  int tolerance;  // where it ends by a ramp
+  int tolerance;  // where it ends with a ramp
 };
 constexpr Case kCases[] = {
     {0, 50000 + kBraking, 1}, {1, 50000, 0},  {2, 52000, 0}, {3, 52000 + kBraking, 1}, {4, 48000, 0},
@@ -64,7 +64,7 @@ TEST(Super40ncHoming, EndsWhereTheModeSays) {
 
 struct Search {
   int mode;
-  int from;    // all places are in the direction of the search
+  int from;    // all positions are in the direction of the search
   int count;   // of C signals
   double rpm;  // X21
 };
@@ -73,8 +73,8 @@ struct Found {
   bool is_home = true;
 };
 
-/// From the manual's text alone. Ramps down are as long as ramps up: if an axis begins to slow down before it
-/// has completed its ramp, it needs the same distance again.
+/// From the manual's text alone. Ramps down are as long as ramps up: if an axis starts to decelerate before
+/// it has completed its ramp, it needs the same distance again.
 Found by_hand(const Search& search) {
   const double slope = 5000 * 4000 / 60.0 / 0.5;
   const double speed = search.rpm * 4000 / 60;
@@ -133,7 +133,7 @@ TEST(Super40ncHoming, EndsAlikeFromEverywhere) {
                                     ", rpm " + std::to_string(rpm);
           EXPECT_EQ(one.on("M8195"), expected.is_home) << which;
           EXPECT_EQ(one.get("D8094"), expected.is_home ? 0 : 15) << which;
-          if (!expected.is_home && expected.end != 99'000) continue;  // it stands wherever it has stopped
+          if (!expected.is_home && expected.end != 99'000) continue;  // it stays wherever it has stopped
           EXPECT_NEAR(static_cast<double>(one.get("D8140")), direction * (expected.end - from),
                       is_by_ramp ? 1 + rpm / 500 : 0)
               << which;
@@ -143,7 +143,7 @@ TEST(Super40ncHoming, EndsAlikeFromEverywhere) {
   }
 }
 
-/// The manual's second example (《X32.》): downwards, by the DOG's edge, which is shown as -100.000.
+/// The manual's second example (《X32.》): downwards, to the DOG's edge, which is displayed as -100.000.
 TEST(Super40ncHoming, SecondExampleShowsItsPlace) {
   OneSuper40nc one(machine(-1));
   one.set("D9121", 1);
@@ -169,7 +169,7 @@ TEST(Super40ncHoming, LeavesTheDogFirst) {
   }
 }
 
-/// The manual's first example (《X32.》): the third C signal behind the reversal, and an offset.
+/// The manual's first example (《X32.》): the third C signal after the reversal, and an offset.
 TEST(Super40ncHoming, WorkedExampleEndsAtItsPlace) {
   Given given = machine(+1);
   given.plant[0].lower_limit.reset();

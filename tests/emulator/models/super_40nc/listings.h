@@ -37,7 +37,7 @@ inline void expect_all_of(char group, int first, int last, std::span<const Listi
   EXPECT_EQ(names, files);
 }
 
-// --- closed forms: 4000 pulses a revolution, 5000 rpm within 500 ms, a pulse is 0.001 mm ------------------
+// --- closed forms: 4000 pulses per revolution, 5000 rpm within 500 ms, a pulse is 0.001 mm ----------------
 inline constexpr double kSlope = 5000 * 4000 / 60.0 / 0.5;
 inline constexpr double kTolerance_ms = 3;
 
@@ -49,7 +49,7 @@ inline double move_s(double distance, double speed) {
 }
 inline double drive_s(double distance, double rpm) { return move_s(distance, pps_of(rpm)); }
 
-// --- looking -----------------------------------------------------------------------------------------------
+// --- observing ---------------------------------------------------------------------------------------------
 inline Places positions(const OneSuper40nc& one) {
   return {one.get("D8117"), one.get("D8217"), one.get("D8317"), one.get("D8417")};
 }
@@ -63,7 +63,7 @@ inline void put(OneSuper40nc& one, const std::string& contact, bool on) {
   }
 }
 
-/// Goes through all states of some contacts, with a scan after each.
+/// Steps through all states of some contacts, with a scan after each.
 template <class Look>
 void each_state(OneSuper40nc& one, const std::vector<std::string>& contacts, Look look) {
   for (unsigned states = 0; states < (1U << contacts.size()); ++states) {
@@ -76,7 +76,7 @@ void each_state(OneSuper40nc& one, const std::vector<std::string>& contacts, Loo
   }
 }
 
-/// How long a step program stayed at one of its lines, in ticks.
+/// Returns how long a step program stayed at one of its lines, in ticks.
 struct Lap {
   Value step = 0;
   std::vector<Places> course{};

@@ -8,7 +8,7 @@ namespace listings_axes_test {
 
 const Set kOfC{{"D9003", 4}};
 
-/// The PLC has just been told to drive: each axis comes to its place in its own time; 0 s: it does not move.
+/// The PLC has just commanded a DRV: each axis reaches its position in its own time; 0 s: it does not move.
 void expect_drives(OneSuper40nc& one, const std::array<double, 4>& seconds, const Places& end) {
   std::array<Tick, 4> took{};
   for (Tick tick = 1; tick < 20'000; ++tick) {
@@ -75,7 +75,7 @@ void m14(const std::string& program) {
     given.plant[axis].home = world::PulseSpan{10'000 * (axis + 1), 10'000 * (axis + 1) + 9000};
     given.plant[axis].index = world::IndexSetup{.at = 0, .width = 1, .period = 4000};
   }
-  // Mode 4: behind the DOG's edge, at the first C signal on the way back.
+  // Mode 4: after the DOG's edge, at the first C signal on the way back.
   const Places at{8000, 20'000, 28'000, 40'000};
   for (const bool all : {true, false}) {
     OneSuper40nc one(given);
@@ -148,7 +148,7 @@ void m16(const std::string& program) {
     one.run(2);
     EXPECT_EQ(one.get("D8020"), axis) << input << on;
     EXPECT_EQ(one.get("D8021"), ratio) << input << on;
-    for (int count = 0; count < 3; ++count) {  // one a tick, as X12 allows
+    for (int count = 0; count < 3; ++count) {  // one per tick, as X12 allows
       one.input("MPG", ++turned);
       one.run(1);
     }
@@ -163,7 +163,7 @@ void m17(const std::string& program) {
   OneSuper40nc one({.set = kOfC, .program = program});
   one.set("M8000", 1);
   one.run(3);
-  // No faster than X12, a count a tick.
+  // No faster than X12, one count per tick.
   std::int32_t turned = 0;
   const auto turn_to = [&](std::int32_t counts) {
     for (; turned < counts; one.run(1)) one.input("MPG", ++turned);
@@ -182,7 +182,7 @@ void m17(const std::string& program) {
   EXPECT_EQ(positions(one), (Places{1020, 2550, -5000, 0}));
 }
 
-/// To the target, then at creep (20 rpm) over the search; a mark ends it on the spot.
+/// To the target, then at creep speed (20 rpm) during the search; a mark ends it at once.
 double mark_s(double distance, double rpm, double creep_distance, bool has_mark) {
   const double v = pps_of(rpm);
   const double creep = pps_of(20);
@@ -274,17 +274,17 @@ void m21(const std::string& program) {
   OneSuper40nc one({.program = program});
   one.set("M8100", 1);
   one.run(2);
-  EXPECT_FALSE(one.on("Y0"));  // the printed comparison holds at once
+  EXPECT_FALSE(one.on("Y0"));  // the printed comparison is true at once
   const Tick took = 2 + one.run_while("M8100");
   EXPECT_NEAR(static_cast<double>(took), 760 + 760, 2 * kTolerance_ms);
   EXPECT_EQ(positions(one), Places{});
-  // From above it never holds.
+  // From above it is never true.
   one.set("D8117", 4900);
   one.set("M8100", 1);
   one.run(2000);
   EXPECT_EQ(positions(one), (Places{5000, 0, 0, 0}));
   EXPECT_TRUE(one.on("Y0") && one.on("M8100"));
-  // The comparison that is meant: Y0 falls when X passes 4.800.
+  // The intended comparison: Y0 goes OFF when X passes 4.800.
   std::string meant = program;
   meant.replace(meant.find("LD<="), 4, "LD>=");
   OneSuper40nc other({.program = meant});
@@ -370,7 +370,7 @@ void m25(const std::string& program) {
   const Places there{5000, 8500, -4200, 0};
   const double path = std::sqrt(5000.0 * 5000 + 8500.0 * 8500 + 4200.0 * 4200);
   expect_legs(one, 0, {{1, move_s(path, 12'000), there}});
-  EXPECT_TRUE(one.on("M8400"));  // C is over already
+  EXPECT_TRUE(one.on("M8400"));  // C has already ended
   EXPECT_NEAR(static_cast<double>(one.run_while("M8400")), 160, kTolerance_ms);
   EXPECT_EQ(positions(one), (Places{5000, 8500, -4200, 1000}));
 }
@@ -394,7 +394,7 @@ void m27(const std::string& program) {
   one.set("D8117", 500);
   one.set("D8217", -700);
   expect_legs(one, 0, {{4, drive_s(24'000, 100), {13'000, 24'000, 0, 0}}});
-  EXPECT_EQ(one.get("D8140"), 13'000);  // from where the axes stood
+  EXPECT_EQ(one.get("D8140"), 13'000);  // from where the axes were
   EXPECT_EQ(one.get("D8240"), 24'000);
 }
 

@@ -22,7 +22,7 @@ void d1(const std::string& program) {
   one.input("X0", 1);
   one.run(1);
   EXPECT_EQ(one.get("D0"), 100);
-  one.set("D0", 5);  // a host's value does not outlive the next scan
+  one.set("D0", 5);  // a host's value lasts until the next scan
   one.run(1);
   EXPECT_EQ(one.get("D0"), 100);
   one.input("X0", 0);
@@ -116,7 +116,7 @@ void d7(const std::string& program) {
       EXPECT_EQ(one.get("D10"), b == 0 ? 222 : a % b) << a << " / " << b;
       EXPECT_EQ(one.get("D8094") == 8, b == 0);
       if (b != 0) continue;
-      one.input("PLC_RUN", 0);  // a code stays until the PLC runs anew
+      one.input("PLC_RUN", 0);  // a code stays until the PLC starts again
       one.run(1);
       one.input("X3", 0);
       one.input("PLC_RUN", 1);
@@ -216,7 +216,7 @@ void d12(const std::string& program) {
   });
 }
 
-/// Three conditions of three comparisons each, at and beside their borders.
+/// Three conditions of three comparisons each, at and next to their limits.
 void d13(const std::string& program) {
   OneSuper40nc one({.set = kOfC, .program = program});
   int went[4] = {};

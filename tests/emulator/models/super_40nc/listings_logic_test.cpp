@@ -6,7 +6,7 @@
 namespace understudy::emulator::models::super_40nc {
 namespace listings_logic_test {
 
-/// While ON from now on: a scan, and no longer.
+/// It comes ON from now on, for one scan.
 void expect_one_scan(OneSuper40nc& one, const char* contact) {
   one.run(1);
   EXPECT_TRUE(one.on(contact)) << contact;
@@ -99,7 +99,7 @@ void l5(const std::string& program) {
 void l6(const std::string& program) {
   for (const bool x0 : {false, true}) {
     for (const bool x1 : {false, true}) {
-      OneSuper40nc one({.set = Set{{"D9163", 0}}, .program = program});  // X1 is no limit
+      OneSuper40nc one({.set = Set{{"D9163", 0}}, .program = program});  // X1 is not a limit
       put(one, "X0", x0);
       put(one, "X1", x1);
       if (x0 && x1) {
@@ -116,7 +116,7 @@ void l6(const std::string& program) {
 
 void l7(const std::string& program, bool rises) {
   OneSuper40nc one({.program = program});
-  one.run(1);  // what is ON when the PLC begins is no edge
+  one.run(1);  // a contact that is ON when the PLC starts is not an edge
   for (const char* input : {"X1", "X3"}) {
     put(one, input, true);
     rises ? expect_one_scan(one, "M10") : expect_no_scan(one, "M10");

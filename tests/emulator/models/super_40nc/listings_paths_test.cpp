@@ -8,16 +8,17 @@ namespace understudy::emulator::models::super_40nc {
 namespace listings_paths_test {
 
 const Set kOfC{{"D9003", 4}};
-const Set kInXy{{"D9003", 4}, {"D9016", 0}};  // these listings name no plane, and C23 is YZ from the factory
+const Set kInXy{{"D9003", 4},
+                {"D9016", 0}};  // these listings name no plane, and C23 is YZ in the factory settings
 
 struct Arc {
-  double centre_x, centre_y;  // in LU, as the rest
+  double centre_x, centre_y;  // in LU, like the others
   double radius;
   double sweep_degrees;  // positive: counter-clockwise
   std::size_t first = 0, second = 1;
 };
 
-/// Seen from its centre a course keeps its distance, turns one way, and as far as it should.
+/// Seen from its centre, a path keeps its distance, turns in one direction, and turns as far as it should.
 void expect_arc(const Places& from, const Lap& lap, const Arc& arc) {
   const auto angle = [&](const Places& at) {
     return std::atan2(static_cast<double>(at[arc.second]) - arc.centre_y,
@@ -30,7 +31,7 @@ void expect_arc(const Places& from, const Lap& lap, const Arc& arc) {
                                        static_cast<double>(at[arc.first]) - arc.centre_x);
     ASSERT_NEAR(distance, arc.radius, 1);
     const double turned = std::remainder(angle(at) - last, 2 * M_PI);
-    ASSERT_GE(turned * arc.sweep_degrees, -0.02 * M_PI);  // a pulse at rest
+    ASSERT_GE(turned * arc.sweep_degrees, -0.02 * M_PI);  // one pulse at rest
     swept += turned;
     last = angle(at);
     for (std::size_t other = 0; other < 4; ++other) {
@@ -123,7 +124,7 @@ void m6(const std::string& program) {
   expect_arc(ends[1], found.at(2), {50'000, 0, 12'000, -180, 0, 2});
 }
 
-/// Pressed once each, both ways of writing it go the same way.
+/// Pressed once each, both ways of writing it move in the same way.
 void m7(const std::string& program) {
   OneSuper40nc one({.program = program});
   const auto press = [&](const char* button, double x_s, double y_s, const Places& end) {
@@ -154,7 +155,7 @@ void m8a(const std::string& program) {
 }
 void m8b(const std::string& program) {
   m8a(program);
-  std::string printed = program;  // two operands have lost what they need
+  std::string printed = program;  // two operands have lost their conditions
   printed.replace(printed.find("K-8000"), 6, "K8000");
   printed.replace(printed.find("LIN K20000\n"), 11, "LIN K2000\n");
   OneSuper40nc one({.set = kOfC, .program = printed});

@@ -27,7 +27,7 @@ void s1(const std::string& program) {
   }
 }
 
-/// Times by the formula; C21 = 0 leaves the waits alone.
+/// Times by the formula; C21 = 0 leaves only the waits.
 void s2(const std::string& program) {
   OneSuper40nc one({.set = kOfC, .program = program});
   std::vector<Leg> legs{{1, 1.798, {25'000, 25'000, 0, 0}}};
@@ -48,7 +48,7 @@ void s2(const std::string& program) {
   legs.push_back({8, move_s(25'000, 10'000), at});
   sum += 2.515;
   for (int pass = 0; pass < 2; ++pass) call();
-  EXPECT_NEAR(sum, 25.628, 0.0005);  // as we worked it out
+  EXPECT_NEAR(sum, 25.628, 0.0005);  // as calculated by hand
   const Tick begin = one.now();
   expect_legs(one, 0, legs);
   EXPECT_NEAR(static_cast<double>(one.now() - begin), 25'628, 60);  // 30 lines, up to two scans each
@@ -75,7 +75,7 @@ void s3(const std::string& program) {
       legs.push_back({13, 0.170, {}});
     }
     expect_legs(one, 1, legs, 1200);
-    EXPECT_TRUE(one.on("M8100")) << "it goes on for ever";
+    EXPECT_TRUE(one.on("M8100")) << "it does not end";
     one.run(57);
     one.set(stop, 1);
     one.run(1);

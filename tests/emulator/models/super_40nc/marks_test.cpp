@@ -13,19 +13,18 @@ namespace marks_test {
 
 constexpr Tick kFinishTicks = 20;
 
-/// M10 to M12 move X by the PLC, M20 to M22 are STP of X and of C, and the DRV that looks whether all is
-/// well.
+/// M10 to M12 move X through the PLC, M20 to M22 are STP of X and of C, and the DRV checks that all is well.
 const std::string kPlc =
     "AREA PLC\nLD M10\nPJG K1\nLDP M11\nHOM K1\nLDP M12\nDRV K900000\nLD M20\nSTP K1\nLD M21\nSTP\nLDP M22\n"
     "INCC\nDRV K1000\nEND\n";
-/// C ends what X does, where it has nothing else to do.
+/// C ends what X does, if it has nothing else to do.
 const std::string kEndsX = "AREA C\nVDRV K0\nEND\n";
 
 struct Motion {
   const char* name;
-  std::string program;  // beside the PLC's
+  std::string program;  // besides the PLC's
   const char* contact;  // that starts it
-  bool stays;           // ON as long as it is to go on
+  bool stays;           // ON as long as it should continue
   std::vector<std::pair<std::string, Value>> first{};
 };
 
@@ -197,7 +196,7 @@ bool is_idle(const OneSuper40nc& one) {
   return is_at_rest && !one.on("M8120") && !one.on("M8220");
 }
 
-/// Contacts go OFF, and what has not ended by its way out is stopped.
+/// Contacts go OFF, and anything that did not end this way is stopped.
 bool comes_to_rest(OneSuper40nc& one, const Motion& motion) {
   one.set(motion.contact, 0);
   write(one, "D8020", 0);
@@ -230,7 +229,7 @@ void expect_unmarked(OneSuper40nc& one) {
   }
 }
 
-/// For how many ticks Y0 is ON, at the end of a DRV that nothing stands in the way of.
+/// Returns for how many ticks Y0 is ON, at the end of a DRV that nothing prevents.
 Tick shown_finish(OneSuper40nc& one) {
   const Value before = one.get("D8140");
   one.set("M22", 1);
@@ -269,7 +268,7 @@ TEST(Super40ncMarks, EveryWayOutOfEveryMotionTakesThemOff) {
   }
 }
 
-/// The marks of a start go with the next one, and by nothing else.
+/// The marks of a start are cleared by the next one, and by nothing else.
 TEST(Super40ncMarks, EachIsTakenOffByItsEventsAlone) {
   for (const AxisMark& mark : kAxisMarks) {
     for (int number = 0; number <= static_cast<int>(MarkEvent::plc_run); ++number) {
@@ -290,7 +289,8 @@ TEST(Super40ncMarks, EachIsTakenOffByItsEventsAlone) {
   }
 }
 
-/// What is held and cannot go on, because of a limit by now, resets its program as if it had met it.
+/// A held motion that can no longer continue, because of a limit, resets its program as if it had reached the
+/// limit.
 TEST(Super40ncMarks, ALimitInAPauseResetsTheProgramThatGoesOn) {
   struct Case {
     const char* area;

@@ -1,7 +1,6 @@
-// Who gets an axis: whoever moves X keeps it. Each way to hold it against each way to ask for it, by host,
-// keys, PLC and step programs, cell by cell. The manual says that a DRV waits for the one before it (《CHK
-// 指令》), that VDRV 0 ends any motion (《VDRV 指令》), and what stops programs; the rest of the table is our
-// reading.
+// Which motion gets an axis: the one that moves X keeps it. Each holder with each request, by host, keys, PLC
+// and step programs, cell by cell. The manual says that a DRV waits for the one before it (《CHK 指令》),
+// that VDRV 0 ends any motion (《VDRV 指令》), and what stops programs; the rest of the table is our reading.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -11,10 +10,11 @@
 namespace understudy::emulator::models::super_40nc {
 namespace ownership_test {
 
-// What a cell says:
+// The letters of a cell:
 //   s starts    w waits until X is free, then does its own    v void: nothing changes, code 21
-//   g goes on until both have let go    n new speed or ratio
-//   r comes to rest by a ramp    x stops at once    c so does what C moves    . nothing happens, and no code
+//   g continues until both have released it    n new speed or ratio
+//   r comes to rest with a ramp    x stops at once    c and C's motion as well    . nothing happens, and no
+//   code
 //   - two programs have no LIN of one axis
 constexpr const char* kAsks[] = {"jog +",   "jog -",   "HOME",   "ZERO", "wheel",   "D8020",
                                  "LIN",     "DRV",     "HOM",    "MRK",  "VDRV",    "MPG",
@@ -27,7 +27,7 @@ struct Row {
 };
 // clang-format off
 constexpr Row kTable[] = {
-    // held by, and asked for as kAsks has it
+    // held by, and requested as in kAsks
     {"nobody",         "ssssssssssssss..."},
     {"jog",            "gvvvvvwwwwwwvvrx."},
     {"PJG",            "gvvvvvwwwwwwvvrx."},
@@ -69,7 +69,7 @@ std::string line_of(const std::string& what) {
 }
 bool is_line(const std::string& what) { return !line_of(what).empty(); }
 
-/// X is held by one of them; the other one asks. C has LIN, so it is the one whose line that is.
+/// X is held by one of them; the other one requests it. C has LIN, so the line belongs to C.
 struct Areas {
   char holds = 'C';
   char asks = 'X';
@@ -131,7 +131,7 @@ class Bench {
     if (held_by_ == "VDRV" || held_by_ == "MPG") one_.press("M8102");
   }
 
-  /// Its edges, one a tick.
+  /// Its edges, one per tick.
   void turn_wheel(int counts) {
     for (int i = 0; i < counts; ++i) {
       one_.input("MPG", ++turned_);
@@ -153,7 +153,7 @@ class Bench {
     given.plant[0] = plant;
     return given;
   }
-  /// The same by another contact, if its own is ON already.
+  /// The same through another contact, if its own is ON already.
   static const char* again(const std::string& contact) {
     for (const auto& [one, other] :
          {std::pair{"M8103", "M201"}, {"M8105", "M8568"}, {"M8106", "M8572"}, {"M204", "M207"}}) {
@@ -194,7 +194,7 @@ void expect_undisturbed(Bench& asked, Bench& left_alone, const std::string& cell
       << cell;
 }
 
-/// The line of the requesting program is done, in its own way.
+/// The line of the requesting program has been executed, in its own way.
 void expect_done(Bench& bench, const std::string& ask, const std::string& cell) {
   OneSuper40nc& one = bench.one();
   for (Tick tick = 0; tick < 30'000 && !one.on("M60"); ++tick) one.run(1);
@@ -249,7 +249,7 @@ void expect_cell(const std::string& held_by, const std::string& ask, char says) 
       EXPECT_EQ(one.get("D8094"), kTaken) << cell;
       for (Bench* bench : {&asked, &left_alone}) bench->one().run(100);
       if (is_line(ask)) {
-        EXPECT_TRUE(one.on("M60")) << cell << ": the program goes on";
+        EXPECT_TRUE(one.on("M60")) << cell << ": the program continues";
       }
       expect_undisturbed(asked, left_alone, cell);
       for (Bench* bench : {&asked, &left_alone}) {
@@ -278,7 +278,7 @@ void expect_cell(const std::string& held_by, const std::string& ask, char says) 
       expect_undisturbed(asked, left_alone, cell);
       asked.let_go();
       one.run(300);
-      EXPECT_EQ(one.on("M8120"), true) << cell << ": the other one still asks";
+      EXPECT_EQ(one.on("M8120"), true) << cell << ": the other one is still checked";
       const char* other = held_by == "jog" ? "M201" : "M8103";
       one.set(other, 0);
       one.run(100);
@@ -341,7 +341,7 @@ TEST(Super40ncOwnership, KeysAskAsTheirContactsDo) {
     for (const auto& [key, ask] : {std::pair{"M8560", 0}, {"M8561", 1}, {"M8568", 2}, {"M8572", 3}}) {
       const bool is_its_own = (held_by == "jog" && ask == 0) || (held_by == "HOME" && ask == 2) ||
                               (held_by == "ZERO" && ask == 3);
-      if (is_its_own) continue;  // its contact is ON already
+      if (is_its_own) continue;  // its contact is already ON
       Bench bench(held_by, "jog +");
       bench.hold();
       bench.one().set(key, 1);

@@ -12,7 +12,7 @@ namespace parameters_test {
 
 Given with_encoder() {
   world::PlantSetup plant;
-  plant.encoder_counts_per_revolution = 1000;  // a count for 4 pulses
+  plant.encoder_counts_per_revolution = 1000;  // one count for 4 pulses
   plant.pulses_per_revolution = 4000;
   return {.plant = {{0, plant}}};
 }
@@ -59,7 +59,7 @@ TEST(Super40ncParameters, AMaskedAxisCountsAndStands) {
 TEST(Super40ncParameters, CountersHaveTheirSources) {
   struct Case {
     std::vector<std::pair<std::string, Value>> set;
-    std::array<Value, 3> counters;  // 2 to 4, behind 4000 pulses
+    std::array<Value, 3> counters;  // 2 to 4, after 4000 pulses
   };
   for (const auto& [set, counters] :
        {Case{{}, {1000, 3000, 4000}}, Case{{{"D9113", 1}}, {-1000, 5000, 4000}},
@@ -85,7 +85,7 @@ TEST(Super40ncParameters, BacklashComesFirstAtAReversal) {
     one.set("D9156", 400);
     one.set("D9157", kind);
     drive(one, 4000);
-    EXPECT_EQ(one.get("D8141"), 1000);  // the first motion: nobody knows
+    EXPECT_EQ(one.get("D8141"), 1000);  // the first motion: the play is unknown
     one.set("D100", 0);
     one.set("M0", 1);
     one.run(20);
@@ -112,17 +112,17 @@ TEST(Super40ncParameters, TheWheelKnowsNoBacklash) {
   EXPECT_EQ(one.get("D8141"), 10);
   one.set("M8108", 0);
   one.run(2);
-  one.set("M8103", 1);  // the other way: 400 pulses come first
+  one.set("M8103", 1);  // in the other direction: 400 pulses come first
   one.run(20);
   EXPECT_EQ(one.get("D8164"), 7);
   EXPECT_EQ(one.get("D8117"), 40);
 }
 
-/// 400 pulses at 20 rpm (1333 pps) take 300 ms, in which a path waits: of Y 200, which are over before. D9x57
-/// = 1: where an axis turns round; 2: at every start.
+/// 400 pulses at 20 rpm (1333 pps) take 300 ms, during which a path waits; Y has 200, which end before that.
+/// D9x57 = 1: where an axis reverses; 2: at every start.
 TEST(Super40ncParameters, BacklashComesBeforeAPath) {
   struct Row {
-    std::int64_t x, y;                      // where C goes
+    std::int64_t x, y;                      // where C moves
     std::int64_t pulses_x[3], pulses_y[3];  // of backlash, by D9x57
   };
   constexpr Row kRows[] = {{1000, 0, {0, 0, 400}, {0, 0, 0}},
@@ -151,7 +151,7 @@ TEST(Super40ncParameters, BacklashComesBeforeAPath) {
       one.run(1 + waits / 2);
       if (waits > 0) {
         EXPECT_EQ(one.get("D8164"), x != 0 ? 7 : 0) << kind << ", to " << row.x;
-        EXPECT_EQ(one.get("D8264") == 7, x == 0) << kind << ", to " << row.x;  // 200 have come in 150 ms
+        EXPECT_EQ(one.get("D8264") == 7, x == 0) << kind << ", to " << row.x;  // 200 have been sent in 150 ms
       }
       one.run(waits / 2);
       EXPECT_NEAR(static_cast<double>(one.get("D8117") - before), 0, 1) << kind << ", to " << row.x;
@@ -171,7 +171,7 @@ TEST(Super40ncParameters, BacklashComesBeforeAPath) {
   }
 }
 
-/// A circle turns both axes round, and nothing is corrected on it; behind it the last way of each counts.
+/// A circle reverses both axes, and nothing is corrected on it; afterwards the last direction of each counts.
 TEST(Super40ncParameters, AnArcIsNotCorrectedWithin) {
   OneSuper40nc one(with_encoder());
   for (const char* name : {"D9157", "D9257"}) one.set(name, 1);
@@ -180,13 +180,13 @@ TEST(Super40ncParameters, AnArcIsNotCorrectedWithin) {
   one.it().load_program("AREA C\nXYP\nF K20000\nCCW * * K-1000 K0\nLIN K-100 K100\nEND");
   one.set("M8000", 1);
   one.run_while("M8000");
-  // It ends going up and to the right: X turns round for the line.
+  // It ends moving up and to the right: X reverses for the line.
   EXPECT_EQ(one.it().parts().axes.chips.chip(0).backlash_sent, -40);
   EXPECT_EQ(one.it().parts().axes.chips.chip(1).backlash_sent, 0);
   EXPECT_EQ(one.get("D8117"), -100);
 }
 
-/// A pause stands still in it and goes on; a stop leaves what has not come to the next start.
+/// A pause stops within it and continues; a stop leaves the rest to the next start.
 TEST(Super40ncParameters, BacklashBeforeAPathCanBeHeld) {
   OneSuper40nc one(with_encoder());
   one.set("D9157", 1);
@@ -227,7 +227,7 @@ TEST(Super40ncParameters, BacklashBeforeAPathCanBeHeld) {
   EXPECT_EQ(one.get("D8117"), 0);
 }
 
-/// 400 pulses at 20 rpm (1333 pps) come before each of two moves in one direction, and before the way back.
+/// 400 pulses at 20 rpm (1333 pps) come before each of two moves in one direction, and before the return.
 TEST(Super40ncParameters, SlipComesFirstAtEveryStart) {
   OneSuper40nc one(with_encoder());
   one.set("D9156", 400);
@@ -290,7 +290,7 @@ TEST(Super40ncParameters, RampsHaveTheirTimesAndSections) {
   }
 }
 
-/// Beyond twice the acceleration it is begun too late, and cut off at the target.
+/// Above twice the acceleration the ramp starts too late, and is cut off at the target.
 TEST(Super40ncParameters, ALongDecelerationIsCutOff) {
   OneSuper40nc one({.program = kDrive});
   one.set("D9167", 2000);
@@ -302,7 +302,7 @@ TEST(Super40ncParameters, ALongDecelerationIsCutOff) {
     last_pps = one.device().axes()->speed_pps(0);
     one.run(1);
   }
-  // Reckoned with 1000 ms, slowed down with 2000 ms: half of the speed's square is left.
+  // Calculated with 1000 ms, decelerated with 2000 ms: half of the speed's square is left.
   EXPECT_NEAR(last_pps, 33333.0 / std::sqrt(2.0), 300);
   EXPECT_EQ(one.get("D8117"), 40000);
 }
@@ -337,7 +337,7 @@ TEST(Super40ncParameters, ThePanelsNumbersNameTheirRegisters) {
   EXPECT_EQ(rows["C1"]->persistent, false);
 }
 
-/// What the chip's registers show of a start: 500 rpm, from 1 rpm, 666,667 pps a second.
+/// The chip's registers after a start: 500 rpm, from 1 rpm, 666,667 pps per second.
 TEST(Super40ncParameters, AStartIsMirrored) {
   OneSuper40nc one({.program = kDrive});
   drive(one, -4000);

@@ -76,11 +76,11 @@ TEST(Super40ncPins, LtcLatchesAtItsEdgeIfD9x50SaysSo) {
   }
 }
 
-/// D9x04, D9x06: ERC behind a stop without a ramp, for its time.
+/// D9x04, D9x06: ERC after a stop without a ramp, for its time.
 TEST(Super40ncPins, ErcComesBehindASuddenStop) {
   struct Case {
     Value automatic, by_ramp, width;
-    int ticks;  // that it is ON
+    int ticks;  // the time for which it is ON
   };
   for (const Case& each : {Case{1, 0, 4, 13}, Case{1, 0, 0, 1}, Case{1, 0, 6, 104}, Case{0, 0, 4, 0},
                            Case{1, 1, 4, 0}, Case{1, 0, 7, 200}}) {
@@ -102,7 +102,7 @@ TEST(Super40ncPins, ErcComesBehindASuddenStop) {
   }
 }
 
-/// An alarm stops as D9x03 says, CEMG always at once; D9x04 is for both.
+/// An alarm stops as D9x03 says, CEMG always at once; D9x04 applies to both.
 TEST(Super40ncPins, ErcComesBehindAlarmsAndCemg) {
   for (const char* const input : {"ALM_X", "CEMG"}) {
     const bool is_alarm = input[0] == 'A';
@@ -125,7 +125,7 @@ TEST(Super40ncPins, ErcComesBehindAlarmsAndCemg) {
   }
 }
 
-/// D9x05: at the end of a home.
+/// D9x05: at the end of homing.
 TEST(Super40ncPins, ErcComesWhenHomeIsFound) {
   for (const Value automatic : {0, 1}) {
     OneSuper40nc one(with_pins({{"D9105", automatic}, {"D9121", 0}}));

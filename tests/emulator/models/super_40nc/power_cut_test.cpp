@@ -25,7 +25,7 @@ std::string program(int number) { return "AREA C\nMOV K" + std::to_string(number
 struct Kept {
   std::map<std::string, Value> latched;
   std::map<Value, std::map<std::string, Value>> recipes;
-  std::map<Value, int> files;  // but for the one in memory
+  std::map<Value, int> files;  // except the one in memory
   Value recipe = 0;
   Value file = 0;
   int in_memory = 0;  // which program; 0: none
@@ -139,7 +139,7 @@ TEST(Super40ncPowerCut, LeavesWhatIsKeptWhole) {
   }
 }
 
-/// The text of a recipe that cannot be names the line.
+/// The text of a recipe that cannot be valid names the line.
 TEST(Super40ncPowerCut, ARecipeThatCannotBeSaysWhere) {
   const auto kind = std::find_if(block_kinds().begin(), block_kinds().end(),
                                  [](const BlockKind& one) { return one.name == kRecipes; });
@@ -154,7 +154,7 @@ TEST(Super40ncPowerCut, ARecipeThatCannotBeSaysWhere) {
   for (const char* name : {"", "0", "100", "1a", "-1"}) EXPECT_NE(kind->why_not_called(name), "") << name;
 }
 
-/// A program changes recipes for ever: each number keeps its own, whichever tick the power goes in.
+/// A program changes recipes forever: each number keeps its own, whichever tick the power fails in.
 TEST(Super40ncPowerCut, RecipesInACycleAreNeverMixed) {
   const std::string text =
       "AREA X\nLAB K1\nMOV K1 D9002\nMOV K111 D500\nMOV K111 D999\nTMR K3\nMOV K2 D9002\nMOV K222 D500\n"

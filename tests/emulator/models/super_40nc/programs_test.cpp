@@ -93,7 +93,7 @@ TEST(Super40ncPrograms, StopsGiveUpMotionAndPointer) {
     EXPECT_EQ(one.get("D8100"), 0);
     one.set("M8100", 1);
     one.run(2);
-    EXPECT_EQ(one.on("M8100"), std::string(stop) == "M8584") << stop;  // a key is over after its edge
+    EXPECT_EQ(one.on("M8100"), std::string(stop) == "M8584") << stop;  // a key ends after its edge
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Super40ncPrograms, ALimitResetsItsProgramAndItsAxes) {
   one.run(1);
   one.run_while("M8000");
   EXPECT_EQ(one.get("D8140"), 3001);
-  EXPECT_NEAR(static_cast<double>(one.get("D8240")), 3001, 15);  // what a tick brings
+  EXPECT_NEAR(static_cast<double>(one.get("D8240")), 3001, 15);  // the pulses of a tick
   EXPECT_TRUE(one.on("M8124"));
   EXPECT_EQ(one.get("D8094"), 13);
   EXPECT_EQ(one.get("D8095"), 1);
@@ -223,7 +223,7 @@ TEST(Super40ncPrograms, PathFilesAreChangedByD9001) {
   one.run(1);
   EXPECT_FALSE(one.on("M8023"));
   EXPECT_EQ(play(), 3);
-  one.set("D8002", 0);  // another name of it
+  one.set("D8002", 0);  // another name of the same
   one.run(2);
   EXPECT_EQ(one.get("D9001"), 0);
   EXPECT_EQ(play(), 1);
@@ -330,12 +330,11 @@ TEST(Super40ncPrograms, ARestoredSnapshotHasItsOwnPrograms) {
 // --- a line that changes the file, or its own program
 // --------------------------------------------------------
 
-/// By every instruction that stores, in every area: the line is carried out to its end, and the next one
-/// runs.
+/// With every instruction that stores, in every area: the line completes, and the next one runs.
 TEST(Super40ncPrograms, ALineThatChangesTheFileIsCarriedOut) {
   struct Store {
     const char* line;
-    Value file;  // that it selects; 2 was selected
+    Value file;  // the file that it selects; 2 was selected
   };
   for (const Store& store : {Store{"MOV K1 D9001", 1}, Store{"MOV K1 D8002", 1}, Store{"FMV K1 D9001 K1", 1},
                              Store{"ADD D9001 K2 D9001", 4}, Store{"SUB D9001 K1 D9001", 1},
@@ -377,7 +376,7 @@ TEST(Super40ncPrograms, ALineGoesOnOnlyWhereItsPointerStands) {
   EXPECT_EQ(moved.get("D7"), 1);
 }
 
-/// The user table replaces C, and is gone when it is over; the line is X's own.
+/// The user table replaces C, and is gone when it ends; the line belongs to X.
 TEST(Super40ncPrograms, ALineMayHaveADirectCommandCarriedOut) {
   OneSuper40nc one({.program = "AREA X\nMOV K105 D8020\nINC D5\nMOV K100 D8020\nINC D5\nEND\n",
                     .choices = {{"user_table", "on"}}});

@@ -96,7 +96,7 @@ TEST(Super40ncRegisters, HaveTheirValuesAtPowerUp) {
   }
 }
 
-/// One for each kind of row: what is only stored reads back, and what is computed stays.
+/// One for each kind of row: stored values read back, and computed values stay.
 TEST(Super40ncRegisters, StoreWhatIsWrittenOrIgnoreIt) {
   for (const RegisterFact& fact : facts()) {
     if (fact.table == Table::discrete) continue;
@@ -195,8 +195,8 @@ TEST(Super40ncRegisters, OutputVoltagesAreLimited) {
   EXPECT_EQ(one.get("D8093"), 1000);
 }
 
-/// Many in a request are what each is by itself: in rows, between rows, views of other state, from any first
-/// bit or word to any last one.
+/// Many in a request equal each on its own: in rows, between rows, views of other state, from any first bit
+/// or word to any last one.
 TEST(Super40ncRegisters, AreReadManyAtOnceAsOneByOne) {
   OneSuper40nc one({.program = "AREA X\nRPM K100\nDRV K50000\nEND\nAREA PLC\nLD M8120\nOUT Y3\nEND\n"});
   std::mt19937 random(20241125);

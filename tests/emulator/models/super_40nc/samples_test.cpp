@@ -1,5 +1,5 @@
 // The manual's listings are loaded with their printed steps; moves take the times of the factory ramps; and a
-// mark is searched for after the target. listings_*_test.cpp test what each listing does.
+// mark is searched for after the target. listings_*_test.cpp test the effect of each listing.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/listings.h"
@@ -44,7 +44,7 @@ TEST(Super40ncSamples, MovesTakeTheTimesOfTheirRamps) {
   }
 }
 
-/// At creep (20 rpm) behind the target, to the mark or to the end of X16.
+/// At creep speed (20 rpm) after the target, to the mark or to the end of X16.
 TEST(Super40ncSamples, AMarkIsLookedForBehindTheTarget) {
   world::PlantSetup plant;
   plant.upper_limit = 10300;

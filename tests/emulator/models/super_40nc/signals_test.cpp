@@ -19,7 +19,7 @@ TEST(Super40ncSignals, AnIndexThatIsOffInsideIsOnOutside) {
   for (const bool level_inside : {true, false}) {
     for (const bool is_inverted : {false, true}) {
       OneSuper40nc one({.set = {{"D9100", is_inverted ? 3 : 0}}});
-      // X0, the sense of the motor, counts from the next start.
+      // X0, the direction of the motor, takes effect with the next start.
       one.press("M8103");
       one.run(300);
       ASSERT_EQ(one.it().parts().axes.chips.chip(0).inverted, is_inverted);

@@ -1,4 +1,4 @@
-// The user table and the direct command, which a bench must select. Only code 1, a line, is printed
+// The user table and the direct command, which a bench must select. The manual only prints code 1, a line
 // (《命令範例》 24), so the others are compared with the header of user_table.h.
 #include "emulator/models/super_40nc/programs/user_table.h"
 
@@ -15,7 +15,7 @@ Given chosen(const std::string& program = "") {
   return {.set = {{"D9003", 4}, {"D9016", 0}}, .program = program, .choices = {{"user_table", "on"}}};
 }
 
-/// Data that are left out are unset.
+/// Missing data are unset.
 void put_line(OneSuper40nc& one, int line, Value command, const std::vector<Value>& data) {
   one.set("USER" + std::to_string(10 * line), command);
   for (std::size_t i = 1; i < 10; ++i) {
@@ -31,7 +31,7 @@ void order(OneSuper40nc& one, Value command, const std::vector<Value>& data) {
   one.set("D8020", 100 + command);
 }
 
-/// By their addresses on the wire, of which those of special contacts lie behind a hole.
+/// By their addresses on the wire, of which those of special contacts lie after a hole.
 TEST(Super40ncUserTable, SwitchesEveryKindOfCoil) {
   OneSuper40nc one(chosen());
   order(one, 9, {3, 1005, 2010});
@@ -156,7 +156,7 @@ TEST(Super40ncUserTable, IsStoppedAndHeldAsC) {
   EXPECT_GT(one.get("D8117"), held);
   one.press("M8596");
   EXPECT_FALSE(one.on("M8120"));
-  // A new start is that of C's own program, which is empty.
+  // A new start runs C's own program, which is empty.
   one.set("M8000", 1);
   one.run(3);
   EXPECT_FALSE(one.on("M8000"));

@@ -28,7 +28,7 @@ TEST(Super40ncWire, PrintedFramesAreServed) {
       continue;
     }
     const std::string request = world::text(std::span(frame).first(frame.size() - 2));
-    EXPECT_EQ(reply, frame[1] == 0x03 ? "00 03 04 00 00 00 00" : request);  // else an echo
+    EXPECT_EQ(reply, frame[1] == 0x03 ? "00 03 04 00 00 00 00" : request);  // otherwise an echo
     ++served;
   }
   EXPECT_EQ(served, 33);
@@ -44,7 +44,7 @@ TEST(Super40ncWire, PrintedReadsHaveTheirPrintedReplies) {
   for (int i = 0; i < 24; ++i) one.input("X" + std::to_string(i), inputs[i / 8] >> (i % 8) & 1);
   one.run(1);
   EXPECT_EQ(one.ask(kRs485, "00 02 00 00 00 18"), "00 02 03 AC DB 35");
-  EXPECT_EQ(one.ask(kRs485, "00 02 00 01 00 15"), "00 02 03 D6 ED 1A");  // as it is printed
+  EXPECT_EQ(one.ask(kRs485, "00 02 00 01 00 15"), "00 02 03 D6 ED 1A");  // as printed
   one.set("D53", 0x22B);
   EXPECT_EQ(one.ask(kRs232, "00 03 00 6A 00 02"), "00 03 04 02 2B 00 00");
   EXPECT_EQ(one.ask(kRs232, "00 10 07 D0 00 04 08 00 0A 01 02 09 0B 07 08"), "00 10 07 D0 00 04");
@@ -57,7 +57,7 @@ TEST(Super40ncWire, StationNumberChangesAfterItsReply) {
   EXPECT_EQ(one.ask(kRs232, "00 06 23 28 00 05"), "00 06 23 28 00 05");
   EXPECT_EQ(one.ask(kRs232, "05 03 23 28 00 02"), "05 03 04 00 05 00 00");
   EXPECT_EQ(one.ask(kRs485, "05 05 07 D0 FF 00"), "05 05 07 D0 FF 00");
-  EXPECT_EQ(one.ask(kRs232, "00 06 00 00 00 07"), "");  // to everybody: obeyed in silence
+  EXPECT_EQ(one.ask(kRs232, "00 06 00 00 00 07"), "");  // a broadcast: obeyed silently
   EXPECT_EQ(one.get("D0"), 7);
   EXPECT_EQ(one.ask(kRs232, "04 06 00 00 00 08"), "");
   EXPECT_EQ(one.get("D0"), 7);

@@ -1,5 +1,5 @@
 // Everything that a settled PLC reads wakes it, whoever changes it: each lamp follows its contact within two
-// scans, also if everything is at rest and time advances in one step.
+// scans, even if everything is at rest and time advances in one step.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
@@ -87,7 +87,7 @@ TEST_P(WokenPlc, LetsItsLampFollow) {
 
 INSTANTIATE_TEST_SUITE_P(By, WokenPlc, testing::ValuesIn(kCases));
 
-/// The time of the panel's picture at power-up is over when nothing else happens.
+/// The time of the panel's picture at power-up ends while nothing else happens.
 TEST(WokenPlc, SeesThePanelsTime) {
   OneSuper40nc one({.set = {{"D9007", 3000}}, .program = "AREA PLC\nLD M8502\nOUT Y15\nEND\n"});
   one.run(20'000);

@@ -22,7 +22,7 @@ std::string line_of(const std::string& item, Value value) {
   return (value != 0 ? "SET " : "RST ") + item;
 }
 
-/// The item after the scan in which all of them have written it.
+/// The register after the scan in which all of them have written it.
 Value value_behind(const std::string& item, const std::vector<Write>& writes, const Set& set = {}) {
   std::string text;
   for (const Write& write : writes) {
@@ -81,7 +81,7 @@ TEST(Super40ncWriters, SignalsBelongToTheSystem) {
   }
 }
 
-/// What is read in a scan: an earlier line of another program has acted already.
+/// The values read in a scan: an earlier line of another program has acted already.
 TEST(Super40ncWriters, TheNextReaderSeesWhatWasWritten) {
   OneSuper40nc one({.program =
                         "AREA PLC\nLD M60\nINC D1\nMOV D1 D2\nEND\nAREA C\nLAB K1\nMOV D2 D3\nJMP K1\nEND\n"
@@ -99,7 +99,7 @@ TEST(Super40ncWriters, TheNextReaderSeesWhatWasWritten) {
 
 // --- command contacts --------------------------------------------------------------------------------------
 
-/// A level counts as the PLC has left it; an edge by wire still counts.
+/// A level counts as the PLC has left it; an edge over the wire still counts.
 TEST(Super40ncWriters, ThePlcClearsLevelsButNoEdges) {
   OneSuper40nc one({.program = "AREA PLC\nLD M1\nOUT M8103\nOUT M8105\nEND\n"});
   one.run(2);
@@ -182,7 +182,7 @@ TEST(Super40ncWriters, ContactsAreObeyedInTheirOrder) {
   one.set("M8107", 1);
   one.set("M8106", 1);
   one.run(1);
-  EXPECT_TRUE(one.on("M8196")) << "ZERO SET came first, so it is there already";
+  EXPECT_TRUE(one.on("M8196")) << "ZERO SET came first, so it is already there";
   EXPECT_EQ(one.get("D8117"), 0);
 }
 
@@ -208,8 +208,7 @@ TEST(Super40ncWriters, StrStartsWithinTheScanOrBehindIt) {
   }
 }
 
-/// M8100 that a host switches OFF while the PLC's SET has it ON: the PLC is later; a program's END later
-/// still.
+/// A host switches M8100 OFF while the PLC's SET has it ON: the PLC is later; a program's END later still.
 TEST(Super40ncWriters, RunContactsFollowTheSameOrder) {
   OneSuper40nc one({.program = "AREA PLC\nLD M1\nSET M8100\nEND\nAREA X\nTMR K20\nEND\n"});
   one.set("M1", 1);
@@ -223,8 +222,8 @@ TEST(Super40ncWriters, RunContactsFollowTheSameOrder) {
     one.run(1);
     scans_off += one.on("M8100") ? 0 : 1;
   }
-  EXPECT_GT(scans_off, 2) << "END wins in its scan";
-  EXPECT_LT(scans_off, 10) << "SET starts it anew in the next";
+  EXPECT_GT(scans_off, 2) << "END has precedence in its scan";
+  EXPECT_LT(scans_off, 10) << "SET starts it again in the next";
 }
 
 }  // namespace writers_test

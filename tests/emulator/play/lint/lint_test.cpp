@@ -1,6 +1,6 @@
-// Every rule with its boundary. At 19200 8E1 a character takes 11 bits, 572,916.7 ns. A request of 8
-// characters ends after 4,583,333 ns; a Simple2-R3 waits for 0.75 ms of silence and then answers, at
-// 5,333,333 ns. The answer of 7 characters ends 4,010,416 ns later, at 9,343,749 ns.
+// Every rule with its limit. At 19200 8E1 a character takes 11 bits, 572,916.7 ns. A request of 8 characters
+// ends after 4,583,333 ns; a Simple2-R3 waits for 0.75 ms of silence and then replies, at 5,333,333 ns. The
+// reply of 7 characters ends 4,010,416 ns later, at 9,343,749 ns.
 #include "emulator/play/lint/lint.h"
 #include "emulator/models/models.h"
 
@@ -49,7 +49,7 @@ class LintTest : public testing::Test {
     world_.advance_to(end);
     return lint_.findings();
   }
-  /// A write of one register, with all the time that it takes.
+  /// A write of one register, with the time that it takes.
   void write(int address, int value, SimTime at) {
     send(framed({1, 6, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address),
                  static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)}),
@@ -76,7 +76,7 @@ TEST_F(LintTest, TellsOfRequestsThatFollowTooSoon) {
 
 TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
   send(kRead, 0ns);
-  send(kRead, kRequestEnds + 400us);  // the answer begins 350 us later
+  send(kRead, kRequestEnds + 400us);  // the reply starts 350 us later
   const Texts findings = findings_at(1s);
   ASSERT_EQ(findings.size(), 2U);
   EXPECT_EQ(findings[1],
@@ -85,7 +85,7 @@ TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
 
 TEST_F(LintTest, TellsOfAHostThatTalksIntoTheAnswer) {
   send(kRead, 0ns);
-  send(kRead, 6ms);  // the answer has begun at 5.3 ms
+  send(kRead, 6ms);  // the reply has started at 5.3 ms
   EXPECT_EQ(findings_at(1s), Texts{"rs485: 1 request began before the line had been silent for 750us (while "
                                    "a station was sending at worst); first at 6ms"});
 }
@@ -112,7 +112,7 @@ TEST_F(LintTest, TellsOfStationsThatAreNotThere) {
   send(framed({7, 3, 0, 1, 0, 1}), 200ms);
   send(kRead, 300ms);
   Bytes broken = framed({8, 3, 0, 1, 0, 1});
-  broken.back() ^= 1;  // nobody knows whom that was for
+  broken.back() ^= 1;  // the addressee is unknown
   send(broken, 400ms);
   EXPECT_EQ(findings_at(1s), (Texts{"rs485: 1 request to station 7, which does not exist; first at 200ms",
                                     "rs485: 2 requests to station 9, which does not exist; first at 0s"}));
@@ -138,7 +138,7 @@ constexpr int kKept = 0x0A04;  // DIN0_Aaxis_Alarm, 0 or 1, kept in EEPROM
 
 TEST_F(LintTest, ReportsEepromRegistersThatAreChangedRepeatedly) {
   for (int i = 0; i < 11; ++i) write(kKept, 1 - i % 2, i * 10s);
-  // 10 s from one to the next; 100,000 of them are 1,000,000 s, 11.57 days.
+  // 10 s apart; 100,000 of them are 1,000,000 s, 11.57 days.
   EXPECT_EQ(findings_at(200s),
             Texts{"rs485: 11 changes of feeder.DIN0_Aaxis_Alarm, which is stored in EEPROM: at this rate its "
                   "100000 writes last for 11.5 days; first at 0s"});
@@ -150,7 +150,7 @@ TEST_F(LintTest, TenChangesAreNoWear) {
 }
 
 TEST_F(LintTest, ChangesThatLastForAYearAreNoWear) {
-  // A year is 31,536,000 s: 315.36 s from one to the next.
+  // A year is 31,536,000 s, so they are 315.36 s apart.
   for (int i = 0; i < 20; ++i) write(kKept, 1 - i % 2, i * 316s);
   EXPECT_EQ(findings_at(7000s), Texts{});
 }
@@ -161,7 +161,7 @@ TEST_F(LintTest, TheSameValueAgainIsNoWear) {
 }
 
 TEST_F(LintTest, ARefusedValueIsNoWear) {
-  for (int i = 0; i < 50; ++i) write(kKept, 2 + i, i * 1s);  // 0 or 1 it may be
+  for (int i = 0; i < 50; ++i) write(kKept, 2 + i, i * 1s);  // it can be 0 or 1
   EXPECT_EQ(findings_at(60s), Texts{});
 }
 

@@ -54,7 +54,7 @@ TEST(Patterns, MatchNamesOrAreAnIdentity) {
                                          {"[ab] move", "a move", true},
                                          {"[bc] move", "a move", false},
                                          {"move", "a move", false},
-                                         {"a [1] move", "a [1] move", true},  // as it is, too
+                                         {"a [1] move", "a [1] move", true},  // also without changes
                                          {identity_text(identity), "a move", true},
                                          {identity_text(identity).substr(0, 8) + "*", "a move", false},
                                          {identity_text(identity + 1), "a move", false}}) {
@@ -182,7 +182,7 @@ TEST_F(CaseListOf, WhatAFileIsMadeOfIsKnown) {
 }
 
 TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
-  // Cases that are checked beforehand differ in it; others are found out when they are read.
+  // Only cases that are checked beforehand differ; others are discovered when they are read.
   folder_.write(
       "save.yaml",
       "understudy: 1\nname: save\nbench: feeder.yaml\nvary: { a: { from: 0, to: 3999, step: 1 } }\n"
@@ -191,7 +191,7 @@ TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
   CaseReader reader(all);
   const auto number_of_first = std::uint64_t{17};
   EXPECT_EQ(reader.read({.file = 0, .number = number_of_first})->saved.size(), 1U);
-  EXPECT_NO_THROW(reader.read({.file = 0, .number = number_of_first})) << "it may be played again";
+  EXPECT_NO_THROW(reader.read({.file = 0, .number = number_of_first})) << "it can run again";
   CaseReader other(all);
   try {
     other.read({.file = 0, .number = number_of_first + 1331});

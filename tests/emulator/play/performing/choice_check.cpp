@@ -13,7 +13,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kMinExplanation = 30;  // letters behind the question
+constexpr std::size_t kMinExplanation = 30;  // letters after the question
 
 Steps without_expectations(const Steps& steps);
 
@@ -39,7 +39,7 @@ struct Unasking {
     send.reply.reset();
     add(std::move(send));
   }
-  /// Gives lines that would be waited for their time.
+  /// Returns lines that would be waited for, with their times.
   void operator()(TextStep text) const {
     const bool waits = text.lines.has_value();
     const SimTime within = text.within;

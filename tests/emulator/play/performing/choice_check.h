@@ -18,13 +18,13 @@ struct Proof {
 /// Returns the plays of a file's text, each about a choice. Throws FileError.
 std::vector<Proof> proofs_in(const std::string& text, const std::string& path);
 
-/// What is wrong with the proof of a row, a sentence each that names the row; nothing if it is as it should
-/// be:
+/// Returns the errors in the proof of a row, as sentences that name the row; nothing if it is correct:
 ///  - it asks a question and explains it;
 ///  - it has one case for each option of the row, in the row's order, and each passes;
-///  - what comes out differs from case to case (outcome_hash.h);
-///  - and it does so by the choice alone. The first case is played without its expectations, with one option
-///    after the other, and still comes out differently; and what another case does is just that.
+///  - the outcomes of the cases differ (outcome_hash.h);
+///  - and only because of the choice. The first case runs without its expectations, with one option after
+///  another,
+///    and still has different outcomes; and the other cases do exactly the same.
 std::vector<std::string> diagnostics_of_proof(const ChoiceRow& row, const Proof& proof);
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Faults in the proof of a choice are found.
+// Errors in the proof of a choice are found.
 #include "tests/emulator/play/performing/choice_check.h"
 
 #include <gtest/gtest.h>

@@ -65,7 +65,7 @@ TEST(ChoiceScenarios, AreOfRowsThatThereAre) {
     for (const auto& [file, proofs] : proofs_of(*model)) {
       for (const Proof& proof : proofs) {
         EXPECT_EQ(expected[file].erase(proof.id), 1U)
-            << file << ": " << proof.id << " is no choice of its sections with several options";
+            << file << ": " << proof.id << " is not a choice of its sections with several options";
       }
     }
   }

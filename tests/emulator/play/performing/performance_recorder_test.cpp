@@ -62,7 +62,8 @@ TEST(PerformanceRecorder, ARecordingLeadsToTheSameEnd) {
   const Again replayed = again(result);
   EXPECT_EQ(replayed.result.reached, result.failure->at);
   EXPECT_EQ(replayed.pulses, 32000);
-  // The bytes sent: two writes done (8 bytes each), one read of a word (7) of two, and one of two words (9).
+  // The bytes sent: two completed writes (8 bytes each), one read of one word (7) of two, and one of two
+  // words (9).
   EXPECT_EQ(replayed.result.bytes_said, 8U + 8U + 7U + 9U);
   EXPECT_EQ(replayed.header.snapshot, "");
 }
@@ -100,7 +101,7 @@ TEST(PerformanceRecorder, BeginsAnewWhereAStateIsRestored) {
   const Again replayed = again(result);
   EXPECT_NE(replayed.header.snapshot, "");
   EXPECT_EQ(replayed.pulses, 0);
-  EXPECT_EQ(replayed.result.bytes_said, 8U);  // of the last write alone
+  EXPECT_EQ(replayed.result.bytes_said, 8U);  // only of the last write
 }
 
 }  // namespace performance_recorder_test

@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::play {
 
-/// One Simple2-R3 at 19200 baud, with the steps, one a line.
+/// One Simple2-R3 at 19200 baud, with the steps, one per line.
 inline std::string scenario_text(const std::string& steps, const std::string& more = "") {
   return "understudy: 1\n"
          "name: test\n"
@@ -63,14 +63,15 @@ inline Failure failing(const std::string& steps, const std::string& more = "") {
   return *result.failure;
 }
 
-// The manual's example: 32000 pulses at 200 RPM (10,666.67 pulses a second), ramps of 50 ms, 3050 ms in all.
+// The manual's example: 32000 pulses at 200 RPM (10,666.67 pulses per second), ramps of 50 ms, 3050 ms in
+// all.
 inline const std::string kServoOn = "  - write: { feeder.Aaxis_SVON: 1 }\n";
 inline const std::string kExampleMove =
     "  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5, "
     "feeder.Aaxis_DecTime: 5, feeder.Aaxis_Move_INC: 1 }\n";
-// Both begin with an idle line. The first request is carried out at 5.333 ms, and its reply ends at 9,916,666
-// ns. The second request begins 2,005,209 ns later, has 21 characters (12,031,250 ns) and is carried out 750
-// us after them, at 24,703,125 ns, so the move begins with tick 25. Its reply ends at 29,286,458 ns.
+// Both begin with an idle line. The first request is executed at 5.333 ms, and its reply ends at 9,916,666
+// ns. The second request starts 2,005,209 ns later, has 21 characters (12,031,250 ns) and is executed 750 us
+// after them, at 24,703,125 ns, so the move starts with tick 25. Its reply ends at 29,286,458 ns.
 inline constexpr Tick kExampleBegins = 25;
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// What a scenario in real time receives and observes: the host's replies, and when a write was carried out.
+// What a scenario in real time receives and observes: the host's replies, and when a write was executed.
 #include "emulator/play/stages/real_executor.h"
 #include "emulator/play/stages/write_clock.h"
 #include "tests/emulator/play/performing/played.h"
@@ -23,7 +23,7 @@ TEST(RealTime, BringsWhatIsReadAndWhatIsRefused) {
   EXPECT_EQ(bad.failure->what, "feeder.Aaxis_Speed is 200; expected 201");
 }
 
-/// When the clock reports that the last write was carried out, once a frame is complete and answered.
+/// When the clock reports that the last write was executed, once its frame is complete and answered.
 class WriteClockTest : public testing::Test {
  protected:
   Tick after(const std::vector<std::uint8_t>& frame) {
@@ -44,7 +44,7 @@ TEST_F(WriteClockTest, TellsTheTickThatAWriteActsFrom) {
   EXPECT_EQ(after({0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA}), 6);
   EXPECT_EQ(after({0x02, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x6F}), 6);
   EXPECT_EQ(after({0x01, 0x06, 0x00, 0x01, 0x00, 0x01, 0x19, 0xCA}), 6);
-  // The next one at 200 ms is.
+  // The next one, at 200 ms, does.
   EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 206);
 }
 

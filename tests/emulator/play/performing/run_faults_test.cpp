@@ -57,7 +57,7 @@ TEST(ScenarioFaults, CourseIsPartOfWhatASnapshotKeeps) {
 }
 
 TEST(ScenarioFaults, ChanceBeginsWithTheScenariosSeed) {
-  // The draws of fault 1 below a half, of three seeds: see triggered_faults_test.cpp.
+  // The draws of fault 1 that are below a half, for three seeds: see triggered_faults_test.cpp.
   const std::string reply = "01 03 02 C0 01 29 84";
   const std::vector<std::vector<int>> hits{{1, 3, 6}, {3, 5}, {1, 4, 5, 6}};
   for (std::size_t seed = 0; seed < hits.size(); ++seed) {

@@ -117,7 +117,7 @@ TEST(RunnerForks, BranchesThatDoTheSameHaveTheSameOutcome) {
   ASSERT_EQ(verdicts(results), (std::vector<std::string>{"passed test", "passed test / one",
                                                          "passed test / two", "passed test / three"}));
   EXPECT_EQ(results[1].outcome_hash, results[2].outcome_hash);
-  EXPECT_EQ(results[0].outcome_hash, results[1].outcome_hash);  // the main line went on in the same way
+  EXPECT_EQ(results[0].outcome_hash, results[1].outcome_hash);  // the main line continued in the same way
   EXPECT_NE(results[0].outcome_hash, results[3].outcome_hash);
 }
 
@@ -125,7 +125,7 @@ TEST(RunnerForks, TheHostIsSilentAsLongInABranchAsOnTheMainLine) {
   const std::string reads = "[ expect: { feeder.Aaxis_Speed: 200 }, expect: { feeder.STATUS.10: 1 } ]\n";
   const std::string read_here =
       "  - expect: { feeder.Aaxis_Speed: 200 }\n  - expect: { feeder.STATUS.10: 1 }\n";
-  // Once right behind a reply, once 1 ms after it, which is within t3.5.
+  // Once right after a reply, once 1 ms after it, which is within t3.5.
   for (const std::string between : {"", "  - advance: 1ms\n"}) {
     const auto results = all_of(kServoOn + kExampleMove + between + "  - fork: { one: " + reads + "  }\n" +
                                     "  - snapshot: there\n" + read_here +
@@ -147,7 +147,7 @@ TEST(RunnerForks, TheHostIsSilentAsLongInABranchAsOnTheMainLine) {
 }
 
 TEST(RunnerForks, ASpanThatIsOpenIsWatchedInEachBranch) {
-  // The names that were asked for before the span are others than those that a branch asks for first.
+  // The names that are requested before the span differ from those that a branch requests first.
   const auto results =
       all_of(kServoOn +
              "  - wait: { until: feeder.STATUS.10 == 1 and feeder.Aaxis_Speed == 0, within: 1s }\n"

@@ -5,7 +5,8 @@
 namespace understudy::emulator::play {
 namespace runner_line_test {
 
-/// A free executor whose host's requests are written down: "write 1 0x1002: 200 5", "read 1 0x0E04: 2".
+/// An executor in virtual time whose host's requests are recorded: "write 1 0x1002: 200 5", "read 1 0x0E04:
+/// 2".
 class WrittenDown final : public Executor {
  public:
   WrittenDown(std::unique_ptr<Executor> executor, std::vector<std::string>& requests)
@@ -76,7 +77,7 @@ TEST(RunnerOverTheLine, NeighboursThatAscendShareARequest) {
        {"write 1 0x1003: 5", "write 1 0x1002: 200"}},
       {"write: { feeder.Aaxis_Speed: 200, feeder.Aaxis_DecTime: 5 }",
        {"write 1 0x1002: 200", "write 1 0x1004: 5"}},
-      // 32 bits, low word first: 100000 = 0x1_86A0, and -1 is all ones.
+      // 32 bits, low word first: 100000 = 0x1_86A0, and -1 has all bits set.
       {"write: { feeder.Aaxis_Pulse: 100000 }", {"write 1 0x1000: 34464 1"}},
       {"write: { feeder.Aaxis_Pulse: -1 }", {"write 1 0x1000: 65535 65535"}},
       {"write: { feeder.Aaxis_Pulse: 7, feeder.Aaxis_Speed: 8, feeder.Baxis_Pulse: 9, feeder.Baxis_Speed: 1 "
@@ -111,7 +112,7 @@ TEST(RunnerOverTheLine, NoMoreThanARequestHolds) {
   const auto requests = requests_of(write + " }\n" + expect + " }\n");
   ASSERT_EQ(requests.size(), 4U);
   EXPECT_EQ(requests[0].substr(0, 15), "write 1 0x4000:");
-  EXPECT_EQ(requests[1], "write 1 0x407B: 0 0 0 0 0 0 0");  // the first one brings 123
+  EXPECT_EQ(requests[1], "write 1 0x407B: 0 0 0 0 0 0 0");  // the first one reads 123
   EXPECT_EQ(requests[2], "read 1 0x4000: 125");
   EXPECT_EQ(requests[3], "read 1 0x407D: 5");
 }
@@ -190,7 +191,7 @@ TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
   EXPECT_EQ(failure.came, "feeder.Aaxis_Pulse = -5, feeder.Aaxis_Speed = 200");
   EXPECT_EQ(failure.details, std::vector<std::string>{"feeder.Aaxis_Speed is 200; expected 190 +- 5"});
   // A write of 3 words has 15 characters: 8,593,750 ns, + 750,000, and 8 of its reply: 4,583,333. The read
-  // begins 2,005,209 later: 8 characters, 750,000; and its reply has 11.
+  // starts 2,005,209 later: 8 characters, 750,000; and its reply has 11.
   EXPECT_EQ(failure.frames, (std::vector<std::string>{
                                 "0s rs485 -> write 0x1000 feeder.Aaxis_Pulse = -5, Aaxis_Speed = 200",
                                 "9.34375ms rs485 <- done",
@@ -249,7 +250,7 @@ TEST(RunnerOverTheLine, TheGapKeepsRequestsApart) {
     return passing("  - write: { feeder.Aaxis_Speed: 1 }\n  - write: { feeder.Aaxis_Speed: 2 }\n", more)
         .simulated;
   };
-  // Twice 9,916,666, and t3.5 between.
+  // Twice 9,916,666, with t3.5 between.
   EXPECT_EQ(end_of(""), SimTime{2 * 9'916'666 + 2'005'209});
   EXPECT_EQ(end_of("gap: 15ms\n"), SimTime{2 * 9'916'666 + 2'005'209 + 15'000'000});
 }

@@ -40,7 +40,8 @@ TEST(RunnerTimes, TakesIsExactToTheTick) {
 }
 
 TEST(RunnerTimes, TakesCountsFromTheLastWriteDespiteOtherWaits) {
-  // s(t) = 8 t^2 / 75 up to t = 50 ms, then 32 (t - 25) / 3: 10000 is passed at t = 962.5, so at tick 963.
+  // s(t) = 8 t^2 / 75 up to t = 50 ms, then 32 (t - 25) / 3: the axis passes 10000 at t = 962.5, so at tick
+  // 963.
   passing(kServoOn + kExampleMove +
           "  - wait: { until: feeder.A.pulses > 266, within: 1s, takes: 51ms }\n"
           "  - expect: { feeder.STATUS.4: 1 }\n"
@@ -49,7 +50,8 @@ TEST(RunnerTimes, TakesCountsFromTheLastWriteDespiteOtherWaits) {
 }
 
 TEST(RunnerTimes, WhatComesTrueWhileTheReplyIsOnTheLineIsNotMissed) {
-  // The reply to the write is over 4.3 ms after tick 25; at t = 4 ms one pulse is out (8 * 16 / 75 = 1.7).
+  // The reply to the write ends 4.3 ms after tick 25; at t = 4 ms one pulse has been sent (8 * 16 / 75
+  // = 1.7).
   const ScenarioResult result = passing(
       kServoOn + kExampleMove + "  - wait: { until: feeder.A.pulses == 1, within: 1s, takes: 4ms }\n");
   EXPECT_EQ(result.steps.back().begin, result.steps.back().end);
@@ -58,7 +60,8 @@ TEST(RunnerTimes, WhatComesTrueWhileTheReplyIsOnTheLineIsNotMissed) {
 }
 
 TEST(RunnerTimes, StepsThatPassNoTimeMayStandBetweenAWriteAndItsWait) {
-  // As above: no pulse is out at tick 25, one is at tick 29, and the reply is on the line up to 29.286 ms.
+  // As above: no pulse has been sent at tick 25, one has at tick 29, and the reply is on the line up
+  // to 29.286 ms.
   const std::string wait = "  - wait: { until: feeder.A.pulses == 0, within: 1s, takes: 0ms }\n";
   for (const std::string between :
        {"say: on its way", "assert: feeder.STATUS.4 == 1", "input: { feeder.DIN_10: on }",
@@ -69,7 +72,7 @@ TEST(RunnerTimes, StepsThatPassNoTimeMayStandBetweenAWriteAndItsWait) {
   }
   passing("  - inject: { stall: feeder.B, name: b }\n  - always: { what: feeder.power, name: fed }\n" +
           kServoOn + kExampleMove + "  - clear: b\n  - end: fed\n  - say: both are gone\n" + wait);
-  // A step that passes time is what the wait begins after: at 31.286 ms tick 31 is over, 6 ms after tick 25.
+  // The wait starts after a step that passes time: at 31.286 ms tick 31 has ended, 6 ms after tick 25.
   passing(kServoOn + kExampleMove +
           "  - advance: 2ms\n  - wait: { until: feeder.A.pulses >= 1, within: 1s, takes: 6ms }\n");
 }
@@ -131,25 +134,25 @@ TEST(RunnerTimes, AConditionWithoutAResultFails) {
 }
 
 TEST(RunnerPolls, AskOverTheLineAtTheirTimes) {
-  // Rounds begin at 29.286458 ms and every 500 ms from then on; the move ends at 3075 ms, so the 8th round,
+  // Rounds start at 29.286458 ms and every 500 ms from then on; the move ends at 3075 ms, so the 8th round,
   // at 3529.286458 ms, sees it: 8 requests of 8 characters, 64 bytes.
   const ScenarioResult result =
       passing(kServoOn + kExampleMove +
               "  - wait: { until: feeder.STATUS.4 == 0 && feeder.STATUS.10 == 1, within: 4s, poll: 500ms }\n"
               "  - assert: rs485.bytes_in == 8 + 21 + 64\n");
-  // The reply to the read of one register is over 9,343,749 ns after the request began.
+  // The reply to the read of one register ends 9,343,749 ns after the start of the request.
   EXPECT_EQ(result.steps[2].end, SimTime{29'286'458} + std::chrono::milliseconds(3500) + SimTime{9'343'749});
 }
 
 TEST(RunnerPolls, TakesIsWhatTheHostSees) {
-  // As above; the reply comes in tick 3538, which is 3513 ms after tick 25.
+  // As above; the reply arrives in tick 3538, which is 3513 ms after tick 25.
   passing(kServoOn + kExampleMove +
           "  - wait: { until: feeder.STATUS.4 == 0, within: 4s, poll: 500ms, takes: 3513ms }\n");
 }
 
 TEST(RunnerPolls, AreAsFastAsTheLineIfTheyAreToBeFaster) {
-  // Each takes 9.34 ms and t3.5; 1 s holds 88 that begin within it: ceil(1000 / 11.348958) = 89, the first at
-  // 0.
+  // Each takes 9.34 ms and t3.5; 1 s contains 88 that start within it: ceil(1000 / 11.348958) = 89, the first
+  // at 0.
   const ScenarioResult result = played("  - wait: { until: feeder.STATUS == 1, within: 1s, poll: 1ms }\n");
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->what, "'feeder.STATUS == 1' did not become true within 1s, polled every 1ms");
@@ -157,14 +160,14 @@ TEST(RunnerPolls, AreAsFastAsTheLineIfTheyAreToBeFaster) {
 }
 
 TEST(RunnerSpans, TheFirstTickThatBreaksThemFailsWithItsTime) {
-  // 266 pulses are out at t = 50, 277 at t = 51.
+  // 266 pulses have been sent at t = 50, 277 at t = 51.
   const ScenarioResult result = played("  - never: feeder.A.pulses > 266\n" + kServoOn + kExampleMove +
                                        "  - advance: 1s\n  - say: never said\n");
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->at, time_of(kExampleBegins + 51));
   EXPECT_EQ(result.failure->what, "never 'feeder.A.pulses > 266' (test.yaml:5) did not hold at 76ms");
   EXPECT_EQ(result.failure->came, "feeder.A.pulses > 266  (feeder.A.pulses is 277)");
-  EXPECT_EQ(result.steps.size(), 4U);  // nothing is played after it
+  EXPECT_EQ(result.steps.size(), 4U);  // nothing runs after it
   EXPECT_EQ(result.steps.back().end, time_of(76));
   EXPECT_NE(result.failure->state[1].find("feeder.A: pulses 277"), std::string::npos)
       << result.failure->state[1];
@@ -209,7 +212,7 @@ TEST(RunnerTruths, AreLookedAtWithoutTheLine) {
 }
 
 TEST(RunnerPeaks, AreThoseOfTheProfile) {
-  // 200 RPM * 3200 / 60 = 10,666.67 pulses a second, reached in 50 ms: 213,333.33 a second more each second.
+  // 200 RPM * 3200 / 60 = 10,666.67 pulses per second, reached in 50 ms: 213,333.33 more per second.
   passing(kServoOn + kExampleMove +
           "  - advance: 20ms\n"
           "  - assert: feeder.A.greatest_speed < 10000\n"

@@ -1,4 +1,4 @@
-// Wrong scenario files: each error is one line with its place, what is wrong and what was expected.
+// Wrong scenario files: each error is one line with its place, the error and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"
@@ -156,7 +156,7 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
   });
 }
 
-/// A value that the device may treat in its own way can be written, to see how.
+/// A value that the device may treat in its own way can be written, to see the result.
 TEST_F(ScenarioErrors, AreNotOfWhatADeviceTakes) {
   for (const char* const option : {"exception_03", "clamped"}) {
     const std::string text =
@@ -373,7 +373,7 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
             "is none");
   EXPECT_EQ(diagnostic(fork + "  - restore: inner\n"),
             "scenario.yaml:6: steps[1].restore: no earlier snapshot is called 'inner'; there is none");
-  // The faults are as they were before.
+  // The faults are the same as before.
   EXPECT_EQ(diagnostic("  - snapshot: well\n  - inject: { stall: feeder.A, name: jam }\n  - restore: well\n"
                        "  - clear: jam\n"),
             "scenario.yaml:7: steps[3].clear: no fault in force here is called 'jam'; there is none");

@@ -1,4 +1,4 @@
-// Any text as a scenario file is a scenario or gets one diagnostic. Nothing crashes, nothing hangs.
+// Any text as a scenario file is a scenario or gets one diagnostic. Nothing crashes, and nothing hangs.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -42,7 +42,7 @@ steps:
 
 class ScenarioMutation : public testing::Test {
  protected:
-  /// True if it is a scenario or gets a diagnostic that begins with a file and a line.
+  /// Returns true if it is a scenario or gets a diagnostic that begins with a file and a line.
   bool is_handled(const std::string& text) const {
     try {
       folder_.parse(text);

@@ -27,7 +27,7 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
   struct Case {
     std::string bench;
     std::string steps;
-    std::string diagnostic;  // behind the file's name
+    std::string diagnostic;  // after the file's name
   };
   const std::string own = "; expected another path";
   const std::vector<Case> cases = {

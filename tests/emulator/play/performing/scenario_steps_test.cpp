@@ -1,4 +1,4 @@
-// Each kind of step, as it is written and as it runs.
+// Each kind of step: its text and its effect.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/play/performing/scenario_folder.h"
@@ -18,7 +18,7 @@ class ScenarioSteps : public testing::Test {
     const Steps steps = folder_.steps("  - " + step + "\n");
     EXPECT_EQ(steps.size(), 1U) << step;
     const What* const what = std::get_if<What>(&steps.front().what);
-    if (what == nullptr) ADD_FAILURE() << step << " is another kind of step";
+    if (what == nullptr) ADD_FAILURE() << step << " is a different kind of step";
     return what == nullptr ? What{} : *what;
   }
   Strings texts(const std::string& steps) const { return texts_of(folder_.steps(steps)); }
@@ -68,7 +68,7 @@ TEST_F(ScenarioSteps, TargetsAreNamesHalvesBitsAndNumbers) {
 }
 
 TEST_F(ScenarioSteps, WriteTakesWhatADeviceRefusesWhereThatIsMeant) {
-  // Aaxis_AccTime goes to 3000, HW_Code is read-only.
+  // The maximum of Aaxis_AccTime is 3000, and HW_Code is read-only.
   EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3001 }\n    exception: 3").answer.exception, 3);
   EXPECT_EQ(only<WriteStep>("write: { feeder.HW_Code: 1 }\n    exception: 2").answer.exception, 2);
   EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3000 }").entries.at(0).value, "3000");

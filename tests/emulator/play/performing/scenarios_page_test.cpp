@@ -32,7 +32,7 @@ std::vector<std::string> examples() {
 
 bool speaks_text(const std::string& example) { return example.find("hear:") != std::string::npos; }
 
-/// Of steps with a device that speaks text: the tests' own, whose N0 stands for the page's PE.
+/// Steps with a text-protocol device: the tests' own, whose N0 stands for the page's PE.
 std::string diagnostic_of_text(std::string steps) {
   const std::string value = "robot.PE";
   for (std::size_t at = 0; (at = steps.find(value)) != std::string::npos;) {
@@ -50,7 +50,7 @@ std::string diagnostic_of_text(std::string steps) {
   return "";
 }
 
-/// Of steps that send commands by name: to the tests' own controller, which has some.
+/// Steps that send commands by name: to the tests' own controller, which has some.
 std::string diagnostic_of_commands(const std::string& steps) {
   const ListedModel models[] = {&workbench::model()};
   try {

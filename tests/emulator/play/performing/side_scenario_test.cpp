@@ -56,7 +56,7 @@ void end_beside(const std::string& steps, bool by_failure) {
   const Trap trap(*daemon);
   bool was_over = false;
   SideScenario side_scenario(scenario, *daemon, [&] { was_over = true; });
-  // It is in the middle of its steps by then, or not that far: the result is the same.
+  // It is in the middle of its steps by then, or earlier: the result is the same.
   std::thread springs([&] {
     std::this_thread::sleep_for(30ms);
     if (by_failure) return trap.spring();
@@ -69,7 +69,7 @@ void end_beside(const std::string& steps, bool by_failure) {
   }
   springs.join();
   EXPECT_TRUE(daemon->is_over());
-  EXPECT_FALSE(daemon->post([] { ADD_FAILURE() << "nobody runs this"; }));
+  EXPECT_FALSE(daemon->post([] { ADD_FAILURE() << "this does not run"; }));
   EXPECT_FALSE(was_over);
 }
 
@@ -95,7 +95,7 @@ TEST(Daemon, DropsWhatWasPostedTooLate) {
   auto held = std::make_shared<int>(0);
   EXPECT_TRUE(daemon->post([&] {
     daemon->stop();
-    EXPECT_TRUE(daemon->post([held] { ADD_FAILURE() << "the loop has left"; }));
+    EXPECT_TRUE(daemon->post([held] { ADD_FAILURE() << "the loop has ended"; }));
     EXPECT_EQ(held.use_count(), 2);
   }));
   daemon->run();

@@ -16,7 +16,7 @@ TEST(StateText, SaysThatAnInputIsYetToBeRead) {
                          "plant: { x.A: { home: { at: 0, width: 5 } } }\n",
                          "bench.yaml", "."),
       {}, {});
-  EXPECT_EQ(state_text(world).back(), "x: DIN_4 on") << "inputs are looked at when the power comes";
+  EXPECT_EQ(state_text(world).back(), "x: DIN_4 on") << "inputs are read at power-up";
   world.advance_to(kTickLength);
   world.set_external_input(0, find_terminal(world.device(0).model(), "DIN_1"), 1);
   EXPECT_EQ(state_text(world).back(), "x: DIN_1 on (read at the next tick), DIN_4 on");

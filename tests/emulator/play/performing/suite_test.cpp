@@ -87,7 +87,7 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
     EXPECT_STREQ(error.what(), "no port is free");
   }
   EXPECT_EQ(names, (std::vector<std::string>{"move 0", "move 1", "move 2", "move 3", "move 4"}));
-  EXPECT_LT(made, 48);  // the rest is not played
+  EXPECT_LT(made, 48);  // the rest does not run
 }
 
 TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsTold) {

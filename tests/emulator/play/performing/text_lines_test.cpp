@@ -58,10 +58,10 @@ const Strings kPassing{
     "  - send: { line: serial, text: LIST 3, reply: [ line 1, line 2, line 3 ] }\n",
     "  - send: { text: N0=5, reply: nothing, within: 50ms }\n  - send: { text: \"?N0\", reply: \"5\" }\n",
     "  - send: { text: \"\", reply: ERR 1 }\n",
-    // Without a reply, the device has received it when the step is over.
+    // Without a reply, the device has received it when the step ends.
     "  - send: { text: N0=6 }\n  - expect: { robot.N0: 6, robot.R0: 0 +- 0.5 }\n  - assert: N0 == 6\n",
     "  - send: { text: R0=2.5 }\n  - wait: { until: robot.R0 == 2.5, within: 1s }\n",
-    // Without a request, at its time; several lines at once are received one after the other.
+    // Without a request, at its time; several lines that arrive at once are received one after another.
     "  - send: { text: AT 300 }\n  - hear: { text: TICK 300, within: 1s }\n  - assert: time >= 300ms\n",
     "  - send: { text: AT 200 }\n  - hear: { text: nothing, within: 50ms }\n",
     "  - send: { text: LIST 3 }\n  - advance: 100ms\n  - hear: { text: line 1 }\n"
@@ -118,8 +118,8 @@ TEST(TextSteps, FailInFreeTimeWithWhatCame) {
   }
 }
 
-/// Over a pty the wall clock counts: on a machine that stands still for a moment a pause ends a reply, and a
-/// power cut comes later into what is being said. So a verdict that differs gets two more attempts.
+/// Over a pty the wall clock counts: on a machine that pauses for a moment, a pause ends a reply, and a power
+/// cut comes later in the text that is being sent. So a verdict that differs gets two more attempts.
 Outcome play_really(const std::string& steps, const std::string& expected_why) {
   Outcome outcome;
   for (int attempt = 0; attempt < 3; ++attempt) {
@@ -142,7 +142,7 @@ TEST(TextSteps, HaveTheSameVerdictsOverARealPty) {
 }
 
 TEST(TextSteps, TakesRunsFromTheLineThatWasHeard) {
-  // "AT 300" and its CR are seven characters: heard at 7.29 ms, so from tick 8 on.
+  // "AT 300" and its CR are seven characters: received at 7.29 ms, so from tick 8 on.
   const std::string steps =
       "  - send: { text: AT 300 }\n"
       "  - wait: { until: time >= 300ms, within: 1s, takes: 292ms }\n";

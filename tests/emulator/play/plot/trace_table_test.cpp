@@ -1,4 +1,4 @@
-// Errors in a trace are reported with their line; and the contents of a plot.
+// Errors in a trace are reported with their line; and the contents of a plot are correct.
 #include "emulator/play/plot/trace_table.h"
 
 #include <gtest/gtest.h>

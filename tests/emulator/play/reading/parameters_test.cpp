@@ -39,11 +39,11 @@ TEST_F(ParametersTest, AreReplacedAndComputedWith) {
       {"${ speed }", "200"},
       {"${word}", "feeder"},
       {"${hex}", "0x10"},    // as written,
-      {"${hex + 0}", "16"},  // until it is computed with
+      {"${hex + 0}", "16"},  // until it is used in a calculation
       {"${word}.Cord_A", "feeder.Cord_A"},
       {"a ${speed} b ${takes} c", "a 200 b 3050ms c"},
       {"${speed * 2}", "400"},
-      {"${speed / 3}", "66"},  // whole quotients are cut
+      {"${speed / 3}", "66"},  // whole quotients are truncated
       {"${speed / 3.0 > 66}", "1"},
       {"${takes + 5ms}", "3.055s"},
       {"${takes / 1ms}", "3050"},

@@ -63,7 +63,7 @@ TEST_F(ScenarioFile, FirmwareAndMemoryMayDifferFromTheBench) {
   EXPECT_FALSE(kept.at(0).settings.nv);
   ASSERT_TRUE(kept.at(1).settings.nv);
   EXPECT_EQ(kept.at(1).settings.nv->registers.at(0).second, 7);
-  EXPECT_EQ(kept.at(1).nv_path, "");  // what is played does not change the file
+  EXPECT_EQ(kept.at(1).nv_path, "");  // running does not change the file
 }
 
 TEST_F(ScenarioFile, EachCaseIsAScenario) {
@@ -138,7 +138,7 @@ TEST_F(ScenarioFile, ReferencesOfYamlAreSteps) {
 }
 
 TEST_F(ScenarioFile, AHundredThousandStepsAreEnough) {
-  // 1000 * 100, and none more.
+  // 1000 * 100, and not one more.
   const std::string loop =
       "  - repeat: { times: 1000, steps: [ repeat: { times: 100, steps: [ say: x ] } ] }\n";
   EXPECT_EQ(folder_.steps(loop).size(), 100'000U);

@@ -98,7 +98,7 @@ TEST(Variation, SamplesAreDifferentAndWithinTheirBounds) {
   }
   // 100 of 1 to 1000 without repetition: 500.5 on average, with a standard deviation of 27.4.
   EXPECT_NEAR(sum / 100, 500.5, 4 * 27.4);
-  // All of them are each of them.
+  // All of them are each of them once.
   Strings all = all_of(of("{ between: [ 1, 30 ], samples: 30, seed: 7 }"));
   EXPECT_FALSE(std::is_sorted(all.begin(), all.end()));
   std::multiset<int> numbers;
@@ -112,8 +112,8 @@ TEST(Variation, SamplesAreTheSameForOneSeedAndNoOther) {
   const Strings of_7 = all_of(of(yaml + ", seed: 7 }", 3));
   EXPECT_EQ(all_of(of(yaml + ", seed: 7 }", 4)), of_7);
   EXPECT_NE(all_of(of(yaml + ", seed: 8 }")), of_7);
-  EXPECT_EQ(all_of(of(yaml + " }", 7)), of_7) << "the scenario's seed stands in";
-  EXPECT_NE(all_of(of(yaml + ", seed: 7 }", 9, true)), of_7) << "another one for all";
+  EXPECT_EQ(all_of(of(yaml + " }", 7)), of_7) << "the scenario's seed is used instead";
+  EXPECT_NE(all_of(of(yaml + ", seed: 7 }", 9, true)), of_7) << "a different one for all";
   // More samples begin with the same ones.
   const Strings more = all_of(of("{ between: [ 0, 100000 ], samples: 80, seed: 7 }"));
   EXPECT_TRUE(std::equal(of_7.begin(), of_7.end(), more.begin()));

@@ -45,8 +45,8 @@ TEST(Envelope, KeepsASpikeOfOneTickInAHourAtItsTime) {
   EXPECT_EQ(points.back(), (Envelope::Point{3'599'999, 1}));
 }
 
-/// Against the plain definition: of each stretch of ticks the points are real ones, with its extremes among
-/// them.
+/// Compared with the plain definition: the points of each stretch of ticks are real ones, and include its
+/// extremes.
 TEST(Envelope, HasTheExtremesOfEveryStretch) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
@@ -59,7 +59,7 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
       values.push_back(random() % 7 == 0 && i > 0 ? values.back() : static_cast<double>(random() % 1000));
       envelope.add(origin + i, values.back());
     }
-    Tick length = 1;  // the smallest power of two that has few enough stretches
+    Tick length = 1;  // the smallest power of two that gives few enough stretches
     while ((count + length - 1) / length > static_cast<Tick>(most)) length *= 2;
     const Points points = envelope.points();
     EXPECT_LE(points.size(), 4 * most) << "seed " << seed;
@@ -71,7 +71,7 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
       const auto first = values.begin() + begin;
       const auto last = values.begin() + std::min(begin + length, count);
       const auto has = [&](double wanted) {
-        // A value that stays over several stretches has its first and last points only.
+        // A value that is constant over several stretches has only its first and last points.
         return std::any_of(points.begin(), points.end(), [&](const Envelope::Point& point) {
           return point.value == wanted && point.tick - origin < begin + length;
         });
@@ -84,7 +84,7 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
   }
 }
 
-/// A constant value is like one that is added again at every tick, however long, and whatever follows.
+/// A constant value is the same as one that is added again at every tick, however long, and whatever follows.
 TEST(Envelope, StaysAsIfItWereAddedAtEveryTick) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);

@@ -24,9 +24,9 @@ std::string page_of(const std::string& steps) {
   return report_page(run_scenario(scenario_of(steps), filmed()), "1.2.3");
 }
 
-/// Says what is wrong with a page: tags that do not match, names used twice, links that lead nowhere; and
-/// what those miss who hear it: landmarks, headings in their order, names of pictures, what a table's heads
-/// are of.
+/// Reports the errors of a page: tags that do not match, names used twice, links that lead nowhere; and what
+/// users of a screen reader would miss: landmarks, headings in order, names of pictures, the scope of table
+/// headers.
 constexpr const char* kReader = R"(
 import sys, html.parser
 class Reader(html.parser.HTMLParser):
@@ -121,7 +121,7 @@ TEST(ReportPage, ShowsNamesAsTheyAre) {
 TEST(ReportPage, MarksTheFailingMoment) {
   const std::string page =
       page_of(kServoOn + kExampleMove + "  - never: feeder.A.pulses > 1000\n  - advance: 500ms\n");
-  // The run is cut there, so that the mark is at the end: x = 1085.
+  // The run ends there, so the mark is at the end: x = 1085.
   EXPECT_NE(page.find("<line class=\"failure\" x1=\"1085.00\""), std::string::npos);
   EXPECT_NE(page.find("failed at "), std::string::npos);
   const std::string well = page_of(kServoOn + kExampleMove + "  - advance: 500ms\n");
@@ -129,7 +129,7 @@ TEST(ReportPage, MarksTheFailingMoment) {
   EXPECT_EQ(well.find("failed at "), std::string::npos);
 }
 
-/// The numbers that follow each `before` on the page.
+/// Returns the numbers that follow each `before` on the page.
 std::vector<double> numbers_behind(const std::string& page, const std::string& before) {
   std::vector<double> numbers;
   for (std::size_t at = page.find(before); at != std::string::npos; at = page.find(before, at + 1)) {
@@ -138,7 +138,7 @@ std::vector<double> numbers_behind(const std::string& page, const std::string& b
   return numbers;
 }
 
-/// The places of the texts of a kind, from the top of the picture.
+/// Returns the positions of the texts of a kind, from the top of the picture.
 std::vector<double> heights_of(const std::string& page, const std::string& kind) {
   std::vector<double> heights;
   const std::string begin = "<text class=\"" + kind + "\"";
@@ -155,7 +155,7 @@ TEST(ReportPage, TheFailingMomentCoversNoNumber) {
   const std::string page = page_of(steps + "  - assert: 1 == 2\n");
   const std::vector<double> label = heights_of(page, "failed end");
   ASSERT_EQ(label.size(), 1U);
-  EXPECT_GE(label[0], kLetters) << "it is cut off";
+  EXPECT_GE(label[0], kLetters) << "it is truncated";
   const std::vector<double> numbers = heights_of(page, "number middle");
   EXPECT_GT(numbers.size(), 8U);
   const std::vector<double> line = numbers_behind(page, "<line class=\"failure\" x1=\"1085.00\" y1=\"");
@@ -192,8 +192,8 @@ TEST(ReportPage, NamesTheRecordingThatWasKept) {
 
 TEST(ReportPage, DrawsWhatMovedWithItsData) {
   const std::string page = page_of(kServoOn + kExampleMove + "  - advance: 3200ms\n");
-  // Parsed by hand: the library's regular expressions recurse once a character, and sanitizers give them too
-  // little stack.
+  // Parsed by hand: the library's regular expressions recurse once per character, and sanitizers give them
+  // too little stack.
   const std::size_t curve = page.find("data-name=\"feeder.A.position\" data-base=\"0\"");
   ASSERT_NE(curve, std::string::npos);
   const std::string attribute = " points=\"";

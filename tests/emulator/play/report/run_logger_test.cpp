@@ -46,7 +46,7 @@ TEST(RunLogger, SeesPositionSpeedAndSwitches) {
   EXPECT_EQ(position.points.front().tick, 0);
   EXPECT_EQ(position.points.back().tick, tick_at(stretch.end));
   EXPECT_EQ(position.points.back().value, 32000);
-  // 200 RPM of 3200 pulses; the plan reaches it after 50 ms and leaves it 50 ms before the end, at 3050 ms.
+  // 200 RPM at 3200 pulses; the plan reaches it after 50 ms and leaves it 50 ms before the end, at 3050 ms.
   const SeenSignal& speed = signal_of(stretch, "feeder.A.speed");
   EXPECT_NEAR(speed.greatest, 32000 / 3.0, 0.001);
   for (const SeenSignal::Point& point : speed.points) {

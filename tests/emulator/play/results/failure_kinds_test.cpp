@@ -52,7 +52,7 @@ TEST(FailureKinds, CountAndKnowTheirFirst) {
   EXPECT_EQ(kinds.add(failed("x is 1", 7, "first"))->count, 1U);
   EXPECT_EQ(kinds.add(failed("x is 2", 7, "second"))->first, "first");
   EXPECT_EQ(kinds.add(failed("x is 2", 8, "third"))->count, 1U) << "another step";
-  EXPECT_EQ(kinds.add(failed("y is 2", 7, "fourth"))->count, 1U) << "other words";
+  EXPECT_EQ(kinds.add(failed("y is 2", 7, "fourth"))->count, 1U) << "a different text";
   ScenarioResult varied = failed("x is 3");
   varied.which.is_varied = true;
   EXPECT_EQ(kinds.add(varied)->count, 3U);

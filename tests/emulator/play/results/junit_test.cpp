@@ -14,8 +14,8 @@ namespace junit_test {
 
 using Verdict = ScenarioResult::Verdict;
 
-/// Every element a line, by its depth: tag, attributes in alphabetical order, text. Not well-formed: an
-/// error.
+/// Every element on a line, by its depth: tag, attributes in alphabetical order, text. An error if it is not
+/// well-formed.
 constexpr const char* kReader = R"(
 import sys, xml.etree.ElementTree as tree
 def show(element, depth):
@@ -103,7 +103,7 @@ TEST(Junit, WhatXmlCannotHoldIsReplaced) {
       {"\xED\xA0\x80", kReplaced + kReplaced + kReplaced},                  // half a surrogate pair
       {"\xEF\xBF\xBF", kReplaced + kReplaced + kReplaced},                  // U+FFFF
       {"\xF4\x90\x80\x80", kReplaced + kReplaced + kReplaced + kReplaced},  // beyond U+10FFFF
-      {"\xE9\x9B", kReplaced + kReplaced},                                  // cut
+      {"\xE9\x9B", kReplaced + kReplaced},                                  // truncated
       {"\xFF", kReplaced},
   };
   for (const Case& c : cases) EXPECT_EQ(xml_escaped(c.text), c.escaped) << testing::PrintToString(c.text);

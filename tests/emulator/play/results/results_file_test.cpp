@@ -66,7 +66,7 @@ class Rows : public testing::TestWithParam<std::string> {
     for (const ScenarioResult& result : results) rows.push_back(row_of(result, made_of, true));
     file.add(rows);
   }
-  /// Each row as Python has it: the values, in the order of the columns.
+  /// Each row as Python reads it: the values, in the order of the columns.
   std::string read_back() const {
     const std::string script = folder_ + "/read.py";
     std::ofstream(script) << (GetParam() == kSqliteEnding ? R"(
@@ -134,9 +134,9 @@ TEST_P(Rows, TellWhatWasPlayedBefore) {
   EXPECT_EQ(file->has_failed(key_of(1)), false);
   EXPECT_EQ(file->has_failed(key_of(2)), true);
   EXPECT_EQ(file->has_failed(key_of(3)), true) << "a branch of it has";
-  EXPECT_EQ(file->has_failed(key_of(4)), std::nullopt) << "it was not played";
+  EXPECT_EQ(file->has_failed(key_of(4)), std::nullopt) << "it did not run";
   EXPECT_EQ(file->has_failed(key_of(5)), std::nullopt);
-  EXPECT_EQ(file->has_failed(key_of(1, 78)), std::nullopt) << "made of something else";
+  EXPECT_EQ(file->has_failed(key_of(1, 78)), std::nullopt) << "made from something else";
   add(*file, {result_of(5)});
   file->finish();
   const std::string rows = read_back();
@@ -147,7 +147,7 @@ TEST_P(Rows, ANewRunBeginsAnew) {
   for (int run = 0; run < 2; ++run) {
     const auto file = open(false);
     if (run == 1) {
-      EXPECT_NE(read_back(), "") << "what was there stays until something is written";
+      EXPECT_NE(read_back(), "") << "the old contents stay until something is written";
     }
     file->begin();
     add(*file, {result_of(run)});

@@ -66,7 +66,7 @@ TEST(BenchNames, OfTheBenchSuit) {
 TEST(BenchNames, MisspeltOnesDoNotSuit) {
   for (const char* step : {
            "write: { feeder.Aaxis_Sped: 1 }",
-           "write: { Aaxis_Speed: 1 }",  // two devices: whose?
+           "write: { Aaxis_Speed: 1 }",  // two devices: whose is it?
            "write: { feder.Aaxis_Speed: 1 }",
            "expect: { feeder.Cord_C: 0 }",
            "expect: { feeder.STAUTS.4: 0 }",
@@ -88,7 +88,8 @@ TEST(BenchNames, MisspeltOnesDoNotSuit) {
   }
 }
 
-/// What the shipped scenarios name is in the schema of their bench: nothing that can be played is underlined.
+/// The names in the shipped scenarios are in the schema of their bench: an editor underlines nothing that can
+/// run.
 TEST(BenchNames, SuitEveryShippedScenario) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_FOLDER "/scenarios")) {

@@ -1,4 +1,4 @@
-// The schemas accept what the readers accept, and reject what they reject because of its form.
+// The schemas accept what the readers accept, and reject what the readers reject because of its form.
 #include "emulator/play/schema/json_schema.h"
 
 #include <gtest/gtest.h>
@@ -165,7 +165,7 @@ std::set<std::string> kinds_of_texts(const Model& model) {
   return kinds;
 }
 
-/// The kinds of named texts are those of the device's own table; what is not one of them is underlined.
+/// The kinds of named texts are those of the device's own table; anything else is underlined.
 TEST(JsonSchema, KnowsTheKindsOfTextsOfEachModel) {
   std::set<std::string> all{"filez"};
   for (const Model* const model : models::all_models()) all.merge(kinds_of_texts(*model));

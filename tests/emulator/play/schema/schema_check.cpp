@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// By YAML 1.2's core rules: quoted is text, plain is what it looks like.
+/// By YAML 1.2's core rules: a quoted value is text, a plain value is what it looks like.
 json scalar(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   if (node.Tag() == "!") return text;
@@ -166,7 +166,7 @@ class Judge {
 }  // namespace
 
 std::string schema_diagnostic(const std::string& schema, const std::string& yaml) {
-  static std::string parsed;  // many files are held against one schema
+  static std::string parsed;  // many files are checked against one schema
   static json root;
   if (parsed != schema) root = json::parse(schema), parsed = schema;
   return Judge(root).diagnostic(root, to_json(YAML::Load(yaml)), "file");

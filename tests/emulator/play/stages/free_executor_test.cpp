@@ -1,5 +1,5 @@
-// The host of a free executor, by the nanosecond. At 19200 8E1 a character is 11 bits, 572,916.67 ns; times
-// are rounded down from the first character on. A Simple2-R3 answers 750 us after a request's end.
+// The host of an executor in virtual time, to the nanosecond. At 19200 8E1 a character is 11 bits, 572,916.67
+// ns; times are rounded down from the first character on. A Simple2-R3 replies 750 us after a request's end.
 #include "emulator/play/stages/free_executor.h"
 #include "emulator/models/models.h"
 
@@ -22,8 +22,8 @@ constexpr const char* kAt115200 =
 
 SimTime ns(std::int64_t count) { return SimTime{count}; }
 
-/// A free executor and the traffic on its only line: when each request's and each reply's first character
-/// begins.
+/// An executor and the traffic on its only line: when the first character of each request and each reply
+/// starts.
 class HeardStage : public pty::LineObserver {
  public:
   explicit HeardStage(const std::string& bench, FreeExecutorOptions options = {})
@@ -130,7 +130,8 @@ TEST(FreeExecutor, AnExceptionIsTold) {
 
 TEST(FreeExecutor, WithoutAReplyItsTimeoutCountsFromTheRequestsEnd) {
   HeardStage heard(kAt19200, {.timeout = std::chrono::milliseconds(70)});
-  EXPECT_EQ(heard.executor.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);  // nobody is station 9
+  EXPECT_EQ(heard.executor.read(0, 9, Table::holding, 0x0001, 1).kind,
+            Kind::silence);  // there is no station 9
   EXPECT_EQ(heard.executor.now(), ns(4'583'333 + 70'000'000));
   HeardStage patient(kAt19200);
   EXPECT_EQ(patient.executor.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);
@@ -154,9 +155,9 @@ TEST(FreeExecutor, APowerCutGarblesAReplyButNotTheNextRequest) {
   });
   const HostReply reply = heard.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(reply.kind, Kind::garbled);
-  // The reply begins at 5,333,333; at 7 ms its third character is on its way, which is over at 7,052,083.
+  // The reply starts at 5,333,333; at 7 ms its third character is on the wire, which ends at 7,052,083.
   EXPECT_EQ(reply.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02}));
-  // A character and t3.5 later it is clear that the reply is over: + 572,916 + 2,005,209.
+  // A character and t3.5 later it is clear that the reply has ended: + 572,916 + 2,005,209.
   EXPECT_EQ(heard.executor.now(), ns(7'052'083 + 572'916 + 2'005'209));
   heard.executor.with_world([&](world::World& world) {
     world.remove_watcher(*cut);
@@ -171,7 +172,7 @@ TEST(FreeExecutor, ExchangeSendsWhatItIsGivenAndTakesWhatComes) {
   const std::vector<std::uint8_t> reply{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84};
   const SimTime within = std::chrono::milliseconds(100);
   EXPECT_EQ(heard.executor.exchange(0, request, reply.size(), within), reply);
-  // It looks for one more character.
+  // It waits for one more character.
   EXPECT_EQ(heard.executor.now(), ns(9'343'749 + 572'916 + 1));
   EXPECT_EQ(heard.executor.exchange(0, request, 3, within).size(),
             4U);  // the third, and one that follows at once
@@ -197,7 +198,7 @@ TEST(FreeExecutor, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
   HeardStage heard(kAt19200);
   FreeExecutor& executor = heard.executor;
   EXPECT_EQ(executor.tick_of_last_write(), 0);
-  executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // carried out at 5.333 ms
+  executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // executed at 5.333 ms
   EXPECT_EQ(executor.tick_of_last_write(), 6);
   executor.read(0, 1, Table::holding, 0x1002, 1);
   EXPECT_EQ(executor.tick_of_last_write(), 6);
@@ -206,7 +207,8 @@ TEST(FreeExecutor, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
   executor.advance(std::chrono::milliseconds(100) - executor.now());
   std::vector<std::uint8_t> broadcast =
       write_request(0, Table::holding, 0x1002, std::vector<std::uint16_t>{300});
-  executor.exchange(0, broadcast, SIZE_MAX, std::chrono::milliseconds(20));  // at 105.333 ms; nobody answers
+  executor.exchange(0, broadcast, SIZE_MAX,
+                    std::chrono::milliseconds(20));  // at 105.333 ms; there is no reply
   EXPECT_EQ(executor.tick_of_last_write(), 106);
   EXPECT_EQ(executor.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{300});
 }
@@ -274,7 +276,7 @@ TEST(FreeExecutor, LinesHaveHostsOfTheirOwn) {
   EXPECT_EQ(executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{11}).kind, Kind::good);
   const SimTime begin = executor.now();
   EXPECT_EQ(executor.write(1, 2, Table::holding, 0x1002, std::vector<std::uint16_t>{22}).kind, Kind::good);
-  EXPECT_EQ(executor.now(), begin + ns(763'888 + 750'000 + 763'888));  // nothing was on that line before
+  EXPECT_EQ(executor.now(), begin + ns(763'888 + 750'000 + 763'888));  // that line was silent before
   EXPECT_EQ(executor.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{11});
   EXPECT_EQ(executor.read(1, 2, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{22});
   EXPECT_EQ(executor.read(0, 2, Table::holding, 0x1002, 1).kind, Kind::silence);

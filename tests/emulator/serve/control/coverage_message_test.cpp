@@ -1,4 +1,4 @@
-// The lines of programs that have run, by the control socket.
+// The executed lines of programs, requested over the control socket.
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {

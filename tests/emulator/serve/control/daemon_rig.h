@@ -1,4 +1,4 @@
-// A daemon of two controllers whose clock stands, in a folder of its own.
+// A daemon of two controllers with a stopped clock, in its own folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace understudy::emulator::serve {
 
 using Json = nlohmann::json;
 
-/// A new folder below /tmp that goes with its owner.
+/// A new folder below /tmp that is removed with its owner.
 struct TestFolder {
   TestFolder() { EXPECT_NE(mkdtemp(path.data()), nullptr); }
   ~TestFolder() { std::filesystem::remove_all(path); }
@@ -28,7 +28,7 @@ struct TestFolder {
 };
 
 struct DaemonRig {
-  /// `more` stands at the end of the bench.
+  /// `more` is added at the end of the bench.
   explicit DaemonRig(Speed speed = {.kind = Speed::Kind::manual}, const std::string& more = "")
       : bench(world::parse_bench(models::all_models(),
                                  "understudy: 1\n"
@@ -50,7 +50,7 @@ struct DaemonRig {
     return made;
   }
 
-  /// The reply as it comes; empty if none has come yet.
+  /// Returns the reply as it arrives; empty if none has arrived yet.
   std::string reply_to(const std::string& message) {
     std::string reply;
     handle_message(daemon, message, [&](const std::string& line) {
@@ -67,7 +67,7 @@ struct DaemonRig {
     return ask(Json{{"do", "get"}, {"names", {name}}}.dump())["values"][name].get<std::int64_t>();
   }
 
-  /// Whether both devices are as they were made.
+  /// Returns whether both devices are in their initial state.
   bool is_untouched() {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto fresh = make_device(*bench.devices[i].model, bench.devices[i].settings);

@@ -1,4 +1,4 @@
-// Debugging over the control socket: what each message does in each state of the clock.
+// Debugging over the control socket: the effect of each message in each state of the clock.
 #include <future>
 
 #include "tests/emulator/serve/control/running_daemon.h"

@@ -1,5 +1,5 @@
-// Control messages that disturb: inputs in their units, power, programs, faults. What each does, and that a
-// bad one gets one line and changes nothing.
+// Control messages that disturb: inputs in their units, power, programs, faults. Tests the effect of each,
+// and that a bad one gets one line and changes nothing.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/serve/control/daemon_rig.h"
@@ -10,7 +10,7 @@ namespace disturbance_messages_test {
 const std::string kDone = R"({"ok":true})";
 constexpr Speed kManual{.kind = Speed::Kind::manual};
 
-/// Ticks of a world whose clock stands.
+/// Returns the ticks of a world with a stopped clock.
 void run(DaemonRig& rig, Tick ticks) {
   world::World& world = rig.daemon.world();
   world.advance_to(world.now() + time_of(ticks));
@@ -37,10 +37,10 @@ TEST(InputMessages, TakeWordsVoltagesAndSwitches) {
       kDone);
   run(rig, 1);
   EXPECT_EQ(rig.value("feeder.DIN_ALL"), 1 << 1 | 1 << 2);
-  EXPECT_EQ(rig.value("feeder.ADC_A"), 1000);  // 400 a volt
+  EXPECT_EQ(rig.value("feeder.ADC_A"), 1000);  // 400 per volt
   EXPECT_EQ(rig.value("turner.ADC_B"), 160);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["devices"][0]["pulse_format"], "CW/CCW")
-      << "a switch on the housing is looked at when the power comes";
+      << "a switch on the housing is read at power-up";
   EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["devices"][0]["pulse_format"], "PLS/DIR");
   EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":"off","feeder.AIN_A":"0mV"}})"), kDone);
@@ -67,15 +67,15 @@ TEST(PowerMessages, OffMakesADeviceUnreachableAndOnRestartsIt) {
             no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"program","device":"feeder"})"), no_power);
   EXPECT_EQ(error_of(rig, R"({"do":"program","device":"feeder","text":"NOP\n"})"), no_power);
-  EXPECT_EQ(rig.value("turner.Aaxis_Speed"), 7) << "the other one goes on";
+  EXPECT_EQ(rig.value("turner.Aaxis_Speed"), 7) << "the other one continues";
   const Json devices = rig.ask(R"({"do":"status"})")["status"]["devices"];
   EXPECT_EQ(devices[0]["power"], "off");
   EXPECT_EQ(devices[1]["power"], "on");
   run(rig, 2);
   EXPECT_EQ(rig.value("turner.DIN_10"), 0) << "its outputs are open";
 
-  EXPECT_EQ(rig.reply_to(power("feeder", "off")), kDone) << "a second time changes nothing";
-  EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":1}})"), kDone) << "whoever holds it";
+  EXPECT_EQ(rig.reply_to(power("feeder", "off")), kDone) << "the second time changes nothing";
+  EXPECT_EQ(rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":1}})"), kDone) << "whatever holds it";
   EXPECT_EQ(rig.reply_to(power("feeder", "on")), kDone);
   EXPECT_EQ(rig.value("feeder.Aaxis_Speed"), 0) << "not kept";
   run(rig, 1);
@@ -91,7 +91,7 @@ TEST(PowerMessages, CycleIsOffAndOn) {
   EXPECT_EQ(rig.value("feeder.Aaxis_Speed"), 0);
   EXPECT_EQ(rig.value("feeder.Aaxis_Resoultion"), 5000);
   rig.reply_to(power("feeder", "off"));
-  EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone) << "of one that is off: on";
+  EXPECT_EQ(rig.reply_to(power("feeder", "cycle")), kDone) << "a device that is off is switched on";
   EXPECT_EQ(rig.value("feeder.Aaxis_Resoultion"), 5000);
 }
 
@@ -108,7 +108,7 @@ TEST(ProgramMessages, LoadAListingAndPrintTheProgramThatIsThere) {
   EXPECT_EQ(reply["ok"], true);
   const std::string text = reply["text"];
   EXPECT_NE(text.find("Delay_mSec 1500"), std::string::npos) << text;
-  // What it prints it takes, and is the same program.
+  // It accepts its own output, which is the same program.
   EXPECT_EQ(rig.reply_to(Json{{"do", "program"}, {"device", "turner"}, {"text", text}}.dump()), kDone);
   EXPECT_EQ(rig.ask(R"({"do":"program","device":"turner"})")["text"], text);
 }
@@ -215,7 +215,7 @@ TEST(StatusMessage, TellsWhatADriveIsAt) {
   EXPECT_EQ(drive(), "alarm");
 }
 
-// --- what is refused -----------------------------------------------------------------------------
+// --- refusals ------------------------------------------------------------------------------------
 
 struct Bad {
   std::string message;

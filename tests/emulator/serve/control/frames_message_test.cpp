@@ -1,4 +1,4 @@
-// What goes over the lines, asked for over the control socket.
+// The traffic on the lines, requested over the control socket.
 #include "pty/rtu_crc.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
@@ -8,7 +8,7 @@ namespace frames_message_test {
 using Bytes = std::vector<std::uint8_t>;
 
 struct FramesRig : DaemonRig {
-  /// A host says this, and the line is silent afterwards.
+  /// A host sends this, and the line is silent afterwards.
   void say(Bytes bytes, bool with_checksum = true) {
     if (with_checksum) pty::append_rtu_crc(bytes);
     world::World& world = daemon.world();
@@ -16,7 +16,7 @@ struct FramesRig : DaemonRig {
     world.receive(0, bytes);
     world.advance_to(world.now() + std::chrono::milliseconds(100));
   }
-  /// "1 -> write ...", and the next number.
+  /// Returns "1 -> write ...", and the next number.
   std::vector<std::string> frames(const std::string& more = "") {
     const Json reply = ask(R"({"do":"frames")" + more + "}");
     std::vector<std::string> texts;

@@ -1,4 +1,4 @@
-// What observers ask for: what there is on a bench, how it is doing, what has happened.
+// Messages of observers: the contents of a bench, its state, and what has happened.
 #include "pty/rtu_crc.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
@@ -24,7 +24,7 @@ struct LookRig : DaemonRig {
     run(100);
   }
   void run(int ms) { daemon.world().advance_to(daemon.world().now() + std::chrono::milliseconds(ms)); }
-  /// "write feeder.Aaxis_SVON = 1 by host".
+  /// Returns "write feeder.Aaxis_SVON = 1 by host".
   std::vector<std::string> events(int since = 1) {
     std::vector<std::string> texts;
     const Json reply = ask(Json{{"do", "events"}, {"since", since}}.dump());
@@ -45,7 +45,7 @@ struct LookRig : DaemonRig {
 
 using Texts = std::vector<std::string>;
 
-/// A device whose names are there only while it has power.
+/// A device whose names exist only while it has power.
 struct OneSlim {
   OneSlim()
       : bench(world::parse_bench(
@@ -242,7 +242,7 @@ TEST(FaultsMessage, TellsWordsThatInjectTakes) {
       }
     }
   }
-  EXPECT_GE(words, 2 + 3 * 7);  // on and off; the sides of all that act on messages
+  EXPECT_GE(words, 2 + 3 * 7);  // on and off; the direction of all that act on messages
 }
 
 TEST(EventsMessage, TellsWhoWroteWhat) {
@@ -265,7 +265,7 @@ TEST(EventsMessage, TellsRefusedAndDroppedFramesAndFaults) {
   LookRig rig;
   rig.say({1, 6, 0xFF, 0xFF, 0, 1});               // no such register
   rig.say({1, 3, 0, 0, 0, 1, 0xBA, 0xD0}, false);  // a bad checksum
-  rig.say({1, 3, 0, 1, 0, 1});                     // reads are no events
+  rig.say({1, 3, 0, 1, 0, 1});                     // reads are not events
   rig.ask(R"({"do":"inject","fault":{"stall":"feeder.A"}})");
   rig.ask(R"({"do":"clear","number":1})");
   const Texts events = rig.events();
@@ -283,7 +283,7 @@ TEST(EventsMessage, KeepsABoundedNumberInTheirOrder) {
     rig.ask(Json{{"do", "set"}, {"values", {{"feeder.Aaxis_Speed", 1 + i % 100}}}}.dump());
   const Json reply = rig.ask(R"({"do":"events","since":1})");
   EXPECT_EQ(reply["events"].size(), 200U);
-  EXPECT_EQ(reply["events"][0]["number"], 1);  // only those that wait to be numbered are bounded before that
+  EXPECT_EQ(reply["events"][0]["number"], 1);  // before that, only those that wait for a number are bounded
   int number = 1;
   Json next = reply;
   while (!next["events"].empty()) {
@@ -333,7 +333,7 @@ TEST(LookMessage, KeepsNamesForTheirNumber) {
     EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", wrong}}.dump())["ok"], false) << wrong;
   }
   EXPECT_EQ(rig.ask(Json{{"do", "look"}, {"look", number}, {"names", {"time"}}}.dump())["ok"], false);
-  // Where there are too many, those go that nobody has looked at for longest.
+  // If there are too many, the ones that were not looked at for longest are removed.
   for (int i = 0; i < 70; ++i) {
     rig.ask(Json{{"do", "look"}, {"names", {"n" + std::to_string(i)}}}.dump());
     if (i < 60) {
@@ -363,7 +363,7 @@ TEST(LookMessage, KeepsABoundedNumberOfNames) {
 }
 
 TEST(LookMessage, FindsNamesThatComeLater) {
-  // Many that never come, and one that comes with the power.
+  // Many that never exist, and one that exists when the power is on.
   OneSlim slim;
   Json names = Json::array();
   for (int i = 0; i < 100; ++i) names.push_back("none" + std::to_string(i));
@@ -383,7 +383,7 @@ TEST(StepMessage, EndsAtTheEndOfTicks) {
   LookRig rig;
   rig.daemon.world().advance_to(std::chrono::microseconds(500));
   EXPECT_EQ(rig.ask(R"({"do":"step","ticks":0})")["ok"], false);
-  EXPECT_EQ(rig.reply_to(R"({"do":"step","ticks":3})"), "");  // when it is there
+  EXPECT_EQ(rig.reply_to(R"({"do":"step","ticks":3})"), "");  // when it exists
   EXPECT_EQ(rig.ask(R"({"do":"step"})")["ok"], false);
 }
 

@@ -1,4 +1,4 @@
-// Control messages: what each does, and that a bad one gets one line and changes nothing.
+// Control messages: the effect of each, and that a bad one gets one line and changes nothing.
 #include "emulator/serve/control/messages.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST(ControlMessages, PauseAndResumeTellTheSimulatedTime) {
   EXPECT_EQ(paused["ok"], true);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], true);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["simulated_time_ns"], paused["simulated_time_ns"]);
-  EXPECT_EQ(rig.ask(R"({"do":"pause"})"), paused) << "a second time changes nothing";
+  EXPECT_EQ(rig.ask(R"({"do":"pause"})"), paused) << "the second time changes nothing";
   EXPECT_EQ(rig.ask(R"({"do":"resume"})"), paused);
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], false);
 }
@@ -95,7 +95,7 @@ TEST(ControlMessages, TimeThatRunsByItselfCannotBeAdvanced) {
   const Json refused = rig.ask(R"({"do":"advance","by":"1ms"})");
   EXPECT_EQ(refused["ok"], false);
   rig.reply_to(R"({"do":"pause"})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"advance","by":"1ms"})"), "") << "under way: its reply comes later";
+  EXPECT_EQ(rig.reply_to(R"({"do":"advance","by":"1ms"})"), "") << "in progress: its reply comes later";
   EXPECT_EQ(rig.ask(R"({"do":"advance","by":"1ms"})"), refused) << "one at a time";
 }
 
@@ -273,7 +273,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {set(R"({"feeder.Aaxis_Sped":1})"),
        "feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},
       {set(R"({"turner.NEW_PWD":1})"), "turner: register 'NEW_PWD' exists from firmware 1.51 on"},
-      // Good ones beside them change nothing either.
+      // Valid ones next to them change nothing either.
       {set(R"({"feeder.Aaxis_Speed":1,"turner.Aaxis_Speed":2,"feeder.Aaxis_AccTime":3001})"),
        "feeder.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
       {set(R"({"feeder.Aaxis_SVON":1,"feeder.HW_Code":1})"), "feeder.HW_Code cannot be written"},
@@ -317,7 +317,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
 }
 
 TEST(ControlMessages, ASetIsNeverDoneByHalf) {
-  // Each of these alone would do; after the other it would not: 2048 + 1024 is beyond 3000.
+  // Each of these alone would be accepted; after the other it is not: 2048 + 1024 exceeds 3000.
   for (const std::string values :
        {R"({"feeder.Aaxis_AccTime.11":1,"feeder.Aaxis_AccTime.10":1})",
         R"({"feeder.Aaxis_AccTime":2048,"feeder.Aaxis_AccTime.10":1})",
@@ -330,7 +330,7 @@ TEST(ControlMessages, ASetIsNeverDoneByHalf) {
 }
 
 TEST(ControlMessages, ASetThatSaysOkHasWrittenEveryValue) {
-  // The reset makes Axis_SyncRPM 3000, where bit 6 more is beyond the range; before it, it was not.
+  // The reset sets Axis_SyncRPM to 3000, where bit 6 would exceed the range; before it, it would not.
   DaemonRig rig;
   ASSERT_EQ(rig.ask(R"({"do":"set","values":{"feeder.Axis_SyncRPM":1}})")["ok"], true);
   const Json reply = rig.ask(R"({"do":"set","values":{"feeder.Factory_Reset":1,"feeder.Axis_SyncRPM.6":1}})");
@@ -356,14 +356,14 @@ TEST(ControlMessages, WhateverGoesWrongIsAReply) {
   std::vector<std::string> replies;
   handle_message(rig.daemon, R"({"do":"status"})", [&](const std::string& line) {
     replies.push_back(line);
-    // As the library throws it where there is no memory for a text, say.
+    // As the library throws it, for example when there is no memory for a text.
     if (replies.size() == 1) throw std::length_error("too long");
   });
   ASSERT_EQ(replies.size(), 2u);
   EXPECT_EQ(replies[1], R"({"ok":false,"error":"too long"})");
 }
 
-/// Programs are written by that page.
+/// Programs are written in this encoding.
 TEST(ControlMessages, EachHasItsHeadingOnThePage) {
   std::ostringstream page;
   page << std::ifstream(PROJECT_FOLDER "/docs/control.md").rdbuf();

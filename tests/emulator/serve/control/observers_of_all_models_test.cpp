@@ -1,12 +1,12 @@
-// What observers are told of every model alike: where a move will end, how programs are started and stopped,
-// what the memory has been given.
+// Information that observers get about every model alike: where a move will end, how programs are started and
+// stopped, what the memory contains.
 #include "emulator/device/program_language.h"
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
 namespace observers_of_all_models_test {
 
-/// One device, called d, whose clock stands.
+/// One device, called d, with a stopped clock.
 struct OneDevice {
   explicit OneDevice(const std::string& model, const std::string& settings = "")
       : bench(world::parse_bench(
@@ -93,7 +93,7 @@ const std::vector<MoveCase>& moves() {
   return all;
 }
 
-/// A path of a SUPER-40NC is of axes that its program C has.
+/// A path of a SUPER-40NC consists of axes that its program C owns.
 std::string settings_of(const MoveCase& move) {
   if (move.model == std::string_view("slim")) return ", modules: 2";
   const bool is_path = move.model == std::string_view("super-40nc") && move.axes.size() > 1;
@@ -138,8 +138,8 @@ TEST(AxisTarget, OfASpeedAndOfAStopIsWhereItIs) {
   EXPECT_EQ(bench.value("d.A.target"), bench.value("d.A.pulses"));
 }
 
-// --- an encoder that is not there
-// ----------------------------------------------------------------------------
+// --- a missing encoder
+// ---------------------------------------------------------------------------------------
 
 TEST(AxisEncoder, ThatIsNotThereCountsNothing) {
   for (const Model* model : models::all_models()) {
@@ -151,13 +151,13 @@ TEST(AxisEncoder, ThatIsNotThereCountsNothing) {
   }
 }
 
-// --- programs are started and stopped
-// --------------------------------------------------------------------------
+// --- starting and stopping programs
+// ----------------------------------------------------------------------------
 
 struct ControlCase {
   const char* model;
-  const char* program;  // waits for long
-  std::size_t start;    // which of the language's controls
+  const char* program;  // waits for a long time
+  std::size_t start;    // which of the language's controls it is
   int number;
   std::size_t stop;
 };
@@ -218,17 +218,17 @@ TEST(LineByHand, IsObeyedWithoutAWordOnTheLine) {
   EXPECT_EQ(refusal_of("VM=321"), "");
   EXPECT_EQ(bench.value("d.VM"), 321);
   EXPECT_EQ(refusal_of("G"), "");
-  EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it runs already";
+  EXPECT_EQ(refusal_of("G"), "d refuses it: it is busy (reason 3)") << "it is already running";
   EXPECT_EQ(refusal_of("nonsense"), "d refuses it: the command is not accepted (reason 1)");
   bench.run(20);
-  EXPECT_EQ(frames(), before) << "its answers are nobody's";
-  // A number is the program's.
+  EXPECT_EQ(frames(), before) << "nobody receives its replies";
+  // The number of the program.
   bench.ask({{"do", "input"}, {"values", {{"d.IN3", 1}}}});
   bench.run(20);
   EXPECT_EQ(refusal_of("VM=322"), "d refuses it: it is busy");
   EXPECT_EQ(refusal_of("EXIT"), "");
   EXPECT_EQ(refusal_of("VM=322"), "");
-  // What a host is typing into the editor is its own.
+  // Text that a host is typing into the editor belongs to the host.
   bench.act("text PA");
   bench.run(100);
   EXPECT_EQ(refusal_of("VM=323"), "d refuses it: it is busy");
@@ -246,8 +246,8 @@ TEST(ProgramControls, AreThereForEveryLanguage) {
   }
 }
 
-// --- what the memory has been given
-// ----------------------------------------------------------------------------
+// --- the contents of the memory
+// --------------------------------------------------------------------------------
 
 TEST(KeptWrites, AreCountedWhenTheyAreDone) {
   OneDevice bench("simple2-r3");
@@ -255,7 +255,7 @@ TEST(KeptWrites, AreCountedWhenTheyAreDone) {
     return bench.ask({{"do", "status"}})["status"]["devices"][0]["kept_writes"].get<int>();
   };
   const int before = writes();
-  bench.act("set Aaxis_Speed=77");  // is not kept
+  bench.act("set Aaxis_Speed=77");  // is not persistent
   EXPECT_EQ(writes(), before);
   bench.act("set Aaxis_Home_Speed=77");
   bench.run(2'000);

@@ -1,4 +1,4 @@
-// A daemon that runs, spoken to through its socket.
+// A running daemon, used through its socket.
 #pragma once
 
 #include <signal.h>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::serve {
 
-/// The daemon's loop in a thread of its own, until the end of the test.
+/// The daemon's loop in a separate thread, until the end of the test.
 struct Running {
   explicit Running(Speed speed = {.kind = Speed::Kind::manual})
       : rig(speed), thread([this] { rig.daemon.run(); }) {}

@@ -1,4 +1,4 @@
-// A daemon that runs, spoken to through its socket: time moves only when it is told to.
+// A running daemon, used through its socket: time only advances on request.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -65,7 +65,7 @@ TEST(RunningDaemon, SaysTheSameInPiecesAsAtOnce) {
 
 TEST(RunningDaemon, ServesOthersBetweenThePiecesOfAReply) {
   Running daemon(Speed{});
-  // Whoever asks for much, again and again, and goes away before the end.
+  // A client that requests much, again and again, and disconnects before the end.
   std::atomic<bool> is_over = false;
   std::vector<std::thread> greedy;
   for (int i = 0; i < 4; ++i) {
@@ -115,8 +115,8 @@ TEST(RunningDaemon, AWireCarriesAnOutputToAnInputOneTickLater) {
 
 TEST(RunningDaemon, AnAdvanceIsNoStallAndCannotBeResumedAway) {
   Running daemon;
-  // So slow, and with a condition to look at, that every tick of two hours has to be stepped: some tenths of
-  // a second of work.
+  // So slow, and with a condition to check, that every tick of two hours has to be stepped: some tenths of a
+  // second of work.
   daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":2000000000,)"
              R"("feeder.Aaxis_Speed":1,"feeder.Aaxis_Move_INC":1}})");
   const std::string never =
@@ -178,15 +178,15 @@ TEST(RunUntil, StopsAtTheEndOfTheFirstTickAtWhichItIsTrue) {
   const auto reached = [](std::int64_t ms) {
     return Json{{"ok", true}, {"reached", true}, {"simulated_time_ns", ms * 1'000'000}};
   };
-  // Full speed is 10.667 pulses a tick; the ramp's 10 ms bring half of 10 ticks: 53.3, and 95 whole ticks
-  // 1013.3.
+  // Full speed is 10.667 pulses per tick; the ramp's 10 ms contribute half of 10 ticks: 53.3, and 95 whole
+  // ticks 1013.3.
   EXPECT_EQ(until("feeder.A.pulses >= 1066"), reached(41 + 105));
   EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310));
   EXPECT_EQ(daemon.get("feeder.Cord_A"), 3200);
-  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310)) << "true already";
+  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310)) << "already true";
   EXPECT_EQ(until("feeder.STATUS.4 == 1", "1500us"),
             (Json{{"ok", true}, {"reached", false}, {"simulated_time_ns", 352'500'000}}));
-  EXPECT_EQ(until("time >= 400ms"), reached(400)) << "quiet ticks are looked at as well";
+  EXPECT_EQ(until("time >= 400ms"), reached(400)) << "quiet ticks are checked as well";
 }
 
 TEST(RunUntil, RefusesWhatIsNoConditionAndMovesNothing) {
@@ -227,7 +227,7 @@ TEST(RunUntil, EndsWhereItIsWhenTimeIsPaused) {
   Json reply;
   std::thread waits(
       [&] { reply = daemon.ask(R"({"do":"run-until","condition":"feeder.Cord_A > 0","within":"8760h"})"); });
-  // Nothing ever moves; it goes on tick by tick until somebody says stop.
+  // Nothing ever moves; it continues tick by tick until it is told to stop.
   while (daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"] == 0) usleep(1000);
   const Json paused = daemon.ask(R"({"do":"pause"})");
   waits.join();
@@ -251,7 +251,8 @@ TEST(RunningDaemon, ASnapshotIsReadAsideAndMadeThePresent) {
   EXPECT_EQ(daemon.get("time"), 5'000'000);
 }
 
-// No reply before it is written, and none of it on the daemon's own thread, which has gone on by then.
+// There is no reply before it is written, and none of it is written on the daemon's own thread, which has
+// continued by then.
 TEST(SnapshotMessage, IsOfItsMomentAndWrittenAside) {
   DaemonRig rig;
   const std::string file = rig.folder.path + "/state.json";

@@ -1,4 +1,4 @@
-// The control socket: who may open it, what it replaces, and how it treats clients of every kind.
+// The control socket: who can open it, what it replaces, and how it treats clients of every kind.
 #include "emulator/serve/control/server.h"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ struct Client {
     const ssize_t count = send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     return count < 0 ? 0 : static_cast<std::size_t>(count);
   }
-  /// What has come so far; sets `is_over` if the server has hung up.
+  /// Returns what has arrived so far; sets `is_over` if the server has hung up.
   std::string hear() {
     std::string heard;
     char bytes[4096];
@@ -67,7 +67,7 @@ struct ServerRig {
                                                replies.push_back(std::move(reply));
                                              });
   }
-  /// Lets the server do all it has to do. A look does less if the machine is busy, because its time is
+  /// Lets the server do all its pending work. One call does less if the machine is busy, because its time is
   /// limited.
   void settle() {
     for (int look = 0; look < 1000; ++look) loop.wait(wall_now());
@@ -97,7 +97,7 @@ TEST(ControlServer, OnlyItsOwnerMayOpenTheSocketWhateverTheUmask) {
     const mode_t before = umask(mask);
     rig.serve(rig.path);
     const mode_t after = umask(before);
-    EXPECT_EQ(after, mask) << "the umask is as it was";
+    EXPECT_EQ(after, mask) << "the umask is unchanged";
     struct stat status {};
     ASSERT_EQ(lstat(rig.path.c_str(), &status), 0);
     EXPECT_TRUE(S_ISSOCK(status.st_mode));
@@ -236,7 +236,7 @@ TEST(ControlServer, MessagesOfOneClientAreAnsweredInTheirOrder) {
   Client client(rig.path);
   client.say("advance\nget\n");
   rig.settle();
-  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next one waits";
+  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next client waits";
   rig.answers = true;
   rig.replies.at(0)("there");
   rig.settle();
@@ -250,7 +250,7 @@ TEST(ControlServer, ManyMessagesMayWaitBehindOneAndEachIsAnswered) {
   Client client(rig.path);
   client.say("advance\n");
   rig.settle();
-  std::string waiting;  // more than one message may be long
+  std::string waiting;  // more than the maximum length of a message
   for (int i = 0; i < 10'000; ++i) waiting += "get number " + std::to_string(i) + "\n";
   std::size_t said = 0;
   std::string heard;
@@ -375,11 +375,11 @@ TEST(ControlServer, ClientsTakeTurnsHoweverMuchOneHasToSay) {
   other.say("a word\n");
   rig.settle();
   const auto turn = std::find(rig.heard.begin(), rig.heard.end(), "a word") - rig.heard.begin();
-  EXPECT_LE(turn, 3) << "behind one message of the other's, not behind all";
+  EXPECT_LE(turn, 3) << "after one message of the other client, not after all";
   while (rig.heard.size() < 201) rig.loop.wait(wall_now() + std::chrono::seconds(5));
 }
 
-/// No more descriptors than there are now while this lives.
+/// While this object exists, no more descriptors are available than now.
 struct NoMoreDescriptors {
   NoMoreDescriptors() {
     getrlimit(RLIMIT_NOFILE, &before);
@@ -406,7 +406,7 @@ TEST(ControlServer, WithoutDescriptorsItRestsUntilAClientHasGone) {
   {
     const NoMoreDescriptors none;
     rig.settle();
-    // Nobody is told again and again that somebody waits.
+    // Nobody is notified repeatedly that a client waits.
     const WallTime before = wall_now();
     rig.loop.wait(before + std::chrono::milliseconds(100));
     EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100));

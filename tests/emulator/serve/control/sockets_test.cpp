@@ -12,7 +12,7 @@
 namespace understudy::emulator::serve {
 namespace sockets_test {
 
-/// XDG_RUNTIME_DIR is a folder of the test's own while this lives.
+/// While this object exists, XDG_RUNTIME_DIR is the test's own folder.
 struct RuntimeFolder {
   RuntimeFolder() {
     const char* const before = std::getenv("XDG_RUNTIME_DIR");
@@ -59,7 +59,7 @@ TEST(ControlSockets, EachDaemonOfAProcessHasItsOwn) {
 TEST(ControlSockets, WhatTheDeadHaveLeftIsRemovedAndNothingElse) {
   const RuntimeFolder runtime;
   control_folder();
-  // A process that ends without taking its socket away.
+  // A process that ends without removing its socket.
   const pid_t dead = fork();
   if (dead == 0) {
     EventLoop loop;

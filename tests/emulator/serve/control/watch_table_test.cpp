@@ -1,4 +1,4 @@
-// What `ctl watch` shows.
+// The output of `ctl watch`.
 #include "emulator/serve/control/watch_table.h"
 #include "emulator/serve/control/server.h"
 
@@ -13,7 +13,7 @@ TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   rig.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":3200,"feeder.Aaxis_Speed":200,)"
           R"("feeder.Aaxis_Move_INC":1,"feeder.DOUT_4":1}})");
   rig.ask(R"({"do":"input","values":{"turner.DIN_7":1,"turner.AIN_B":"2.5V"}})");
-  // 10 ms of acceleration to 10666.7 pulses a second from 1 ms on: 53.3 pulses; 50 ms at that speed: 533.3.
+  // 10 ms of acceleration to 10666.7 pulses per second from 1 ms on: 53.3 pulses; 50 ms at that speed: 533.3.
   rig.daemon.world().advance_to(std::chrono::milliseconds(61));
   const std::string status = rig.reply_to(R"({"do":"status"})");
   const auto lines = watch_table(status, "", 0);
@@ -36,7 +36,7 @@ TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   EXPECT_EQ(
       std::vector<std::string>(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(expected.size())),
       expected);
-  // The wire brought DOUT_4 to it.
+  // The wire carried DOUT_4 to it.
   EXPECT_EQ(lines.at(lines.size() - 2), "  inputs     DIN_7  DIN_10  AIN_B 2500 mV");
   EXPECT_EQ(lines.back(), "  outputs    -");
 }
@@ -154,7 +154,7 @@ TEST(ScrolledView, MovesByTheUsualKeys) {
     EXPECT_EQ(shown(keys), first) << keys;
   }
   EXPECT_TRUE(view.press("jq"));
-  // A larger window, or fewer lines: nothing is left out that has room.
+  // With a larger window, or fewer lines, nothing is omitted that fits.
   view.press("G");
   lines.resize(6);
   EXPECT_EQ(view.fit(lines, 5, 80).front(), "3");

@@ -1,4 +1,4 @@
-// Where programs are: of every model that runs some.
+// The present lines of programs, for every model that runs some.
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
@@ -7,10 +7,10 @@ namespace where_message_test {
 struct ProgramCase {
   const char* model;
   const char* program;
-  const char* name;   // of the program that waits; empty where there is one
+  const char* name;   // of the waiting program; empty if there is none
   const char* start;  // a register that starts it
   int value;
-  int line;  // of the text that the device gives back
+  int line;  // in the text that the device returns
   const char* text;
   bool waits_for_time;
 };
@@ -62,7 +62,7 @@ TEST(WhereMessage, TellsTheLineOfEveryModelsPrograms) {
     EXPECT_NE(found.value("waits_for", ""), "") << found;
     EXPECT_EQ(found.contains("until_ns"), one.waits_for_time) << found;
     if (!one.waits_for_time) continue;
-    // It is over when it says.
+    // It ends when it says so.
     const SimTime until{found["until_ns"].get<std::int64_t>()};
     EXPECT_GT(until, SimTime{std::chrono::milliseconds(450)});
     EXPECT_LT(until, SimTime{std::chrono::milliseconds(600)});

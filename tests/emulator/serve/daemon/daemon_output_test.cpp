@@ -1,4 +1,4 @@
-// What a world says while time goes by faster than hosts read.
+// The output of a world whose time passes faster than hosts read.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace understudy::emulator::serve {
 namespace daemon_output_test {
 
-/// A daemon of a SLIM that runs in a thread of its own until stop(), and a host at its line.
+/// A daemon of a SLIM that runs in a separate thread until stop(), and a host at its line.
 struct Rig {
   explicit Rig(Speed speed)
       : bench(world::parse_bench(models::all_models(),
@@ -41,7 +41,7 @@ struct Rig {
   void advance(const std::string& by) {
     EXPECT_EQ(ask(R"({"do":"advance","by":")" + by + "\"}")["ok"], true);
   }
-  /// It has come when this returns, to the line at least, which takes as much at once.
+  /// It has arrived when this returns, at the line at least, which accepts that much at once.
   void type(const std::string& text) {
     host.write({text.begin(), text.end()});
     while (ask(R"({"do":"status"})")["status"]["lines"][0]["bytes_in"] < text.size()) {
@@ -60,21 +60,21 @@ constexpr int kLines = 53;
 
 std::string text_of_line(int number) { return "LINE " + std::to_string(number); }
 
-/// Says its lines over and over.
+/// Sends its lines over and over.
 std::string program() {
   std::string text = "PG\r";
   for (int number = 0; number < kLines; ++number) text += "OUT \"" + text_of_line(number) + "\"\r";
   return text + "JP 0\r\rG\r";
 }
 
-/// What it says, as far as that.
+/// The expected text, up to that length.
 std::string said(std::size_t bytes) {
   std::string text;
   for (int number = 0; text.size() < bytes; ++number) text += text_of_line(number % kLines) + "\r\n";
   return text.substr(0, bytes);
 }
 
-/// The first difference is told, not all of both.
+/// Reports the first difference, not all of both texts.
 void expect_said(const pty::Bytes& heard, std::size_t bytes) {
   const std::string text(heard.begin(), heard.end());
   const std::string expected = said(bytes);
@@ -87,7 +87,7 @@ void expect_said(const pty::Bytes& heard, std::size_t bytes) {
 TEST(DaemonOutput, OfALongAdvanceComesWhole) {
   Rig rig({.kind = Speed::Kind::manual});
   rig.type(program());
-  // 9600 8N1: 960 characters a second, each way, and the program has 750.
+  // 9600 8N1: 960 characters per second in each direction, of which the program has 750.
   std::thread advancing([&] { rig.advance("65s"); });
   const pty::Bytes heard = rig.host.read(60'000);
   advancing.join();
@@ -97,7 +97,7 @@ TEST(DaemonOutput, OfALongAdvanceComesWhole) {
 TEST(DaemonOutput, IsKeptByTheKernelForAHostThatReadsLater) {
   Rig rig({.kind = Speed::Kind::manual});
   rig.type(program());
-  rig.advance("100s");  // such a host is not waited for
+  rig.advance("100s");  // the daemon does not wait for such a host
   expect_said(rig.host.read(12'000), 12'000);
 }
 

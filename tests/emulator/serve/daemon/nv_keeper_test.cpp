@@ -25,7 +25,7 @@ std::string image_text(const std::vector<std::pair<std::string, std::int64_t>>& 
   return to_json({.model = model, .firmware = "1.52", .registers = registers});
 }
 
-/// feeder and turner, with what is said about them.
+/// feeder and turner, with the given settings.
 world::Bench bench_of(const TestFolder& folder, const std::string& feeder = "",
                       const std::string& turner = "") {
   return world::parse_bench(models::all_models(),
@@ -72,7 +72,7 @@ TEST(ReadMemories, GivesEachDeviceAFileNamedAfterItInANewFolder) {
   EXPECT_TRUE(fs::is_directory(nv));
   EXPECT_EQ(bench.devices[0].nv_path, nv + "/feeder.json");
   EXPECT_EQ(bench.devices[1].nv_path, nv + "/turner.json");
-  EXPECT_FALSE(bench.devices[0].settings.nv) << "there is none yet";
+  EXPECT_FALSE(bench.devices[0].settings.nv) << "it does not exist yet";
   EXPECT_TRUE(fs::is_empty(nv)) << "reading writes nothing";
 }
 
@@ -106,7 +106,7 @@ TEST(ReadMemories, RefusesOneFileForTwoDevicesHoweverItIsSpelled) {
     EXPECT_EQ(found.find('\n'), std::string::npos);
   }
   EXPECT_EQ(diagnostic(bench_of(folder, "", ", nv: nv/other.json"), folder.path + "/nv"), "");
-  // Both named by the bench: once relative to it, once from the root.
+  // The bench names both: one path is relative to it, one is absolute.
   const std::string both =
       diagnostic(bench_of(folder, ", nv: nv/one.json", ", nv: " + folder.path + "/also/one.json"), "");
   EXPECT_NE(both.find("is the memory of 'feeder' and of 'turner'"), std::string::npos) << both;
@@ -151,7 +151,7 @@ TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
   try {
     world::Bench bench = bench_of(folder);
     read_memories(bench, folder.path);
-    ADD_FAILURE() << "they are taken";
+    ADD_FAILURE() << "they are in use";
   } catch (const FileError& error) {
     ASSERT_EQ(error.diagnostics().size(), 4u) << error.what();
     const std::string begins[] = {
@@ -162,7 +162,7 @@ TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
     }
     EXPECT_EQ(error.diagnostics()[3].place.line, 2);
   }
-  // There may be a hundred wrong values: no more is told than of a bench.
+  // There may be a hundred wrong values: no more are reported than for a bench.
   NvImage wild{.model = "simple2-r3", .firmware = "1.52"};
   for (int i = 0; i < 100; ++i) wild.registers.emplace_back("N" + std::to_string(i), 1);
   put(feeder, to_json(wild));
@@ -222,7 +222,7 @@ struct KeptBench {
     }
     return 0;
   }
-  /// Looks as a loop would, from `from` on, until it wants nothing more; how often that was.
+  /// Polls as a loop would, from `from` on, until it wants nothing more; returns how often that was.
   int look_until_quiet(WallTime from) {
     int looks = 0;
     EXPECT_TRUE(eventually([&] {
@@ -252,7 +252,7 @@ TEST(NvKeeper, WritesWhatIsNotThereYetAtOnce) {
 
 TEST(NvKeeper, LeavesAFileAloneThatSaysTheSame) {
   KeptBench kept;
-  // In another order and layout, of another firmware: nothing of that is a reason to touch it.
+  // In another order and layout, or from another firmware: none of that is a reason to change the file.
   const std::string text =
       R"({"registers": {"Parms_Speed1": 5, "PROG_MEM1": -1}, "firmware": "1.40", "model": "simple2-r3",)"
       R"( "kind": "nv-image", "understudy": 1})";
@@ -269,10 +269,10 @@ TEST(NvKeeper, FollowsWhatTheEepromHasKeptNotWhatWaits) {
   KeptBench kept;
   kept.start();
   kept.look_until_quiet(1s);
-  kept.write("feeder.Parms_Speed1", 77);  // kept in tick 6
+  kept.write("feeder.Parms_Speed1", 77);  // stored in tick 6
   kept.run(5);
   kept.keeper->poll(10s);
-  EXPECT_EQ(kept.keeper->next_poll(), std::nullopt) << "nothing has been kept";
+  EXPECT_EQ(kept.keeper->next_poll(), std::nullopt) << "nothing has been stored";
   kept.run(1);
   kept.keeper->poll(11s);
   kept.look_until_quiet(11s);
@@ -286,7 +286,7 @@ TEST(NvKeeper, HandsOverOnceInATenthOfASecondAndTheLatest) {
   kept.look_until_quiet(1s);
   kept.write("feeder.PROG_MEM0", 1);
   kept.run(20);
-  kept.keeper->poll(10s);  // handed over at once
+  kept.keeper->poll(10s);  // passed on at once
   for (int i = 2; i <= 30; ++i) {
     kept.write("feeder.PROG_MEM0", i);
     kept.run(20);
@@ -314,7 +314,7 @@ TEST(NvKeeper, KeepsOnlyWhatTheEepromHadStoredBeforeAPowerCut) {
   kept.start();
   kept.write("feeder.PROG_MEM0", 1);
   kept.write("feeder.PROG_MEM1", 2);
-  kept.run(11);  // MEM0 is kept in tick 11, MEM1 would be in 21
+  kept.run(11);  // MEM0 is stored in tick 11, MEM1 would be in 21
   kept.world->switch_power(0, false);
   kept.run(100);
   kept.keeper.reset();
@@ -326,14 +326,14 @@ TEST(NvKeeper, ReportsAnUnwritableFileEvenInAQuietWorld) {
   KeptBench kept;
   kept.bench.devices[0].nv_path = kept.folder.path + "/gone/feeder.json";
   kept.start();
-  // The world has nothing due; what wakes its owner is the keeper alone.
-  ASSERT_TRUE(kept.keeper->next_poll()) << "it wants to hear what became of it";
+  // The world has nothing due; only the keeper wakes its owner.
+  ASSERT_TRUE(kept.keeper->next_poll()) << "it waits for the result";
   kept.look_until_quiet(1s);
   ASSERT_EQ(kept.log.size(), 1u);
   EXPECT_EQ(kept.log[0], kept.folder.path +
                              "/gone/feeder.json: cannot be written (No such file or directory); the file "
                              "keeps its previous contents");
-  // Once it can be written, that is told, and the file has everything.
+  // Once it can be written, this is reported, and the file has everything.
   fs::create_directory(kept.folder.path + "/gone");
   kept.write("feeder.PROG_MEM0", 9);
   kept.run(20);

@@ -1,4 +1,4 @@
-// What the bench knows about the threads of a host in simulated time.
+// The bench's knowledge of the threads of a host in simulated time.
 #include "emulator/serve/host_time/host_waits.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ void bring(HostWaits& waits, HostState state) {
   if (state != HostState::running) waits.heard(1, message);
 }
 
-/// Lets an event happen by the member that stands for it. Returns false if a thread in that state cannot have
+/// Causes an event through the member that stands for it. Returns false if a thread in that state cannot have
 /// it.
 bool happen(HostWaits& waits, HostEvent event) {
   Message message{};
@@ -88,7 +88,8 @@ bool happen(HostWaits& waits, HostEvent event) {
 TEST(HostSteps, HoldInEveryCell) {
   for (std::size_t state = 0; state < kHostStates; ++state) {
     for (std::size_t event = 0; event < kHostEvents; ++event) {
-      // A process is known by the greeting of its threads, so that a stranger's end is not told.
+      // A process is known from the greeting of its threads, so the end of an unknown process is not
+      // reported.
       const auto what = static_cast<HostEvent>(event);
       const bool is_stranger = static_cast<HostState>(state) == HostState::unknown && what == HostEvent::left;
       if (is_stranger) continue;

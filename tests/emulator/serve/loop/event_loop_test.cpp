@@ -15,7 +15,7 @@ namespace event_loop_test {
 
 using namespace std::chrono_literals;
 
-/// Two joined sockets: what is written to one is read from the other.
+/// Two connected sockets: data written to one is read from the other.
 struct Pair {
   Pair() { EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0); }
   ~Pair() {
@@ -226,7 +226,7 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
     loop.wait(wall_now());
     most_of_one_turn = std::max(most_of_one_turn, all() - before);
   }
-  EXPECT_GE(turns_of_port, 25) << "it is looked at before each slice";
+  EXPECT_GE(turns_of_port, 25) << "it is checked before each slice";
   EXPECT_LE(most_of_one_turn, 3);
   EXPECT_LE(*std::max_element(calls.begin(), calls.end()) - *std::min_element(calls.begin(), calls.end()), 1)
       << "they take turns";
@@ -253,14 +253,14 @@ TEST(EventLoop, WorkInPiecesIsDoneInTurnWithClients) {
     std::erase(pieces, 'c');
     return pieces;
   }();
-  EXPECT_EQ(work_done, "ababab") << "each its turn, and no more than there is of it";
+  EXPECT_EQ(work_done, "ababab") << "each gets its turn, and no more than it has";
   EXPECT_LE(order.find_last_of('b'), 12U) << order;
   for (std::size_t i = 1; i < 12; ++i) EXPECT_NE(order[i] == 'c', order[i - 1] == 'c') << order;
 }
 
 TEST(EventLoop, APieceKnowsWhenItsTimeIsOver) {
   EventLoop loop;
-  EXPECT_FALSE(loop.slice_is_over()) << "nobody else waits";
+  EXPECT_FALSE(loop.slice_is_over()) << "no other client waits";
   bool was_over_at_once = true;
   bool was_over_later = false;
   loop.do_in_pieces([&] {
@@ -291,15 +291,15 @@ TEST(EventLoop, WhatMayWaitDoesSoWhileSomethingIsDueSoon) {
     begins.push_back(wall_now());
     return ++pieces < 50;
   });
-  // Due again and again, sooner than there is room: what waits is called after each, and not before it.
+  // Due again and again, before there is time: waiting functions are called after each, and not before it.
   int too_soon = 0;
   for (int turn = 0; turn < 50; ++turn) {
     due = wall_now() + EventLoop::kRoom / 2;
     begins.clear();
-    int waits = 0;  // one that puts them off, and one until the moment comes
+    int waits = 0;  // one that postpones them, and one until the moment comes
     for (; wall_now() < due; ++waits) loop.wait(due);
     for (const WallTime begin : begins) too_soon += begin < due ? 1 : 0;
-    if (waits == 1) loop.wait(due);  // the machine has held us up: what is due is still to come first
+    if (waits == 1) loop.wait(due);  // the machine has delayed us: what is due still comes first
     loop.wait(due);                  // it is past: the others have their turn
     EXPECT_FALSE(begins.empty()) << turn;
   }
@@ -381,7 +381,7 @@ TEST(EventLoop, WhatMayWaitIsPutOffOnceAndNoMore) {
   loop.watch(
       client.near(), EventLoop::readable, [&](std::uint32_t) { ++calls; }, EventLoop::Rank::later);
   client.poke();
-  // Something is due soon at every look, as in a world whose time goes by fast.
+  // Something is due soon at every check, as in a world whose time passes quickly.
   int looks = 0;
   for (; looks < 300 && calls < 100; ++looks) loop.wait(wall_now() + EventLoop::kRoom / 2);
   EXPECT_GE(calls, 100);

@@ -36,7 +36,7 @@ TEST(Listener, AdmitsNobodyWhenItIsGoneThoughItsSocketStays) {
   Listening listening;
   const Descriptor inherited(dup(listening.socket.get()));
   int admitted = 0;
-  // On the heap: there a sanitizer of the product sees a call of what is gone.
+  // On the heap, where a sanitizer detects a call of a deleted object.
   auto listener =
       std::make_unique<Listener>(loop, std::move(listening.socket), [&](Descriptor) { ++admitted; });
   listening.call();

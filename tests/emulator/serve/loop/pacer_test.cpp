@@ -57,7 +57,7 @@ TEST(Pacer, WakesAtTheMomentOfWhatIsDueAndNeverBefore) {
     for (const SimTime due : {1ms, 999ms, 1000ms, 3050ms, 86'400'000ms}) {
       const auto wake = pacer.wall_time_of(due);
       ASSERT_TRUE(wake) << factor;
-      EXPECT_GE(pacer.target(*wake), due) << factor << ": woken too early for what is due";
+      EXPECT_GE(pacer.target(*wake), due) << factor << ": woken too early";
       const double exact = static_cast<double>(due.count()) / factor;
       EXPECT_NEAR(static_cast<double>((*wake - kStart).count()), exact, 2 + exact * 1e-12) << factor;
     }
@@ -77,8 +77,8 @@ TEST(Pacer, FreeIsBoundedAndOwesNothing) {
   EXPECT_FALSE(free.standing());
   EXPECT_EQ(free.target(kStart + 1ms), 10s) << "10,000 times real time";
   EXPECT_EQ(free.wall_time_of(10s), kStart + 1ms + 1ns);
-  EXPECT_EQ(free.target(kStart + 24h * 365 * 20), kHorizon) << "simulated time has an end";
-  EXPECT_EQ(free.woke(kStart, kStart + 5s), 0s) << "what it could not do is not a stall";
+  EXPECT_EQ(free.target(kStart + 24h * 365 * 20), kHorizon) << "simulated time is limited";
+  EXPECT_EQ(free.woke(kStart, kStart + 5s), 0s) << "work that it could not do is not a stall";
   EXPECT_EQ(free.slips(), 0U);
 }
 
@@ -166,7 +166,7 @@ TEST(Pacer, BeingWokenEarlyByAHostIsNotLateness) {
   pacer.woke(kStart + 10ms, kStart + 10ms + 40us);
   EXPECT_EQ(pacer.lateness().count(), 1u);
   EXPECT_EQ(pacer.lateness().greatest(), 40us);
-  // One who is woken just in time counts, with none.
+  // A wake-up just in time counts as one with no delay.
   pacer.woke(kStart + 10ms, kStart + 10ms);
   EXPECT_EQ(pacer.lateness().count(), 2u);
 }
@@ -200,7 +200,7 @@ TEST(Lateness, PercentilesAreExactHoweverFarApartTheTimesAre) {
   std::uint64_t state = 7;
   for (int i = 0; i < 4'000; ++i) {
     state = state * 6364136223846793005U + 1442695040888963407U;
-    // From nanoseconds to minutes, and some again and again.
+    // From nanoseconds to minutes, some of them several times.
     const auto ns = static_cast<std::int64_t>(i % 5 == 0 ? i % 40 : (state >> 24U) >> (state >> 58U) % 40);
     all.emplace_back(ns);
     lateness.record(all.back());

@@ -1,5 +1,5 @@
-// A line that is reached by TCP alone: a world, its port and a door, driven by the test. Time goes by 50
-// times as fast as it does, so that what waits in it waits for milliseconds.
+// A line that is only reachable over TCP: a world, its port and a door, driven by the test. Time passes 50
+// times as fast as real time, so its timeouts take milliseconds.
 #pragma once
 
 #include <arpa/inet.h>
@@ -23,7 +23,7 @@
 
 namespace understudy::emulator::serve {
 
-inline constexpr WallTime kDoorPatience = std::chrono::seconds(20);  // of a test that fails
+inline constexpr WallTime kDoorPatience = std::chrono::seconds(20);  // of a failing test
 inline constexpr const char* kOneFeeder =
     "understudy: 1\nlines: { a: { timing: instant, stations: [ { name: feeder, model: simple2-r3 } ] } }\n";
 
@@ -49,7 +49,7 @@ class DoorRig {
     }
     return holds();
   }
-  /// Requests that the first station has served.
+  /// Returns the number of requests that the first station has served.
   std::uint64_t requests() const { return world.line(0).stations.front()->counters().requests; }
 
   world::World world;
@@ -79,7 +79,7 @@ class DoorClient {
   void say(std::span<const std::uint8_t> bytes) const {
     send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
-  /// What comes, until there are so many bytes, or the other side closes.
+  /// Returns the data that arrives, until there are this many bytes, or the other side closes.
   Bytes hear(std::size_t count) {
     EXPECT_TRUE(rig_->eventually([&] { return has_come(count) || is_over_; })) << "heard " << heard_.size();
     return heard_;

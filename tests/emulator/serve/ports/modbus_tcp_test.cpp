@@ -15,12 +15,12 @@ namespace modbus_tcp_test {
 using pty::hex;
 using Bytes = ModbusTcp::Bytes;
 
-// Read one register at 1 of station 1, and what a station says to it.
+// A read of one register at 1 of station 1, and a station's reply.
 const Bytes kRequest = hex("12 34 00 00 00 06 01 03 00 01 00 01");
 const Bytes kFrame = hex("01 03 00 01 00 01 D5 CA");
 const Bytes kReplyFrame = hex("01 03 02 C0 01 29 84");
 const Bytes kReply = hex("12 34 00 00 00 05 01 03 02 C0 01");
-constexpr std::size_t kRoom = 256;  // of the line, for any frame
+constexpr std::size_t kRoom = 256;  // the line's time for any frame
 const Bytes kNobody = hex("12 34 00 00 00 03 01 83 0B");
 
 Bytes with_transaction(Bytes message, std::uint8_t low) {
@@ -66,7 +66,7 @@ TEST(ModbusTcp, HasOneRequestAtATimeOnTheLine) {
   EXPECT_TRUE(gateway.hear_client(three));
   for (const std::uint8_t low : {1, 2, 3}) {
     EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
-    EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another is on the line";
+    EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another request is on the line";
     gateway.hear_line(kReplyFrame);
     EXPECT_EQ(gateway.take_for_client(), with_transaction(kReply, low));
   }
@@ -87,7 +87,7 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
            Case{"00 01 00 00 00 0B 11 10 00 01 00 02 04 00 0A 01 02", "11 10 00 01 00 02 12 98",
                 "00 01 00 00 00 06 11 10 00 01 00 02"},
            Case{"00 01 00 00 00 06 0A 01 04 A1 00 01", "0A 81 02 B0 53", "00 01 00 00 00 03 0A 81 02"},
-           // A function whose replies have no length of their own: at the first checksum that is right.
+           // A function whose replies have no length of their own: they end at the first correct checksum.
            Case{"00 01 00 00 00 02 01 41", "01 41 07 08 52 3A", "00 01 00 00 00 04 01 41 07 08"},
        }) {
     ModbusTcp gateway;
@@ -111,7 +111,7 @@ TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
   gateway.hear_line(kReplyFrame);  // too late
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
   gateway.give_up();
-  EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "nothing was asked";
+  EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "there was no request";
 }
 
 TEST(ModbusTcp, PassesOnNothingButTheReply) {
@@ -160,7 +160,7 @@ TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
   EXPECT_TRUE(gateway.hear_client(hex("00 01 00 00 00 FE")));
 }
 
-// Cut anywhere, and whatever is heard behind it: what was refused never goes to the line.
+// Cut anywhere, with anything received after it: a refused message never goes to the line.
 TEST(ModbusTcp, NeverServesWhatItHasRefused) {
   for (const char* length : {"00 00", "00 01", "00 FF", "01 2C", "FF FF"}) {
     for (const bool has_good : {false, true}) {
@@ -205,12 +205,12 @@ TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
   EXPECT_TRUE(gateway.hear_client(kRequest));
   gateway.take_for_line(kRoom);
   gateway.hear_line(kReplyFrame);
-  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "nobody has taken the answer";
+  EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "the reply has not been taken";
   EXPECT_EQ(gateway.take_for_client(), kReply);
   EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
 }
 
-// Whatever comes from both sides, frames have their checksum and answers their length, and nothing grows.
+// Whatever arrives from both sides, frames have their checksum and replies their length, and nothing grows.
 TEST(ModbusTcp, StaysWholeWhateverItHears) {
   std::mt19937 random(20'261'124);
   const std::array pieces{kRequest,
@@ -238,7 +238,7 @@ TEST(ModbusTcp, StaysWholeWhateverItHears) {
     }
     const Bytes answer = gateway.take_for_client();
     if (answer.empty()) continue;
-    ASSERT_EQ(answer.size(), 6U + answer[5]) << "one, as one request was on the line";
+    ASSERT_EQ(answer.size(), 6U + answer[5]) << "one, because one request was on the line";
     ASSERT_LE(answer.size(), 260U);
   }
   EXPECT_GT(frames, 1'000);

@@ -1,4 +1,4 @@
-// A port whose pseudo-terminal was lost: nobody spins, and it is tried again after a while.
+// A port whose pseudo-terminal was lost: nothing spins, and the port is opened again after a while.
 #include "emulator/serve/ports/port.h"
 #include "emulator/models/models.h"
 
@@ -15,7 +15,7 @@ namespace port_test {
 
 using namespace std::chrono_literals;
 
-/// No further file can be opened while it lives.
+/// While this object exists, no further file can be opened.
 class NoDescriptors {
  public:
   NoDescriptors() {
@@ -34,7 +34,7 @@ class NoDescriptors {
 
 class LostPort : public testing::Test {
  protected:
-  /// Lets the port live until something holds.
+  /// Runs the port until a condition is true.
   bool eventually(const std::function<bool()>& holds) {
     const WallTime until = wall_now() + 10s;
     while (!holds()) {
@@ -62,7 +62,8 @@ class LostPort : public testing::Test {
   Port port{loop, world, 0, link, presence, [] {}, [this](const std::string& line) { log.push_back(line); }};
 };
 
-// It lets go of the line to see who is there, and cannot have it back: its kernel has no descriptor left.
+// It releases the line to check whether a host is present, and cannot reopen it: the system has no descriptor
+// left.
 TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
   const int host = open_host();
   ASSERT_GE(host, 0);
@@ -76,7 +77,7 @@ TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
     next = port.next_look(false);
     EXPECT_GE(*next, before + 100ms);
     EXPECT_LE(*next, wall_now() + 100ms);
-    // Until then nothing wakes it: its descriptors are not watched, though they tell of a hang-up without
+    // Until then nothing wakes it: its descriptors are not watched, although they report a hang-up without
     // end.
     port.look(*next - 1ns, false);
     EXPECT_EQ(port.next_look(false), next);
@@ -98,7 +99,7 @@ TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
   EXPECT_TRUE(eventually([&] { return !port.host_present(); }));
 }
 
-// The link goes, a host is hung up, and both come back with another pseudo-terminal.
+// The link is removed, a host is hung up, and both come back with another pseudo-terminal.
 TEST_F(LostPort, IsPulledOutAndPluggedInAgainByAFault) {
   const auto eventually_flushed = [&](const std::function<bool()>& holds) {
     return eventually([&] {
@@ -152,7 +153,7 @@ TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {
   EXPECT_NE(refused.find("Permission denied"), std::string::npos) << refused;
   EXPECT_TRUE(refused.ends_with(" (--links FOLDER puts the links elsewhere)")) << refused;
   EXPECT_EQ(message("port"), "");
-  EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is another trouble";
+  EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is a different error";
 }
 
 }  // namespace port_test

@@ -1,4 +1,4 @@
-// Folders below /tmp that go with their owner, and what failures have left in some.
+// Folders below /tmp that are removed with their owner, and what failures have left in some.
 #include "emulator/serve/ports/private_folder.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ class LeftOvers : public testing::Test {
   LeftOvers() { EXPECT_NE(mkdtemp(home_.data()), nullptr); }
   ~LeftOvers() override { fs::remove_all(home_); }
 
-  /// A folder with a recording in it, both that old.
+  /// A folder with a recording in it, both of that age.
   std::string make(const std::string& name, std::chrono::hours age, mode_t mode = 0700) const {
     const std::string folder = home_ + "/" + name;
     fs::create_directory(folder);
@@ -45,7 +45,7 @@ TEST_F(LeftOvers, GoAfterAWeek) {
   remove();
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(young));
-  EXPECT_TRUE(fs::exists(touched)) << "what is in it counts as well";
+  EXPECT_TRUE(fs::exists(touched)) << "its contents count as well";
 }
 
 TEST_F(LeftOvers, OfOthersAndOfOtherNamesStay) {
@@ -56,7 +56,7 @@ TEST_F(LeftOvers, OfOthersAndOfOtherNamesStay) {
     remove();
     EXPECT_TRUE(fs::exists(path)) << path;
   }
-  // A link is none of our folders, and what it leads to even less.
+  // A link is not one of our folders, and its target even less.
   const std::string target = make("precious", age);
   fs::create_directory_symlink(target, home_ + "/kept-Linked");
   remove();

@@ -1,4 +1,4 @@
-// A serial port over telnet. What is sent and answered is written out by hand from RFC 854, 855 and 2217.
+// A serial port over telnet. Both sides of the dialogues are written out by hand from RFC 854, 855 and 2217.
 #include "emulator/serve/ports/rfc2217.h"
 
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@ constexpr std::size_t kRoom = 1024;
 
 // WILL and DO of BINARY and SUPPRESS-GO-AHEAD, and DO of COM-PORT-OPTION.
 const Bytes kGreeting = hex("FF FD 00 FF FB 00 FF FD 03 FF FB 03 FF FD 2C");
-// What pyserial's client says to that, and what of it says nothing new to us.
+// pyserial's replies to that, of which some tell us nothing new.
 const Bytes kAgreement = hex("FF FB 00 FF FD 00 FF FB 03 FF FD 03 FF FB 2C");
 const Bytes kModemReady = hex("FF FA 2C 6B B0 FF F0");
 
-/// All for the line, if it has room for `room` at a time.
+/// Passes everything to the line, which accepts `room` bytes at a time.
 Bytes line_bytes(Rfc2217& port, std::size_t room = kRoom) {
   Bytes all;
   for (Bytes some = port.take_for_line(room); !some.empty(); some = port.take_for_line(room)) {
@@ -34,7 +34,7 @@ Bytes line_bytes(Rfc2217& port, std::size_t room = kRoom) {
   return all;
 }
 
-/// One that has agreed with its client on all it wants.
+/// A port that has agreed with its client on all options.
 Rfc2217 agreed() {
   Rfc2217 port(kLine);
   EXPECT_EQ(port.take_for_client(), kGreeting);
@@ -44,7 +44,7 @@ Rfc2217 agreed() {
   return port;
 }
 
-/// What is said to that.
+/// The reply to that.
 Bytes answer(Rfc2217& port, const Bytes& said) {
   EXPECT_TRUE(port.hear_client(said));
   EXPECT_EQ(line_bytes(port), Bytes{});
@@ -82,7 +82,7 @@ TEST(Rfc2217, AnswersEachCommandWithWhatIsInEffect) {
     return host;
   };
   const std::vector<Case> cases = {
-      // 0 asks; 9600; faster than any; too short to be one.
+      // 0 is a query; 9600; faster than any; too short to be valid.
       {"01 00 00 00 00", "65 00 00 4B 00", kAtFirst},
       {"01 00 00 25 80", "65 00 00 25 80", with([](HostSettings& h) { h.baud = 9600; })},
       {"01 FF FF FF FF FF FF FF FF", "65 00 00 4B 00", kAtFirst},  // each 255 is sent twice
@@ -99,7 +99,7 @@ TEST(Rfc2217, AnswersEachCommandWithWhatIsInEffect) {
       {"04 00", "68 01", kAtFirst},
       {"04 02", "68 02", with([](HostSettings& h) { h.stop_bits = 2; })},
       {"04 03", "68 01", kAtFirst},
-      // Flow: asked, hardware, by DCD, which there is not. DTR, RTS, flow inwards.
+      // Flow control: a query, hardware, by DCD, which does not exist. DTR, RTS, inbound flow.
       {"05 00", "69 01", kAtFirst},
       {"05 03", "69 03", kAtFirst},
       {"05 11", "69 01", kAtFirst},
@@ -133,7 +133,7 @@ TEST(Rfc2217, TellsTheMaskedModemStateBehindTheMask) {
   EXPECT_EQ(answer(port, com_port("0B 10")), hex("FF FA 2C 6F 10 FF F0 FF FA 2C 6B 10 FF F0"));
 }
 
-// What is set holds for what is written behind it.
+// A setting applies to the data written after it.
 TEST(Rfc2217, KeepsSettingsAndBytesInTheirOrder) {
   Rfc2217 port = agreed();
   Bytes said{0x41};
@@ -173,7 +173,8 @@ TEST(Rfc2217, UnderstandsWhatComesInPiecesOfAnySize) {
   }
 }
 
-// RFC 854: what is on already is not answered, so nobody goes on for ever; what is unknown is refused.
+// RFC 854: an option that is already on gets no reply, so there is no endless exchange; an unknown option is
+// refused.
 TEST(Rfc2217, NegotiatesWithoutEnd) {
   struct Case {
     const char* said;
@@ -188,7 +189,7 @@ TEST(Rfc2217, NegotiatesWithoutEnd) {
   }
 }
 
-// A terminal sends a carriage return as two bytes, the second 0, and gets it so.
+// A terminal sends a carriage return as two bytes, the second 0, and receives it in the same form.
 TEST(Rfc2217, KnowsTheReturnOfThoseThatAreNotBinary) {
   Rfc2217 port(kLine);
   port.take_for_client();
@@ -233,7 +234,7 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
     EXPECT_EQ(answers, c.answer) << c.what;
     EXPECT_EQ(port.settings()->parity, Parity::even) << c.what;
     EXPECT_TRUE(port.hear_client(Bytes{0x7E}));
-    EXPECT_EQ(line_bytes(port), Bytes{0x7E}) << c.what << ": what follows is understood";
+    EXPECT_EQ(line_bytes(port), Bytes{0x7E}) << c.what << ": the data after it are understood";
   }
 }
 
@@ -244,7 +245,7 @@ TEST(Rfc2217, SaysABreakAsOneCharacter) {
        {com_port("05 05"), com_port("05 06"), Bytes{0x31}, com_port("05 05"), hex("FF F3")})
     said.insert(said.end(), more.begin(), more.end());
   EXPECT_TRUE(port.hear_client(said));
-  EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "on while it is on is nothing new";
+  EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "switching it on again is not a change";
 }
 
 TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
@@ -257,7 +258,7 @@ TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
                         Case{"0C 04", false, false}}) {
     Rfc2217 port = agreed();
     EXPECT_TRUE(port.hear_client(com_port(c.said)));
-    EXPECT_EQ(port.take_for_line(0), Bytes{}) << "also where the line has no room";
+    EXPECT_EQ(port.take_for_line(0), Bytes{}) << "even if the line has no room";
     EXPECT_EQ(port.takes_back(), c.takes_back) << c.said;
     EXPECT_EQ(port.throws_away(), c.throws_away) << c.said;
     EXPECT_FALSE(port.takes_back() || port.throws_away()) << "once";
@@ -273,7 +274,7 @@ TEST(Rfc2217, DoesNotListenWhileItIsAskedToWait) {
   EXPECT_TRUE(port.listens());
 }
 
-// Bytes wait until the line has room, and answers until they are taken; no more than that is heard.
+// Bytes wait until the line has room, and replies until they are taken; no more than that is accepted.
 TEST(Rfc2217, KeepsLittle) {
   Rfc2217 port = agreed();
   EXPECT_TRUE(port.hear_client(Bytes(4096, 0x41)));

@@ -1,4 +1,5 @@
-// A TCP door in its own process: whatever strangers send, however they go; who waits, who takes turns.
+// A TCP door in its own process: whatever unknown clients send, however they disconnect; who waits, and who
+// takes turns.
 #include "emulator/serve/ports/tcp_door.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ struct Exchange {
 const Exchange kRaw{hex("01 03 00 01 00 01 D5 CA"), hex("01 03 02 C0 01 29 84")};
 const Exchange kGateway{hex("12 34 00 00 00 06 01 03 00 01 00 01"), hex("12 34 00 00 00 05 01 03 02 C0 01")};
 
-/// Perhaps behind what telnet says at first.
+/// Possibly after the first telnet options.
 bool has(const Bytes& heard, const Bytes& reply) {
   return std::search(heard.begin(), heard.end(), reply.begin(), reply.end()) != heard.end();
 }
@@ -34,7 +35,7 @@ bool has(const Bytes& heard, const Bytes& reply) {
 struct Protocol {
   const char* address;
   Exchange exchange;
-  std::vector<const char*> malformed;  // none of them, nor a beginning of one, is a request
+  std::vector<const char*> malformed;  // none of them, nor the beginning of one, is a request
 };
 const std::vector<Protocol> kProtocols{
     {"rtu://127.0.0.1:0",
@@ -51,7 +52,7 @@ const std::vector<Protocol> kProtocols{
       "00 01 00 00 FF FF 01 03 00 01 00 01", "00 01 00 07 00 06 01 06 10 02 00 C8", "01 03 00 01 00 01 D5 CA",
       "47 45 54 20 2F 20 48 54 54 50"}}};
 
-// Of a name that stands for several addresses, too.
+// Also for a name that stands for several addresses.
 TEST(TcpPlaces, AreAllTakenOrNone) {
   world::TcpAddress first = world::parse_tcp_address("rtu://127.0.0.1:0");
   const std::vector<Descriptor> listeners = listen_at(first);
@@ -64,7 +65,7 @@ class EachProtocol : public testing::TestWithParam<std::size_t> {
   const Protocol& protocol = kProtocols[GetParam()];
   const Exchange& exchange = protocol.exchange;
 
-  /// A good client gets its reply.
+  /// A valid client gets its reply.
   void expect_served(DoorRig& rig, const std::string& after) {
     DoorClient good(rig);
     good.say(exchange.request);
@@ -78,7 +79,7 @@ class EachProtocol : public testing::TestWithParam<std::size_t> {
 
 INSTANTIATE_TEST_SUITE_P(TcpDoor, EachProtocol, testing::Values(0, 1, 2));
 
-// Every beginning of every malformed message, behind a good one or not, followed by each end that there is.
+// Every beginning of every malformed message, after a valid one or not, followed by each possible end.
 TEST_P(EachProtocol, OutlivesWhateverStrangersSendAndHoweverTheyGo) {
   enum class End { fin, close, reset, silence };
   DoorRig rig(protocol.address);
@@ -114,7 +115,7 @@ TEST_P(EachProtocol, AnswersAClientThatHasClosedItsSendingHalf) {
   for (int i = 0; i < 20; ++i) {
     DoorClient client(rig);
     client.say(exchange.request);
-    if (i % 2 == 0) rig.run();  // together, or one after the other
+    if (i % 2 == 0) rig.run();  // together, or one after another
     client.close_sending_half();
     EXPECT_TRUE(client.sees_the_end()) << i;
     EXPECT_TRUE(has(client.heard(), exchange.reply)) << i;
@@ -122,7 +123,8 @@ TEST_P(EachProtocol, AnswersAClientThatHasClosedItsSendingHalf) {
   EXPECT_EQ(rig.log, std::vector<std::string>());
 }
 
-// A line takes its time: the replies come all the same, and whoever comes meanwhile has to wait, not to go.
+// A line takes time: the replies still arrive, and a client that connects meanwhile has to wait, but is not
+// refused.
 TEST_P(EachProtocol, LetsTheNextWaitForOneThatHasSaidAll) {
   DoorRig rig(
       protocol.address,
@@ -143,7 +145,7 @@ TEST_P(EachProtocol, LetsTheNextWaitForOneThatHasSaidAll) {
 
 // --- descriptors ---------------------------------------------------------------------------------
 
-/// No more descriptors than there are now while it lives.
+/// While this object exists, no more descriptors are available than now.
 class NoMoreDescriptors {
  public:
   NoMoreDescriptors() {
@@ -171,7 +173,7 @@ TEST_P(EachProtocol, WithoutDescriptorsRestsUntilThereIsOne) {
     rig.run();
     const WallTime before = wall_now();
     rig.loop.wait(before + std::chrono::milliseconds(100));
-    EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100)) << "nobody is told again and again";
+    EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100)) << "it is not reported repeatedly";
   }
   EXPECT_TRUE(rig.eventually([&] {
     waiting.is_over();
@@ -214,7 +216,7 @@ TEST(Gateway, ServesItsMastersInTurn) {
   EXPECT_NE(rig.log.front().find("32 masters"), std::string::npos) << rig.log.front();
 }
 
-// The reply to it would be taken for one to the next request of the same function.
+// Its reply would be taken for the reply to the next request of the same function.
 TEST(Gateway, AwaitsTheReplyToOneThatHasGone) {
   DoorRig rig("modbus-tcp://127.0.0.1:0",
               "understudy: 1\nlines: { a: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n"
@@ -271,7 +273,7 @@ TEST(Gateway, GivesUnit255TheOnlyStation) {
       refusal[6] = static_cast<std::uint8_t>(unit);
       EXPECT_EQ(master.hear(refusal.size()), refusal) << settings << " " << unit;
     }
-    // The daemon's log, not the gateway's, tells of stations that do not exist.
+    // The daemon's log, not the gateway's, reports stations that do not exist.
     const bool asks_all = std::ranges::find(silent, 0) != silent.end();
     ASSERT_EQ(rig.log.size(), asks_all ? 1U : 0U) << settings;
     if (!asks_all) continue;

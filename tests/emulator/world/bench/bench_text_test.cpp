@@ -9,7 +9,7 @@
 namespace understudy::emulator::world {
 namespace bench_text_test {
 
-// Everything that a bench can say.
+// Everything that a bench can contain.
 const std::string kFull = R"(
 understudy: 1
 lines:

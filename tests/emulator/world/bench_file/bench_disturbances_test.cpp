@@ -28,7 +28,7 @@ TEST(BenchFile, MachinesHaveHysteresisAReversedEncoderAndADrive) {
   EXPECT_FALSE(a.drive->enabled_by);
   EXPECT_TRUE(a.drive->alarm_opens);
   const PlantSetup& b = bench.machines[1].plant;
-  ASSERT_TRUE(b.drive) << "an empty one is one";
+  ASSERT_TRUE(b.drive) << "an empty one counts";
   EXPECT_EQ(b.drive->ready_after, 0);
   EXPECT_TRUE(b.drive->enabled_by);
   EXPECT_FALSE(b.drive->alarm_opens);
@@ -74,7 +74,7 @@ TEST(BenchFile, FaultsAreThereInTheOrderWritten) {
                                               "stuck feeder.DIN_2 level=0"}));
 }
 
-/// A file with one device x in line 4, and what follows from line 5 on.
+/// A file with one device x in line 4, and the rest from line 5 on.
 std::string and_then(const std::string& more, const std::string& of_x = "") {
   return "understudy: 1\nlines:\n  a:\n    stations: [ { name: x, model: simple2-r3" +
          (of_x.empty() ? "" : ", " + of_x) + " } ]\n" + more;
@@ -82,7 +82,7 @@ std::string and_then(const std::string& more, const std::string& of_x = "") {
 
 struct Bad {
   std::string text;
-  std::string diagnostic;  // behind "bench.yaml:"
+  std::string diagnostic;  // after "bench.yaml:"
 };
 
 void expect_diagnostics(const std::vector<Bad>& files) {
@@ -90,7 +90,7 @@ void expect_diagnostics(const std::vector<Bad>& files) {
     EXPECT_EQ(diagnostic(file.text), "bench.yaml:" + file.diagnostic) << file.text;
 }
 
-/// RS-M8194H knows no pulses a revolution: the bench has to, where its motor turns the encoder.
+/// RS-M8194H has no setting for pulses per revolution: the bench needs one if its motor turns the encoder.
 TEST(BenchErrors, AnEncoderKnowsTheMotorThatTurnsIt) {
   const auto with_encoder = [](const std::string& what) {
     return "understudy: 1\nlines: { a: { stations: [ { name: x, model: rs-m8194h } ] } }\nplant:\n  x.X: { "

@@ -1,4 +1,4 @@
-// Wrong bench files: each error is one line with its place, what is wrong and what was expected.
+// Wrong bench files: each error is one line with its place, the error and what was expected.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/bench_file/bench_texts.h"
@@ -8,7 +8,7 @@ namespace bench_errors_test {
 
 struct Bad {
   std::string text;
-  std::string diagnostic;  // behind "bench.yaml:"
+  std::string diagnostic;  // after "bench.yaml:"
 };
 
 void expect_diagnostics(const std::vector<Bad>& files) {
@@ -21,12 +21,12 @@ std::string with_station(const std::string& station) {
   return "understudy: 1\nlines:\n  a:\n    stations:\n      - " + station + "\n";
 }
 
-/// A file whose fifth line gives a good station something more.
+/// A file whose fifth line adds something to a valid station.
 std::string with(const std::string& more) {
   return with_station("{ name: x, model: simple2-r3, " + more + " }");
 }
 
-/// A good file of five lines, and what follows from the sixth on.
+/// A valid file of five lines, and the rest from the sixth on.
 std::string and_then(const std::string& more) {
   return with_station("{ name: x, model: simple2-r3 }") + more;
 }

@@ -69,7 +69,7 @@ TEST(BenchFile, MachinesHaveTheirTravelSwitchesAndEncoder) {
   EXPECT_EQ(a.plant.lower_limit, -18000);
   EXPECT_EQ(a.plant.upper_limit, 18000);
   EXPECT_EQ(a.plant.encoder_counts_per_revolution, 4000);
-  EXPECT_EQ(a.plant.pulses_per_revolution, 3200) << "the factory's";
+  EXPECT_EQ(a.plant.pulses_per_revolution, 3200) << "the factory value";
   const MachineSetup& b = bench.machines[1];
   EXPECT_EQ(bench.devices.at(b.device).settings.name, "turner");
   EXPECT_EQ(b.axis, 1);

@@ -10,7 +10,7 @@
 namespace understudy::emulator::world {
 namespace bench_mutation_test {
 
-/// True if it is a bench or gets a diagnostic that begins with file and line.
+/// Returns true if it is a bench or gets a diagnostic that begins with file and line.
 bool is_handled(const std::string& text) {
   try {
     parse(text);

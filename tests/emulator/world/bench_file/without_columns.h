@@ -6,7 +6,7 @@
 
 namespace understudy::emulator::world {
 
-/// "a.yaml:3:12: lines: ..." as "a.yaml:3: lines: ...", in every line.
+/// Turns "a.yaml:3:12: lines: ..." into "a.yaml:3: lines: ...", in every line.
 inline std::string without_columns(const std::string& diagnostic) {
   static const std::regex with_column("(^|\n)([^:\n]*:[0-9]+):[0-9]+: ");
   return std::regex_replace(diagnostic, with_column, "$1$2: ");

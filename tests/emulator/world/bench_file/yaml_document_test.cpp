@@ -28,7 +28,7 @@ std::string diagnostic(const std::string& text) {
 
 struct Bad {
   std::string text;
-  std::string begin;  // of the diagnostic, behind "a.yaml:"
+  std::string begin;  // of the diagnostic, after "a.yaml:"
 };
 
 TEST(YamlDocument, WhatIsNotYamlIsSaidInPlainWords) {
@@ -103,7 +103,7 @@ void try_all(const std::string& text, int most) {
 }
 
 TEST(YamlDocument, AllFilesOfThreeTokensAreReadAtOnce) {
-  // In its own process, which is ended when it takes too much memory or time.
+  // In a separate process, which is ended if it takes too much memory or time.
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {

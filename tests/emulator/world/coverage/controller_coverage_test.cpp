@@ -1,4 +1,4 @@
-// What steps, hosts and faults exercise of a device, counted in the rows of its tables.
+// The parts of a device that steps, hosts and faults exercise, counted in the rows of its tables.
 #include "emulator/world/coverage/controller_coverage.h"
 
 #include <memory>
@@ -57,7 +57,7 @@ TEST(ControllerCoverage, CountsWhatAHostReadsAndWrites) {
       "  - send: { bytes: 02 03 00 00 00 01 +crc, reply: nothing }\n"   // to another station
       "  - send: { bytes: 01 03 00 00 00 01 00 00, reply: nothing }\n"  // with a wrong checksum
       "  - send: { bytes: 01 06 00 01 00 05 +crc, within: 100ms }\n"    // read-only
-      "  - send: { bytes: 01 03 7F 00 00 01 +crc, within: 100ms }\n");  // there is nothing
+      "  - send: { bytes: 01 03 7F 00 00 01 +crc, within: 100ms }\n");  // nothing exists there
   EXPECT_EQ(counts(report, "registers", "STATUS"), "2 - -");
   EXPECT_EQ(counts(report, "registers", "HW_Code"), "1 - 1");
   EXPECT_EQ(counts(report, "registers", "Aaxis_SVON"), "0 1 -");

@@ -71,7 +71,7 @@ TEST(CoverageReport, AddsUpInAnyOrder) {
   EXPECT_EQ(runs, 0);
 }
 
-/// A device that runs the same instructions as a file, whatever the file looks like otherwise.
+/// A device that runs the same instructions as a file, however else the file looks.
 TEST(ProgramCoverage, CountsForTheFileWithTheSameInstructions) {
   const std::string bench =
       "understudy: 1\nlines: { a: { stations: [ { name: m, model: simple2-r3, set: { AutoStart_MainProg: 1 "

@@ -1,4 +1,4 @@
-// Tracefiles: read back what was written, and refuse what nobody has written.
+// Tracefiles: what was written is read back, and anything else is refused.
 #include "emulator/world/coverage/tracefile.h"
 
 #include <gtest/gtest.h>

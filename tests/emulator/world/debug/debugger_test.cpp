@@ -45,14 +45,14 @@ TEST(Breakpoint, StopsAtTheEndOfTheTickInWhichItsLineBegins) {
   EXPECT_FALSE(counting.debugger.remove(1));
   EXPECT_FALSE(counting.debugger.is_watching());
   EXPECT_EQ(counting.run(100), "");
-  EXPECT_EQ(counting.debugger.stop(), nullptr) << "the world has gone on";
+  EXPECT_EQ(counting.debugger.stop(), nullptr) << "the world has continued";
 }
 
 TEST(Breakpoint, OnALineWithoutInstructionMovesOn) {
   DebuggedWorld world("simple2-r3", kCounter);
   EXPECT_EQ(world.debugger.add({.line = 1}).line, 1);
   DebuggedWorld slim("slim", "; a remark\n\nMR 5\nRET\n");
-  EXPECT_EQ(slim.debugger.add({.line = 1}).line, 1) << "the listing that it gives back has no remarks";
+  EXPECT_EQ(slim.debugger.add({.line = 1}).line, 1) << "the listing that it returns has no comments";
 }
 
 TEST(Breakpoint, CountsOnlyHitsOfItsConditionAndActsAtTheNth) {
@@ -104,7 +104,8 @@ TEST(Breakpoint, OfAWriteTellsWhoWrites) {
   counting.world.write(0, prepared);
   EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7");
   counting.world.write(0, prepared);
-  EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7") << "even if it stays as it was";
+  EXPECT_EQ(counting.run(50), "breakpoint 2: m.PROG_VAR8: control writes 7")
+      << "even if its value does not change";
   counting.world.receive(0, write_request(1, 0, 1));  // of another register
   EXPECT_EQ(counting.run(50), "");
 }
@@ -189,22 +190,22 @@ TEST(Debugger, FindsItsLinesInEachProgramAnew) {
   EXPECT_EQ(counting.run(2000), "");
   counting.world.load_program(0, kCounter);
   set(counting.world, "PROG_MAIN_RunTime_START", 0);
-  EXPECT_NE(counting.run(100), "") << "power does not take it away";
+  EXPECT_NE(counting.run(100), "") << "a power cycle does not delete it";
 }
 
 struct StepCase {
   const char* model;
   const char* program;
   const char* start;  // "CALL_MPn=41", or a line of text
-  int call;           // the line that calls, of the listing
+  int call;           // the line of the listing that calls
   int routine;        // the first line of the routine
-  int second;         // the line at which it is a step later: labels take no tick of their own
-  int behind;         // the line behind the call
-  const char* part;   // of a program at once with others
+  int second;         // the line one step later: labels take no tick of their own
+  int behind;         // the line after the call
+  const char* part;   // the number of programs that run at once
 };
 
-/// What a routine waits for takes some ticks, so that each step ends in a tick of its own. The first line of
-/// a macro begins in the tick of its call, so a step goes on to its second.
+/// A routine waits for something that takes some ticks, so each step ends in a different tick. The first line
+/// of a macro runs in the tick of its call, so a step continues to its second.
 constexpr StepCase kSteps[] = {
     {"rs-m8194h",
      "MP 2\n  RSM_MACRO_TIMER 5\n  RSM_MACRO_TIMER 6\n  RSM_MACRO_TIMER 7\nEND\nMP 41\n  RSM_MACRO_TIMER 5\n "
@@ -248,7 +249,7 @@ TEST_P(Steps, GoIntoRoutinesOverThemAndOutOfThem) {
   world.debugger.begin_anew();
   world.debugger.remove_all();
   world.debugger.add({.line = one.call});
-  // The stop is gone, so it begins where the program is.
+  // The stop is over, so it starts where the program is.
   EXPECT_NE(world.step(StepKind::out, one.part), "");
   EXPECT_EQ(line(), one.behind);
 }

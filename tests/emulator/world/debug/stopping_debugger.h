@@ -1,4 +1,4 @@
-// Looks on at random courses, and stops them wherever it can.
+// Observes random courses, and stops them wherever it can.
 #pragma once
 
 #include "emulator/world/debug/breakpoint.h"

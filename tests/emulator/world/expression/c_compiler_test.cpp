@@ -102,7 +102,7 @@ TEST(ExpressionAsInC, GivesWhatTheCompilerGives) {
   };
   int compared = 0;
   for (const Compiled& c : cases) {
-    if (c.text == "x != 36 | 1") {  // C takes it, this language wants parentheses
+    if (c.text == "x != 36 | 1") {  // C accepts it, this language requires parentheses
       EXPECT_THROW(parse_expression(c.text, bench), ExpressionError);
       continue;
     }

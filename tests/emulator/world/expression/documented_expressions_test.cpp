@@ -71,7 +71,7 @@ TEST(DocumentedExpressions, EveryLiteralAndNameOnThePageIsAccepted) {
   EXPECT_EQ(taken, 19U + 10U);
 }
 
-/// Of a Simple2-R3's axis with all the switches that it can have; the others are a larger controller's.
+/// A Simple2-R3's axis with all the switches that it can have; the others belong to a larger controller.
 TEST(DocumentedExpressions, EveryNameOfAWorldIsKnown) {
   const World world = make_world();
   const Probes probes(world);

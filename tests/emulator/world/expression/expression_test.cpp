@@ -64,7 +64,8 @@ TEST(Expression, NamesHaveTheirValues) {
       {"feeder.A.speed <= 1.5e3", "0"},  // 1500.25
       {"feeder.A.speed <= 1500.25", "1"},
       {"feeder[\"Logic Position X\"] == -400", "1"},
-      {"feeder['Logic Position X'] == -400", "1"},  // quotes of either kind: the file around it has its own
+      {"feeder['Logic Position X'] == -400",
+       "1"},  // quotes of either kind, because the surrounding file has its own
       {"[\"mill-2\"].D8097", "3"},
       {"[\"feeder\"][\"STATUS\"].4", "1"},
       {"time >= 3.05s", "1"},
@@ -98,7 +99,7 @@ TEST(Expression, OperatorsBindAsInC) {
       {"!!a", "1"},
       {"!b && a", "1"},      // (!b) && a
       {"1 || 0 && 0", "1"},  // 1 || (0 && 0)
-      {"a && 3", "1"},       // a truth, not 3
+      {"a && 3", "1"},       // true is 1, not 3
       {"0 || 7", "1"},
       {"1 < 2 && 2 < 3", "1"},
       {"b ? 1 : 2", "2"},
@@ -175,7 +176,7 @@ TEST(Expression, TolerancesIncludeBothEnds) {
       {"1.6 == 1.5 +- 0.1", "1"},
       {"7 == 5 + 1 +- 3 % 2", "1"},  // with a space it is a remainder: 6 +- 1
       {"a == 5 +- 2 && b == 0 +- 1", "1"},
-      {"largest == 9223372036854775806 +- 2", "1"},  // the upper end is beyond 64 bits
+      {"largest == 9223372036854775806 +- 2", "1"},  // the upper end exceeds 64 bits
       {"smallest == -9223372036854775807 +- 9", "1"},
       {"a == 5 +- b", "1"},
       {"a == 5 +- c", "no result: column 8 of 'a == 5 +- c': a tolerance below zero (-7)  (a is 5, c is -7)"},

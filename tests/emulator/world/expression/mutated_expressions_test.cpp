@@ -87,7 +87,7 @@ TEST(MutatedExpressions, AreAcceptedOrRefusedInOneLine) {
       EXPECT_EQ(explain(expression, bench).find('\n'), std::string::npos);
       try {
         const Number value = evaluate(expression, bench);
-        // Its text is a number that is read back as the same.
+        // Its text is a number that reads back as the same number.
         const std::string result = number_text(value);
         if (result[0] != '-') {
           EXPECT_EQ(evaluate(parse_expression(result, bench), bench), value) << result;

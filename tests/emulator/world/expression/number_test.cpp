@@ -36,7 +36,7 @@ TEST(Number, TextIsExactAndInItsUnit) {
 }
 
 TEST(Number, WholesAndRealsAreOrderedExactly) {
-  // Strictly ascending; neighbours beyond 2^53 differ by less than a real number can tell.
+  // Strictly ascending; neighbours beyond 2^53 differ by less than real numbers can distinguish.
   const std::vector<Number> ascending = {-1e300,
                                          -9223372036854777856.0,  // the real number below -2^63
                                          INT64_MIN,

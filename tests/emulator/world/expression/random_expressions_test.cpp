@@ -15,7 +15,7 @@ __extension__ using Wide = __int128;
 
 struct NoResult {};
 
-// The oracle's number: wide enough that overflow is seen afterwards instead of being foreseen.
+// The oracle's number: wide enough that overflow is detected afterwards instead of being predicted.
 struct Amount {
   bool is_real = false;
   Wide whole = 0;
@@ -158,7 +158,7 @@ class Draw {
              space() + ":" + space() + part(*tree.parts[2], 0, tree);
     }
     if (tree.parts.size() == 1) return tree.sign + space() + part(*tree.parts[0], own, tree);
-    // `a + -b` needs its space: `+-` is a sign of its own.
+    // `a + -b` needs its space: `+-` is an operator.
     return part(*tree.parts[0], own, tree) + " " + tree.sign + " " + part(*tree.parts[1], own + 1, tree);
   }
 
@@ -231,7 +231,7 @@ TEST(RandomExpressions, GiveTheSameResultAsWalkingTheTree) {
     try {
       expression = parse_expression(text, bench);
     } catch (const ExpressionError& error) {
-      // Only bits of what is real for certain are refused before they are computed.
+      // Only bits of a value that is certainly real are refused before they are computed.
       EXPECT_NE(std::string(error.what()).find("' takes whole numbers"), std::string::npos)
           << seed << ": " << text << "\n"
           << error.what();
@@ -258,7 +258,7 @@ TEST(RandomExpressions, GiveTheSameResultAsWalkingTheTree) {
     }
     ASSERT_EQ(came, expected) << seed << ": " << text;
   }
-  // The draw reaches each outcome often.
+  // The random draw reaches each outcome often.
   EXPECT_GT(results, 20'000);
   EXPECT_GT(without_result, 5'000);
   EXPECT_GT(refused, 1'000);
@@ -268,7 +268,7 @@ TEST(RandomExpressions, GiveTheSameResultAsWalkingTheTree) {
 }
 
 TEST(RandomExpressions, NamesInListsAllThatCanChangeTheResult) {
-  // Whatever is not named may change at will.
+  // Unnamed values can change arbitrarily.
   const std::vector<std::string> names = {
       "a", "b", "c", "largest", "smallest", "feeder.A.speed", "feeder.Logic Position X"};
   for (std::uint64_t seed = 1; seed <= 3'000; ++seed) {

@@ -193,7 +193,7 @@ TEST(ExpressionRefusals, WhatIsTooLongOrTooDeepIsRefused) {
     for (int i = 0; i < times; ++i) result += text;
     return result;
   };
-  // A level is taken by the whole.
+  // A level counts as a whole.
   EXPECT_EQ(outcome(repeated("(", 63) + "1" + repeated(")", 63), bench), "1");
   EXPECT_NE(outcome(repeated("(", 64) + "1" + repeated(")", 64), bench).find("nested too deeply"),
             std::string::npos);
@@ -201,7 +201,7 @@ TEST(ExpressionRefusals, WhatIsTooLongOrTooDeepIsRefused) {
   EXPECT_NE(outcome(repeated("-", 64) + "1", bench).find("nested too deeply"), std::string::npos);
   EXPECT_EQ(outcome(repeated("0 ? 1 : ", 63) + "7", bench), "7");
   EXPECT_NE(outcome(repeated("0 ? 1 : ", 64) + "7", bench).find("nested too deeply"), std::string::npos);
-  // Three values wait at each level: 63 are there at the 21st.
+  // Three values wait at each level: 63 at the 21st.
   EXPECT_EQ(outcome(repeated("1 + 1 * (0 == ", 20) + "1" + repeated(")", 20), bench), "1");
   EXPECT_NE(
       outcome(repeated("1 + 1 * (0 == ", 22) + "1" + repeated(")", 22), bench).find("nested too deeply"),

@@ -1,5 +1,6 @@
-// What stands between a line and its host: an echo, an adapter that hands over lumps, one that is pulled out.
-// Times are those of 8E1 at 19200: a character takes 11 bits, and the reply follows 750 us behind the eighth.
+// What is between a line and its host: an echo, an adapter that passes on data in lumps, one that is pulled
+// out. Times are those of 8E1 at 19200: a character takes 11 bits, and the reply follows 750 us after the
+// eighth.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -49,8 +50,8 @@ void expect_echo(World& world) {
   const std::vector<Came> came = ask_and_time(world, kAskFeeder);
   ASSERT_EQ(bytes_of(came), kAskFeeder + kFeederSays);
   for (std::size_t i = 0; i < 8; ++i)
-    EXPECT_EQ(came[i].at, character(static_cast<std::int64_t>(i) + 1)) << "each in its time " << i;
-  EXPECT_EQ(came[8].at, kReplyBegins + character(1)) << "and the reply in its own";
+    EXPECT_EQ(came[i].at, character(static_cast<std::int64_t>(i) + 1)) << "each at its time " << i;
+  EXPECT_EQ(came[8].at, kReplyBegins + character(1)) << "and the reply at its own";
 }
 
 TEST(Echo, OfALineComesByteByByteBeforeTheReply) {
@@ -64,12 +65,13 @@ TEST(Echo, OfALineComesByteByByteBeforeTheReply) {
     if (std::string(timing) == "wire") expect_echo(world);
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(bytes_of(ask_and_time(world, kAskFeeder)), kAskFeeder + kFeederSays) << timing;
-    EXPECT_EQ(bytes_of(ask_and_time(world, {0xFF, 0x00})), (Bytes{0xFF, 0x00})) << "what nobody answers";
+    EXPECT_EQ(bytes_of(ask_and_time(world, {0xFF, 0x00})), (Bytes{0xFF, 0x00}))
+        << "a request without a reply";
     world.host_closed(0);
     world.receive_departed(0, kAskFeeder);
     world.advance_to(world.now() + 50ms);
     world.host_opened(0);
-    EXPECT_TRUE(world.line(0).line.output().empty()) << "that of a host that has gone is not the next one's";
+    EXPECT_TRUE(world.line(0).line.output().empty()) << "data of a departed host do not go to the next one";
   }
 }
 
@@ -88,7 +90,7 @@ TEST(Echo, IsStruckByAFrame) {
   FaultyLine line;
   line.inject("echo rs485 nth=2 for=100ms");
   EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays);
-  EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays) << "it begins with the reply";
+  EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays) << "it starts with the reply";
   EXPECT_EQ(line.ask(kAskFeeder).bytes, kAskFeeder + kFeederSays);
   EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays);
 }
@@ -127,7 +129,7 @@ TEST(Unplug, LetsNothingThroughEitherWay) {
   EXPECT_EQ(line.ask(kSetSpeed).bytes, Bytes{});
   EXPECT_EQ(line.ask(kAskFeeder).bytes, Bytes{});
   const Bytes ask_speed = with_crc({0x01, 0x03, 0x10, 0x02, 0x00, 0x01});
-  EXPECT_EQ(line.ask(ask_speed).bytes, with_crc({0x01, 0x03, 0x02, 0x00, 0x00})) << "it was never heard";
+  EXPECT_EQ(line.ask(ask_speed).bytes, with_crc({0x01, 0x03, 0x02, 0x00, 0x00})) << "it was never received";
 }
 
 TEST(Unplug, EndsWhatIsOnItsWay) {

@@ -1,4 +1,4 @@
-// Faults as text: how they are read, how they are printed, and what is refused with which line.
+// Faults as text: how they are read, how they are printed, and which are refused with which line.
 #include "emulator/world/faults/fault.h"
 #include "emulator/models/models.h"
 

@@ -1,4 +1,4 @@
-// Faults in a world: what they override, several at one place, and what returns when they are cleared.
+// Faults in a world: what they override, several in one place, and what returns when they are cleared.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -24,7 +24,7 @@ TEST(StuckInputs, OverrideTheOutsideTheWiresAndTheMachine) {
       if ((levels & 4) != 0) inject(world, "slip", "feeder.A", {{"pulses", 110}});  // onto the home switch
       run(world, 3);
       EXPECT_EQ(get(world, "feeder.DIN_4"), stuck) << levels;
-      EXPECT_EQ(world.plant(0, 0).at_home(), (levels & 4) != 0) << "the switch is not what is broken";
+      EXPECT_EQ(world.plant(0, 0).at_home(), (levels & 4) != 0) << "the switch itself works";
       ASSERT_TRUE(world.clear_fault(number));
       run(world, 1);
       EXPECT_EQ(get(world, "feeder.DIN_4"), levels != 0) << levels << ": as it would have been";
@@ -65,7 +65,7 @@ TEST(Faults, HaveNumbersThatAreNotUsedAgain) {
   EXPECT_EQ(inject(world, "stall", "feeder.A"), 1u);
   EXPECT_EQ(inject(world, "slip", "feeder.A", {{"pulses", 5}}), 2u);
   EXPECT_EQ(inject(world, "stall", "feeder.B"), 3u);
-  EXPECT_FALSE(world.clear_fault(2)) << "over at once";
+  EXPECT_FALSE(world.clear_fault(2)) << "ends at once";
   EXPECT_TRUE(world.clear_fault(3));
   EXPECT_FALSE(world.clear_fault(3));
   EXPECT_FALSE(world.clear_fault(0));
@@ -121,7 +121,7 @@ TEST(Faults, OfOtherKindsCoexistAndLeaveOtherPlacesAlone) {
 }
 
 TEST(Faults, AnUnrelatedOneDoesNotDisturbTheCountOfLostSteps) {
-  // 1 pulse a tick; one in ten is lost, whatever other faults are added and cleared meanwhile.
+  // 1 pulse per tick; one in ten is lost, whatever other faults are added and cleared meanwhile.
   for (const bool disturbed : {false, true}) {
     World world = make_faulty_world();
     set(world, "feeder.Aaxis_SVON", 1);
@@ -155,9 +155,9 @@ TEST(Faults, OfTheBenchAreThereFromTheFirstTick) {
   EXPECT_EQ(world.plant(0, 0).position_pulses(), 105);
   world.advance_to(1ms);
   EXPECT_EQ(get(world, "feeder.DIN_ALL"), 1 << 1 | 1 << 4) << "stuck, and the home switch";
-  EXPECT_EQ(get(world, "feeder.ADC_A"), 1000);  // 400 a volt
+  EXPECT_EQ(get(world, "feeder.ADC_A"), 1000);  // 400 per volt
   EXPECT_EQ(world.external_input(0, 10), 1);
-  // No alarm would be a closed contact on DIN_5 of an axis B.
+  // Without an alarm, DIN_5 of an axis B would have a closed contact.
   EXPECT_EQ(get(world, "turner.DIN_5"), 0);
   world.clear_fault(world.faults().begin()->first);
   run(world, 1);
@@ -165,8 +165,8 @@ TEST(Faults, OfTheBenchAreThereFromTheFirstTick) {
 }
 
 TEST(Faults, InAQuietWorldAlsoTakeEffectInTheNextTick) {
-  // Each fault in a world that skips quiet ticks and in one that runs every tick: after every tick the same,
-  // and the effect is there after exactly so many ticks.
+  // Each fault in a world that skips quiet ticks and in one that runs every tick: both are equal after every
+  // tick, and the effect occurs after exactly this many ticks.
   struct Case {
     std::string kind, place;
     std::vector<std::pair<std::string, std::int64_t>> amounts;

@@ -1,4 +1,4 @@
-// 10,000 mutated frames between good ones change nothing, and the good ones are answered.
+// 10,000 mutated frames between valid ones change nothing, and the valid ones get replies.
 #include <gtest/gtest.h>
 
 #include <algorithm>

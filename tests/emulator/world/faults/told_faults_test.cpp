@@ -189,7 +189,7 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
   EXPECT_EQ(lines[1], "out fault 1 drop: not said");
   EXPECT_EQ(lines[2], "in ?PE\r");
   EXPECT_EQ(lines[3], "in fault 2 delay: heard later");
-  EXPECT_GT(lines.size(), 4u) << "the second answer comes";
+  EXPECT_GT(lines.size(), 4u) << "the second reply arrives";
 }
 
 }  // namespace told_faults_test

@@ -1,4 +1,4 @@
-// Triggers alone: which occasions they hit, worked out by hand; and when their conditions are checked.
+// Triggers alone: which occasions they hit, calculated by hand; and when their conditions are checked.
 #include "emulator/world/faults/trigger.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace trigger_test {
 
 using namespace std::chrono_literals;
 
-/// The expression "a" holds when the test says so.
+/// The expression "a" is true when the test says so.
 struct Told final : ConditionSource {
   bool holds(const std::string&) override {
     ++asked;
@@ -94,7 +94,7 @@ TEST(Trigger, AConditionIsAskedOnlyOfFramesThatFit) {
   EXPECT_EQ(course.matched, 1);
 }
 
-/// In force after which ticks, of 1 to 20, with "a" true as told.
+/// Returns after which ticks, of 1 to 20, it is active, with "a" true as given.
 std::vector<Tick> ticks_in_force(const FaultTrigger& trigger, const std::function<bool(Tick)>& is_true,
                                  bool skip, FaultCourse& course) {
   std::vector<Tick> ticks;

@@ -61,7 +61,7 @@ TEST(TriggeredFaults, AStallAfter12000PulsesLosesWhatIsSentMeanwhile) {
   EXPECT_EQ(probe(line.world(), "feeder.A.position"), sent_at(strikes));
   line.world().advance_to(4s);
   EXPECT_EQ(probe(line.world(), "feeder.A.position"), 32'000 - lost);
-  EXPECT_EQ(line.course(number).hits, 1) << "the condition has held ever since";
+  EXPECT_EQ(line.course(number).hits, 1) << "the condition has been true ever since";
 }
 
 TEST(TriggeredFaults, AFrameBreaksAMachineUntilItIsCleared) {
@@ -74,14 +74,14 @@ TEST(TriggeredFaults, AFrameBreaksAMachineUntilItIsCleared) {
     line.world().receive(0, kSetSpeed, 400ms);
     line.world().advance_to(405ms);
     EXPECT_FALSE(line.course(number).in_force);
-    line.world().advance_to(406ms);  // carried out at 405,333,333 ns
+    line.world().advance_to(406ms);  // executed at 405,333,333 ns
     EXPECT_TRUE(line.course(number).in_force);
     EXPECT_EQ(probe(line.world(), "feeder.DIN_3"), 1);
     line.world().advance_to(425ms);
     EXPECT_TRUE(line.course(number).in_force);
     line.world().advance_to(426ms);
-    EXPECT_EQ(line.course(number).in_force, *how == '\0') << "until 425.3 ms, seen at the tick behind it";
-    EXPECT_EQ(line.course(number).seen, 3) << "not what is for the other one";
+    EXPECT_EQ(line.course(number).in_force, *how == '\0') << "until 425.3 ms, detected in the tick after it";
+    EXPECT_EQ(line.course(number).seen, 3) << "not the other one's requests";
     line.world().clear_fault(number);
     line.world().advance_to(427ms);
     EXPECT_EQ(probe(line.world(), "feeder.DIN_3"), 0);
@@ -108,7 +108,7 @@ TEST(TriggeredFaults, EncoderNoiseIsOnTheCountAndNotOnTheMachine) {
   line.inject("encoder_noise feeder.A counts=5 period=4ms from=10ms to=19ms");
   for (Tick tick = 1; tick <= 30; ++tick) {
     line.world().advance_to(time_of(tick));
-    // In force from the moment 10 ms on; then by turns two ticks too many and two too few.
+    // Active from the moment 10 ms on; then alternately two ticks too many and two too few.
     const bool in_force = tick >= 10 && tick < 19;
     const std::int64_t noise = !in_force ? 0 : tick % 4 < 2 ? 5 : -5;
     EXPECT_EQ(probe(line.world(), "feeder.A.encoder"), noise) << tick;
@@ -123,7 +123,7 @@ TEST(TriggeredFaults, EncoderNoiseIsOnTheCountAndNotOnTheMachine) {
 // --- power ---------------------------------------------------------------------------------------
 
 TEST(PowerCut, AtAMomentCutsTheReplyAtThatVeryCharacter) {
-  // The reply's characters begin at 105,333,333 ns and every 572,916.7 ns after.
+  // The reply's characters start at 105,333,333 ns and every 572,916.7 ns after.
   struct Case {
     const char* at;
     std::size_t characters;
@@ -169,7 +169,7 @@ TEST(PowerCut, InTheMiddleOfAnEepromWriteKeepsWhatWasDone) {
     const std::size_t number = line.inject("power_cut feeder for=40ms " + std::string(at));
     const Answer answer = line.ask(write);
     EXPECT_EQ(answer.bytes.empty(), std::string(at).starts_with("address"))
-        << "carried out, but not answered";
+        << "executed, but without a reply";
     EXPECT_EQ(line.course(number).hits, 1);
     EXPECT_TRUE(line.world().device(0).powered());
     Bytes reply{0x01, 0x03, 0x0A};
@@ -212,7 +212,7 @@ TEST(PowerCut, LastsAsLongAsAnyOfThem) {
   const std::size_t first = line.inject("power_cut feeder");
   const std::size_t second = line.inject("power_cut feeder");
   world.clear_fault(first);
-  EXPECT_FALSE(world.device(0).powered()) << "the second one is in force";
+  EXPECT_FALSE(world.device(0).powered()) << "the second one is active";
   world.clear_fault(second);
   EXPECT_TRUE(world.device(0).powered());
   EXPECT_TRUE(world.device(1).powered());
@@ -220,7 +220,7 @@ TEST(PowerCut, LastsAsLongAsAnyOfThem) {
 
 TEST(PowerCut, AndTheSwitchAreTwoThings) {
   struct Case {
-    std::vector<bool> switched;  // during the cut, one after the other
+    std::vector<bool> switched;  // during the cut, one after another
     bool on_afterwards;
   };
   for (const auto& [switched, on_afterwards] : std::vector<Case>{{{}, true},
@@ -239,7 +239,7 @@ TEST(PowerCut, AndTheSwitchAreTwoThings) {
       EXPECT_FALSE(world.device(0).powered());
       for (const bool on : switched) {
         world.switch_power(0, on);
-        EXPECT_FALSE(world.device(0).powered()) << "it is cut";
+        EXPECT_FALSE(world.device(0).powered()) << "it is truncated";
       }
       // Another world that continues from here knows the state of the switch.
       FaultyLine other;
@@ -268,8 +268,8 @@ std::vector<int> hits_of(FaultyLine& line) {
 }
 
 TEST(Chance, BeginsWithTheSeedOfTheBench) {
-  // Worked out with another program: splitmix64 seeded with the first number of that seeded with the bench's
-  // seed, and the number of the fault; hits are the draws below a half.
+  // Calculated with another program: splitmix64 seeded with the first number of a splitmix64 seeded with the
+  // bench's seed, and the number of the fault; hits are the draws below a half.
   const std::vector<std::vector<int>> expected{{1, 3, 6, 8, 9}, {3, 5, 8, 9, 10}, {1, 4, 5, 6, 7, 8, 10}};
   for (std::size_t seed = 0; seed < 3; ++seed) {
     FaultyLine line("seed: " + std::to_string(seed) + "\nfaults: [ { drop: feeder, chance: 50% } ]\n");

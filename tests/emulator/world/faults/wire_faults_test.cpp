@@ -13,7 +13,7 @@ namespace wire_faults_test {
 
 using namespace std::chrono_literals;
 
-/// A stage's text, and its effect on a good reply.
+/// A stage's text, and its effect on a valid reply.
 struct Stage {
   std::string text;  // without a trigger; % stands for the place
   std::function<Answer(const Answer&)> of_hit;
@@ -78,7 +78,7 @@ const std::vector<Stage>& stages() {
       {"duplicate % of=request", twice},
       {"duplicate % after=40ms of=request", twice},
       {"collision % of=request", nothing},
-      // Tolerant framing finds a good frame after noise.
+      // Tolerant framing finds a valid frame after noise.
       {"noise % before=FF of=request", [](const Answer& good) { return good; }},
   };
   return all;
@@ -89,7 +89,7 @@ std::string at(const std::string& stage, const std::string& place) {
   return text.replace(text.find('%'), 1, place);
 }
 
-/// Frame i is sent at i * 100 ms, and over 4.6 ms later (the fourth 10.9 ms).
+/// Frame i is sent at i * 100 ms, and ends 4.6 ms later (the fourth 10.9 ms).
 const std::vector<Bytes>& frames() {
   static const std::vector<Bytes> all{kAskFeeder, kSetSpeed,  kAskTurner,
                                       kSetMove,   kAskFeeder, kSwitchServoOn,
@@ -104,7 +104,7 @@ const std::vector<Answer>& good_answers() {
 }
 
 TEST(WireFaults, WithoutThemTheLineAnswersAsTheSpecificationSays) {
-  // Requests of 8 characters but for the fourth, which has 19: 10,885,416 ns.
+  // Requests have 8 characters, except the fourth, which has 19: 10,885,416 ns.
   const SimTime after_long{10'885'416 + 750'000 + 572'916};
   EXPECT_EQ(good_answers(), (std::vector<Answer>{{kUsual, kFeederSays},
                                                  {kUsual, kSetSpeed},
@@ -142,8 +142,8 @@ const std::vector<TriggerCase>& line_triggers() {
       {"station=2 nth=2", {8}},
       {"at=450ms", {5}},
       {"at=450ms for=200ms", {5, 6}},
-      {"at=504.583333ms", {5}},  // it is over then, and the silence later
-      {"at=505.333334ms", {6}},  // and carried out at 505,333,333 ns
+      {"at=504.583333ms", {5}},  // it has ended then, and the silence later
+      {"at=505.333334ms", {6}},  // and executed at 505,333,333 ns
       {"from=350ms to=650ms", {4, 5, 6}},
       {"from=350ms times=2", {4, 5}},
       {"to=250ms", {1, 2}},
@@ -151,14 +151,14 @@ const std::vector<TriggerCase>& line_triggers() {
       // The second frame hits at 205 ms, and then whatever comes before 455 ms.
       {"nth=2 for=250ms", {2, 3, 4}},
       {"nth=2 for=250ms function=3", {3, 5}},  // of those that match
-      // The move begins at 706 ms and speeds up for 50 ms to 10,667 pulses a second: 1,060 pulses by the
+      // The move starts at 706 ms and accelerates for 50 ms to 10,667 pulses per second: 1,060 pulses by the
       // eighth frame, 1,900 by the ninth... (at - 0.025 s) * 10,667.
       {"when=\"feeder.A.pulses > 1500\"", {9, 10}},
       {"when=\"feeder.A.pulses > 1500\" nth=1", {9}},
       {"when=\"feeder.A.pulses > 1500\" times=1", {9}},
       {"when=\"feeder.Aaxis_Speed == 200 and time < 450ms\" station=2", {3}},
-      {"when=\"1 / feeder.A.pulses > 0\"", {}},  // no result: does not hold
-      // Of the stream of seed 7 (splitmix64) the numbers 1, 2, 5, 6, 7, 8, 9 and 10 are below a half.
+      {"when=\"1 / feeder.A.pulses > 0\"", {}},  // no result counts as false
+      // In the stream of seed 7 (splitmix64) the numbers 1, 2, 5, 6, 7, 8, 9 and 10 are below a half.
       {"chance=50% seed=7", {1, 2, 5, 6, 7, 8, 9, 10}},
       {"chance=30% seed=11", {2, 5, 7}},
       {"chance=100%", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
@@ -201,7 +201,7 @@ TEST(WireFaults, OfADeviceSeeItsOwnFramesOnly) {
     std::int64_t seen;
   };
   for (const auto& [trigger, hits, seen] : std::vector<Case>{
-           {"feeder nth=3", {4}, 8},  // after 1 and 2; the third is for the other one
+           {"feeder nth=3", {4}, 8},  // after 1 and 2; the third is for the other station
            {"feeder every=4", {5, 10}, 8},
            {"turner", {3, 8}, 2},
            {"turner nth=2", {8}, 2},
@@ -237,7 +237,7 @@ TEST(WireFaults, SlowDevicesCarryOutRequestsLate) {
     const RegisterName name = find_register(line.world().known(), "feeder.Aaxis_Speed");
     return read_value(*line.world().device(0).register_bank(), name.place);
   };
-  // It would have been carried out at 205,333,333 ns.
+  // It would have been executed at 205,333,333 ns.
   line.world().advance_to(SimTime{235'333'332});
   EXPECT_EQ(speed(), 0);
   line.world().advance_to(SimTime{235'333'333});
@@ -280,7 +280,7 @@ TEST(WireFaults, ABroadcastIsOneRequestOfTheLine) {
   for (const std::uint8_t station : {1, 2}) {
     EXPECT_EQ(line.ask(with_crc({station, 0x03, 0x10, 0x02, 0x00, 0x01})).bytes,
               with_crc({station, 0x03, 0x02, 0x00, 0x00}))
-        << "neither has heard it";
+        << "neither has received it";
   }
 }
 
@@ -336,7 +336,7 @@ TEST(WireFaults, StagesActInOrderAndDroppedFramesGoNoFurther) {
   EXPECT_EQ(line.course(garble).hits, 3);
   line.world().clear_fault(garble);
   line.world().clear_fault(behind);
-  EXPECT_EQ(line.ask(kAskFeeder), (Answer{kUsual, kFeederSays})) << "all mended";
+  EXPECT_EQ(line.ask(kAskFeeder), (Answer{kUsual, kFeederSays})) << "all cleared";
 }
 
 TEST(WireFaults, ALateReplyRunsIntoTheNextOne) {

@@ -17,7 +17,7 @@ TEST(Level, OfADigitalInputIsOnOrOff) {
     for (const char* text : {"", "On", "ON", "yes", "high", "1.0", "on ", " on", "+1", "1V", "0mV", "V"}) {
       EXPECT_EQ(parse_level(text, kind), std::nullopt) << text;
     }
-    EXPECT_EQ(parse_level("2", kind), 2) << "a number; whether the input can have it is judged elsewhere";
+    EXPECT_EQ(parse_level("2", kind), 2) << "a number; other code checks whether the input accepts it";
     EXPECT_EQ(level_example(kind), "on or off");
   }
 }

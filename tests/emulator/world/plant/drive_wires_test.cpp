@@ -45,7 +45,7 @@ std::string diagnostic_of(const std::string& wires) {
   }
 }
 
-/// An alarm that comes and goes; after that it is latched.
+/// An alarm that comes and clears; after that it is latched.
 std::string an_alarm(const std::string& axis) {
   return "  - inject: { alarm: d." + axis +
          ", name: a }\n  - advance: 50ms\n  - clear: a\n  - advance: 50ms\n" + "  - assert: d." + axis +
@@ -55,7 +55,7 @@ std::string an_alarm(const std::string& axis) {
 struct Controller {
   const char* model;
   const char* axis;
-  std::string on, off;  // steps that switch its servo on and off; none: it has no such thing
+  std::string on, off;  // steps that switch its servo on and off; none if it has no servo
 };
 const std::vector<Controller>& controllers() {
   static const std::vector<Controller> all{

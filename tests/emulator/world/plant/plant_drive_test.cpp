@@ -35,7 +35,7 @@ TEST(PlantDrive, IsReadySoManyTicksAfterItIsEnabledToTheMillisecond) {
 }
 
 TEST(PlantDrive, LosesThePulsesBeforeReadyAndMakesTheOthers) {
-  // Enabled in tick 5, ready at its end 3 ticks later, so that the pulses of tick 9 are the first that step.
+  // Enabled in tick 5, ready 3 ticks later at the end, so the pulses of tick 9 are the first that step.
   PlantAxis axis(with_drive({.ready_after = 3}));
   for (Tick tick = 1; tick <= 20; ++tick) axis.step(tick, 10, tick >= 5 ? kOn : kOff);
   EXPECT_EQ(axis.lost_pulses(), 8 * 10);
@@ -55,7 +55,7 @@ TEST(PlantDrive, WithoutADelayStepsFromTheTickAfterItIsEnabled) {
 TEST(PlantDrive, DisabledInMidMoveStopsInTheNextTickAndWaitsAgain) {
   PlantAxis axis(with_drive({.ready_after = 4}));
   for (Tick tick = 1; tick <= 30; ++tick) axis.step(tick, 1, tick == 15 ? kOff : kOn);
-  // Ready at tick 5; ticks 6 to 15 step (in 15 it is let go). Enabled again at 16, ready at 20: 21 to 30
+  // Ready at tick 5; ticks 6 to 15 step (it is disabled in 15). Enabled again at 16, ready at 20: 21 to 30
   // step.
   EXPECT_EQ(axis.position_pulses(), 10 + 10);
   EXPECT_EQ(axis.lost_pulses(), 10);
@@ -92,11 +92,11 @@ TEST(PlantDrive, AnAlarmLastsUntilClearedEvenIfItsCauseIsGone) {
   };
   Tick tick = 0;
   for (const Step& step : std::vector<Step>{{true, kOn, true, false},
-                                            {true, kOnAndClear, true, false},  // the cause lasts
+                                            {true, kOnAndClear, true, false},  // the cause persists
                                             {true, kOn, true, false},
                                             {false, kOn, true, false},  // latched
                                             {false, kOn, true, false},
-                                            {false, kOff, true, false},  // and not by switching it off
+                                            {false, kOff, true, false},  // and not by disabling it
                                             {false, kOn, true, false},
                                             {false, kOnAndClear, false, false},  // enabled again: 8
                                             {false, kOnAndClear, false, false},
@@ -107,7 +107,7 @@ TEST(PlantDrive, AnAlarmLastsUntilClearedEvenIfItsCauseIsGone) {
                                             {false, kOnAndClear, false, false},
                                             {true, kOn, true, false},
                                             {true, kOnAndClear, true, false},
-                                            {false, kOn, true, false},  // cleared too early: still there
+                                            {false, kOn, true, false},  // cleared too early: still on
                                             {false, {.alarm_clear = true}, false, false},
                                             {false, kOn, false, false},
                                             {false, kOn, false, false},

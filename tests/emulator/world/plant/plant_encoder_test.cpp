@@ -1,4 +1,4 @@
-// Encoders: counts against the closed form, over random walks, ratios and both senses.
+// Encoders: counts compared with the closed form, over random walks, ratios and both directions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,8 +75,8 @@ TEST(PlantEncoder, ComesBackToItsCountWhereverItHasBeen) {
 }
 
 TEST(PlantEncoder, OfTheFinestKindIsExactAsFarAsAMachineGoes) {
-  // 1e15 pulses are the end of a machine without stops, 1e7 counts a pulse the finest encoder: 1e22 is
-  // beyond 64 bits and wraps at 62. 1e22 mod 2^62 = 1e22 - 2168 * 2^62 = 1864712049423024128, below 2^61.
+  // 1e15 pulses are the limit of a machine without stops, 1e7 counts per pulse the finest encoder: 1e22
+  // exceeds 64 bits and wraps at 62. 1e22 mod 2^62 = 1e22 - 2168 * 2^62 = 1864712049423024128, below 2^61.
   PlantAxis axis(with_encoder(10'000'000, 1, false));
   PlantAxis reversed(with_encoder(10'000'000, 1, true));
   for (PlantAxis* one : {&axis, &reversed}) one->move(200'000'000'000);

@@ -155,7 +155,7 @@ TEST(PlantSlip, EndsAtTheStopsAndComesBeforeTheControllersPulses) {
   machine.faults().slipped_pulses = 1'000'000;
   machine.step(-4);
   EXPECT_EQ(machine.position(), 6);
-  EXPECT_EQ(machine.lost(), 0) << "what pushes a machine against its stop is not a pulse";
+  EXPECT_EQ(machine.lost(), 0) << "a force against the stop is not a pulse";
   machine.faults().slipped_pulses = -2;
   machine.step(7);
   EXPECT_EQ(machine.position(), 10);

@@ -40,7 +40,7 @@ TEST(PlantHysteresis, OfAHomeSwitchIsOnBothSides) {
                         {100, kHome},
                         {99, kHome},
                         {95, kHome},
-                        {94, 0},  // ... and lets go 5 pulses
+                        {94, 0},  // ... and releases 5 pulses
                                   // outside, that is one more
                         {95, 0},
                         {99, 0},
@@ -55,7 +55,7 @@ TEST(PlantHysteresis, OfAHomeSwitchIsOnBothSides) {
                         {124, kHome},
                         {95, kHome},  // across the switch, still held
                         {94, 0},
-                        {200, 0}});  // a step over it is not seen
+                        {200, 0}});  // a step over it is not detected
 }
 
 TEST(PlantHysteresis, OfLimitSwitchesIsTowardsTheMiddle) {
@@ -120,7 +120,7 @@ TEST(PlantHysteresis, AMachineAtRestAtPowerUpIsOnOnlyWhereTheSwitchIs) {
 }
 
 TEST(PlantHysteresis, APulseAtATimeIsSeenByTheLastEdgeThatWasCrossed) {
-  // The oracle looks at where the machine has been: on is what has been on the switch since it was last
+  // The oracle records where the machine has been: a switch is on if the machine was on it since it was last
   // farther away than the hysteresis.
   std::mt19937_64 random(20'240'601);
   const auto between = [&](std::int64_t low, std::int64_t high) {

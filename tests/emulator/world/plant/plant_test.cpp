@@ -133,7 +133,7 @@ TEST(PlantAxis, ASlowTurnThroughZeroCountsEvenly) {
   axis.move(-25);
   for (int pulses = 0; pulses <= 50; ++pulses) {
     EXPECT_EQ(axis.encoder_counts(), -5 + pulses / 5)
-        << pulses;  // a count every 5 pulses, on both sides of 0
+        << pulses;  // one count every 5 pulses, on both sides of 0
     axis.move(1);
   }
 }

@@ -45,7 +45,7 @@ PlantSetup random_setup(Random& random) {
 /// Levels from outside, held until they change.
 struct Outside {
   DriveInputs inputs;
-  MachineFaults faults;  // but for slips
+  MachineFaults faults;  // except for slips
 };
 
 void change(Outside& outside, Random& random) {
@@ -68,7 +68,7 @@ TEST(PlantTicks, ThatNothingHappensInMayBeLeftOut) {
     PlantAxis every(setup);
     PlantAxis seldom(setup);
     Outside outside;
-    every.step(0, 0, outside.inputs);  // as a world begins
+    every.step(0, 0, outside.inputs);  // in the initial state of a world
     seldom.step(0, 0, outside.inputs);
     Tick done = 0;
     for (Tick tick = 1; tick <= 3000; ++tick) {

@@ -28,8 +28,8 @@ class BusyWorld {
     begin();
   }
 
-  /// Hosts come, write good and bad frames, at once or in pieces, and leave; inputs, power, faults, registers
-  /// and programs change; time advances in irregular steps.
+  /// Hosts connect, write valid and invalid frames, at once or in pieces, and disconnect; inputs, power,
+  /// faults, registers and programs change; time advances in irregular steps.
   void play(int events) {
     for (int i = 0; i < events; ++i) {
       world_.advance_to(world_.now() + SimTime{below(20) == 0 ? below(3'000'000'000) : below(30'000'000)});
@@ -48,7 +48,7 @@ class BusyWorld {
 
   World& world() { return world_; }
   std::uint64_t said() const { return said_; }
-  /// The recording, ended.
+  /// Returns the recording, ended.
   std::string finish() {
     recorder_->finish();
     return text_;

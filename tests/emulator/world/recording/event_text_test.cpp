@@ -31,7 +31,7 @@ TEST(EventText, SaysWhatCameFromOutsideBesideBytes) {
       {R"("do":"power","device":0,"on":true)", "power feeder on"},
       {R"("do":"inject","fault":{"stall":"feeder.A"})", "inject stall feeder.A"},
       {R"("do":"clear","number":3)", "clear 3"},
-      // A word; both of a 32-bit register, the low one first; one of them; one where there is nothing.
+      // A word; both words of a 32-bit register, the low one first; one of them; one that does not exist.
       {R"("do":"write","device":0,"table":0,"first":4098,"words":"00c8")", "set feeder.Aaxis_Speed=200"},
       {R"("do":"write","device":0,"table":0,"first":4096,"words":"ee90fffe")",
        "set feeder.Aaxis_Pulse=-70000"},

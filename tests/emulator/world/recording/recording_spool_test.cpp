@@ -103,7 +103,7 @@ TEST(RecordingSpool, ReplacesNoOlderPartThatIsNoRecording) {
   struct Case {
     const char* name;
     std::function<void(const std::string& older)> put;
-    const char* why;  // why it stays
+    const char* why;  // why it is kept
   };
   const auto text = [](const std::string& path, const std::string& words) { std::ofstream(path) << words; };
   const std::vector<Case> cases = {

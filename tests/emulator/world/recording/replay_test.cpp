@@ -55,7 +55,7 @@ TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
     BusyWorld busy(seed, seed % 3 == 0 ? "instant" : "wire");
     busy.play(300);
     const std::string text = busy.finish();
-    testing::AssertionResult same = testing::AssertionFailure() << "nothing was played";
+    testing::AssertionResult same = testing::AssertionFailure() << "nothing was replayed";
     const Replayed again = play(text, {}, [&](World& world) { same = same_state(world, busy.world()); });
     EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
     EXPECT_TRUE(again.result.has_end);
@@ -109,7 +109,7 @@ TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
   EXPECT_EQ(ended_with(state).verdict, Verdict::same);
   WorldState other = state;
   other.parts.back().bytes.back() ^= std::byte{1};  // at the edge
-  EXPECT_EQ(ended_with(other).verdict, Verdict::same) << "what a host has not taken yet is nobody's concern";
+  EXPECT_EQ(ended_with(other).verdict, Verdict::same) << "data that a host has not read do not matter";
   // The complete difference of a world that got one more pulse from outside.
   busy.world().set_external_input(0, 0, busy.world().device(0).input(0) == 0 ? 1 : 0);
   const ReplayResult moved = ended_with(save(busy.world()));
@@ -117,7 +117,7 @@ TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
   EXPECT_TRUE(moved.difference.starts_with("ends in a different state: ")) << moved.difference;
   EXPECT_NE(moved.difference.find("inputs[0]"), std::string::npos) << moved.difference;
   EXPECT_TRUE(moved.difference.ends_with("(recorded against replayed)")) << moved.difference;
-  EXPECT_EQ(ended_with(save(busy.world()), "0.0.1").verdict, Verdict::same) << "of another version";
+  EXPECT_EQ(ended_with(save(busy.world()), "0.0.1").verdict, Verdict::same) << "from another version";
   WorldState short_of_one = state;
   short_of_one.parts.erase(short_of_one.parts.begin());
   EXPECT_THROW(ended_with(short_of_one), RecordingError);

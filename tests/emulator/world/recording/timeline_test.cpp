@@ -54,7 +54,7 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
     const auto take_back = [&](const WorldState& state, std::size_t) { restore(world, state); };
     for (std::int64_t i = 1; i <= 12; ++i) {
       const auto mixed = i * 7 % 13;
-      // Also at the very time of an event.
+      // Also at exactly the time of an event.
       const SimTime time = i % 2 == 0 ? SimTime{timeline.end().count() * mixed / 13}
                                       : events[events.size() * static_cast<std::size_t>(mixed) / 13].at;
       std::istringstream again(text);

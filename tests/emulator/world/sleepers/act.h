@@ -11,7 +11,7 @@
 namespace understudy::emulator::world::sleepers {
 
 struct Act {
-  std::string words;  // what it is called where a course is told
+  std::string words;  // its name in the description of a course
   std::function<void(World&)> carry_out;
   SimTime before{0};  // since the act before it
 };

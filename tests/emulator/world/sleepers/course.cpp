@@ -73,7 +73,7 @@ std::string indented(const std::string& listing) {
 
 }  // namespace sleepers_course
 
-/// A bench that is not possible is drawn again.
+/// An impossible bench is drawn again.
 Course course_of(std::string_view name, std::uint64_t seed) {
   using namespace sleepers_course;
   const std::unique_ptr<Life> life = life_of(name);

@@ -1,5 +1,5 @@
-// What only a person who knows a controller can provide: its machines, programs for it, and what makes it
-// move. The rest of a course is drawn from its model's tables (act.h).
+// What only a person who knows a controller can provide: its machines, programs for it, and commands that
+// move it. The rest of a course is drawn from its model's tables (act.h).
 #pragma once
 
 #include <memory>

@@ -43,7 +43,7 @@ std::string comparison(Draw& draw) {
   return left + draw.one_of(kRelations) + right;
 }
 
-/// One of each that there can be; what it is bound to, by chance.
+/// One of each possible kind, bound at random.
 std::string some_keys(Draw& draw) {
   const std::string b_speed = draw.one_in(4) ? draw.one_of(kShown) : "B_SPEED";
   std::string text =

@@ -22,7 +22,7 @@ std::uint16_t operand(Draw& draw, language::Operand kind) {
   }
 }
 
-/// Lines of any commands, of which the last goes back to the first. Those that wait come often.
+/// Lines of any commands, of which the last jumps back to the first. Lines that wait are frequent.
 std::vector<std::uint16_t> some_words(Draw& draw) {
   std::vector<std::uint16_t> words;
   const auto lines = static_cast<int>(draw.between(3, 20));

@@ -12,7 +12,7 @@ std::string contact(Draw& draw) {
     case 1: return "X" + draw.number(0, 12);
     case 2: return "X" + draw.number(20, 24);
     case 3: return "Y" + draw.number(0, 9);
-    // Seldom contacts that the ladder itself switches, because then it may never settle.
+    // Rarely contacts that the ladder itself switches, because then it may never settle.
     case 4: return "M" + (draw.one_in(8) ? draw.number(0, 6) : draw.number(20, 32));
     case 5: return "T" + draw.number(0, 5);
     case 6: return "M" + draw.number(8000, 8023);

@@ -93,7 +93,7 @@ testing::AssertionResult same_worlds(World& plain, World& awake) {
     const auto said = plain.line(i).line.output();
     const auto also_said = awake.line(i).line.output();
     if (!std::equal(said.begin(), said.end(), also_said.begin(), also_said.end()))
-      return testing::AssertionFailure() << "what a line says differs";
+      return testing::AssertionFailure() << "the output of a line differs";
     const std::size_t size = said.size();
     plain.take_output(i, size);
     awake.take_output(i, size);
@@ -142,12 +142,13 @@ class Promises {
     world.advance_to(next);
     for (const auto& [place, value] : shown) {
       EXPECT_EQ(read_value(*device.register_bank(), place), value)
-          << RegisterMap::name_of(*place.row, place.index) << " is said to change in ticks that are run";
+          << RegisterMap::name_of(*place.row, place.index)
+          << " is reported as changing in ticks that are run";
     }
     for (const auto& [output, level] : outputs) {
       EXPECT_EQ(device.terminals()->output(output), level)
           << device.model().terminals[static_cast<std::size_t>(output)].name
-          << " is said to change in ticks that are run";
+          << " is reported as changing in ticks that are run";
     }
   }
 
@@ -251,7 +252,7 @@ TEST_P(Sleepers, AreWokenByAllThatMattersToThem) {
   }
   std::cout << GetParam() << ": " << courses << " courses, " << crossed << " ticks crossed, " << run
             << " run\n";
-  EXPECT_GT(crossed, 20 * courses) << "worth something only if many are";
+  EXPECT_GT(crossed, 20 * courses) << "meaningful only if many are";
   EXPECT_GT(run, 100 * courses);
 }
 

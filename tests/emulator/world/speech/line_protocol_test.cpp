@@ -59,7 +59,7 @@ TEST(LineProtocol, IsRefusedWhereTheWorldHasNone) {
   EXPECT_EQ(diagnostic, "chief: no line of a world carries smoke signs");
 }
 
-/// It does not speak the protocol in which it is addressed.
+/// It does not use the protocol in which it is addressed.
 class Mute final : public Device {
  public:
   using Device::Device;

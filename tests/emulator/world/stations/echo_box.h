@@ -1,5 +1,5 @@
-// A model of the tests' own that is spoken to in lines of text: says back what it is told, and says something
-// unasked at a tick. Small enough that whatever a test expects of it can be seen here.
+// The tests' own model with a text protocol: it repeats what it is sent, and sends something unrequested at a
+// tick. It is so small that all its behaviour can be seen here.
 //
 //   SAY WORDS    WORDS
 //   AT TICK      nothing now; "TICK n" at that tick
@@ -135,7 +135,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
   }
   std::vector<std::string> names() const override { return {"N0", "R0", "ECHO", "MODULES"}; }
 
-  // --- memory: everything is kept at once --------------------------------------------------------
+  // --- memory: everything is saved at once -------------------------------------------------------
   std::uint64_t kept_revision() const override { return revision_; }
   void settle_memory() override {}
   void load_program(std::string_view text) override {

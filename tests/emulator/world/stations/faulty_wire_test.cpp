@@ -14,7 +14,7 @@ namespace faulty_wire_test {
 using namespace std::chrono_literals;
 using Kind = pty::WireFault::Kind;
 
-/// Reports what it was asked about, and does to messages what a test requests.
+/// Records the questions it gets, and does to messages what a test requests.
 struct Faults final : FrameFaults {
   bool is_early(const HeardFrame&) override { return true; }
   std::vector<pty::WireFault> on_request(const HeardFrame& frame) override {
@@ -124,7 +124,7 @@ TEST(FaultyWire, KeepsLateMessagesInTheOrderOfTime) {
   rig.faults.request = {{.kind = Kind::delay, .time = 2ms}};
   rig.answer({1}, 0ms);
   EXPECT_FALSE(rig.hear({2}, 0ms));
-  EXPECT_FALSE(rig.hear({3}, 8ms));  // at the same moment as the answer, and behind it
+  EXPECT_FALSE(rig.hear({3}, 8ms));  // at the same moment as the reply, and after it
   EXPECT_EQ(rig.wire.due(), 2ms);
   EXPECT_EQ(rig.log_until(20ms), "serve 02 of 7\nsay 01 to 7\nserve 03 of 7\n");
 }

@@ -32,7 +32,7 @@ Bytes framed(std::uint8_t address, const Bytes& pdu) {
   return frame;
 }
 
-/// A single station that gets frames far apart.
+/// A single station that receives frames far apart.
 struct StationRig final : pty::Transmitter {
   explicit StationRig(const DeviceSettings& settings = {}, pty::RtuFraming framing = kTolerant)
       : device(make_simple2(settings)), station(*device, 0, framing) {}
@@ -51,7 +51,7 @@ struct StationRig final : pty::Transmitter {
       now = std::max(now, *station.due());
       station.run(now, *this);
       if (runs < 1000) continue;
-      ADD_FAILURE() << "it is due for ever";
+      ADD_FAILURE() << "it is always due";
       break;
     }
     now += 100ms;
@@ -133,7 +133,7 @@ TEST(RtuStation, EverySingleWrongBitKeepsItSilentAndUnchanged) {
       }
       EXPECT_TRUE(rig.is_untouched()) << example;
       EXPECT_EQ(rig.station.counters().requests, 0u);
-      EXPECT_EQ(rig.exchange(frame).size(), 1u) << "and it hears the next good frame";
+      EXPECT_EQ(rig.exchange(frame).size(), 1u) << "and it receives the next valid frame";
     }
   }
 }
@@ -237,7 +237,7 @@ TEST(RtuStation, WhatItHalfHeardIsForgottenWhenAnotherStationSpeaks) {
   EXPECT_TRUE(rig.is_untouched());
 }
 
-// --- on a line: what silence means (specification 1.1: END time, idle from stop bit to start bit) ---------
+// --- on a line: the meaning of silence (specification 1.1: END time, idle from stop bit to start bit) -----
 
 /// Returns the reply to a frame that is sent in two parts with an idle gap between them.
 std::string reply_to_split(const Bytes& frame, std::size_t first_part, SimTime gap, int baud) {
@@ -286,7 +286,7 @@ TEST(StrictFraming, TheReplyBeginsNoEarlierThanTheEndTime) {
   pty::Line line("line", {.settings = device->line_settings(0), .enforce_settings = false}, {});
   line.attach(station);
   line.receive(hex("01 03 00 01 00 01 D5 CA"), 0ns);
-  // 8 characters of 11 bits at 19200 baud, 0.75 ms, one character of the reply: 5,906,250 ns and a bit.
+  // 8 characters of 11 bits at 19200 baud, 0.75 ms, one character of the reply: a little over 5,906,250 ns.
   const SimTime first_byte = 4'583'333ns + 750'000ns + 572'916ns;
   line.run(first_byte - 1ns);
   EXPECT_EQ(text(line.output()), "");

@@ -70,7 +70,7 @@ TEST(ModbusServer, TestsFunctionThenQuantityThenAddressesThenValues) {
   };
   const auto device = make_simple2();
   for (const Case& c : cases) EXPECT_EQ(ask(*device, c.request), c.reply) << c.what;
-  EXPECT_TRUE(same_state(*device, *make_simple2())) << "a refused request changed something";
+  EXPECT_TRUE(same_state(*device, *make_simple2())) << "a refused request has changed something";
 }
 
 TEST(ModbusServer, ARequestOfTheWrongLengthIsABadValue) {
@@ -144,7 +144,7 @@ TEST(ModbusServer, ProgramCellsKeepTheLowByteOfWhatIsWritten) {
   EXPECT_EQ(read(*device, 0x4000, 4), (Words{0x34, 0x00, 0xFF, 0x7F}));
 }
 
-// --- what starts ------------------------------------------------------------------------------
+// --- commands that start motion ---------------------------------------------------------------
 
 TEST(ModbusServer, OneRequestSetsAMoveAndStartsItWithTheNewValues) {
   const auto device = make_simple2();

@@ -1,4 +1,4 @@
-// A model that speaks text in the rest of the product: benches, names, control, scenarios, recordings,
+// A model with a text protocol in the rest of the product: benches, names, control, scenarios, recordings,
 // memories.
 #include <gtest/gtest.h>
 
@@ -126,7 +126,7 @@ TEST(TextBench, ExpressionsKnowItsValues) {
   EXPECT_EQ(value("robot.requests"), "0");
   try {
     value("robot.N1");
-    ADD_FAILURE() << "there is none";
+    ADD_FAILURE() << "it does not exist";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("robot has no value called 'N1'"), std::string::npos)
         << error.what();
@@ -173,7 +173,7 @@ TEST(TextBench, ARecordingOfItIsPlayedBitForBit) {
                       {.version = "1", .bench = to_text(bench), .options = {}, .seed = 0, .snapshot = {}},
                       [&](std::string_view line) { text += line; });
     const auto say = [&](std::string_view line) {
-      world.advance_to(world.now());  // what was due comes first
+      world.advance_to(world.now());  // earlier output comes first
       world.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
       world.advance_to(world.now() + 33'333us);
     };

@@ -1,4 +1,4 @@
-// A device that speaks text, on its line: what it receives, what it sends, and when.
+// A text-protocol device on its line: what it receives, what it sends, and when.
 #include "emulator/world/stations/text_station.h"
 
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@ namespace text_station_test {
 
 using namespace std::chrono_literals;
 
-// 9600 8N1: ten bits a character, 1041666.67 ns.
+// 9600 8N1: ten bits per character, 1041666.67 ns.
 SimTime characters(std::int64_t count) { return SimTime{count * 10 * 1'000'000'000 / 9600}; }
 
 struct Rig {
   explicit Rig(pty::Timing timing = pty::Timing::wire, DeviceSettings settings = {})
       : bench(echo_bench(timing, with_greeting(std::move(settings)))), world(bench, {}, {}) {
-    world.advance_to(20ms);  // what it says at power-up is over: "HELLO", CR, LF take 7.3 ms
+    world.advance_to(20ms);  // its text at power-up has ended: "HELLO", CR, LF take 7.3 ms
     EXPECT_EQ(heard(), "HELLO\r\n");
   }
   static DeviceSettings with_greeting(DeviceSettings settings) {
@@ -51,7 +51,7 @@ struct Rig {
 TEST(TextStation, AnswersALineInTheTimeOfTheWire) {
   Rig rig;
   const SimTime start = rig.world.now();
-  rig.say("SAY ab\r");  // seven characters there, four back
+  rig.say("SAY ab\r");  // seven characters to the device, four back
   rig.world.advance_to(start + characters(7) + characters(1) - 1ns);
   EXPECT_EQ(rig.heard(), "");
   rig.world.advance_to(start + characters(7) + characters(1));
@@ -96,7 +96,7 @@ TEST(TextStation, WhatItSaysUnaskedWaitsUntilTheWireIsFree) {
   Rig rig;
   rig.answer("AT 300\r");
   rig.world.advance_to(290ms);
-  // Eight characters there: heard at 298.3 ms; "line 1" to "line 3" with their ends are 24 back.
+  // Eight characters to the device: received at 298.3 ms; "line 1" to "line 3" with their ends are 24 back.
   rig.say("LIST 3\r");
   rig.world.advance_to(400ms);
   EXPECT_EQ(rig.heard(), "line 1\r\nline 2\r\nline 3\r\nTICK 300\r\n");
@@ -159,7 +159,7 @@ TEST(TextStation, WhatItWasSayingEndsWithItsPower) {
   rig.world.advance_to(rig.world.now() + characters(7) + characters(10) + 1us);
   rig.world.switch_power(0, false);
   rig.world.advance_to(rig.world.now() + 1s);
-  // Ten characters are over, and the eleventh has begun.
+  // Ten characters have ended, and the eleventh has started.
   EXPECT_EQ(rig.heard(), "line 1\r\nlin");
 }
 
@@ -183,7 +183,7 @@ TEST(TextStation, CountsLinesAndAnswers) {
 
 TEST(TextStation, ActsFromOutsideMayMakeItSpeakAndAreSentAtTheirTime) {
   Rig rig;
-  rig.box().hear_line("SAY x");  // as an act does: past the line
+  rig.box().hear_line("SAY x");  // as an act does: not over the line
   EXPECT_EQ(rig.world.assign(0, "N0", 7), std::nullopt);
   rig.world.advance_to(rig.world.now() + characters(3));
   EXPECT_EQ(rig.heard(), "x\r\n");

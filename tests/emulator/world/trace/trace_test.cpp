@@ -1,4 +1,4 @@
-// A trace against another watcher of the same world, in both formats; and VCD as others read it.
+// A trace compared with another observer of the same world, in both formats; and VCD as others read it.
 #include "emulator/world/trace/trace.h"
 
 #include <unistd.h>
@@ -15,7 +15,7 @@
 namespace understudy::emulator::world {
 namespace trace_test {
 
-/// Traces while a scenario is played.
+/// Traces while a scenario runs.
 class TracingObserver final : public play::Observer {
  public:
   TracingObserver(World& world, std::string& csv, std::string& vcd)
@@ -206,7 +206,7 @@ TEST_F(VcdFile, IsTakenByGtkwavesTools) {
   for (const char* name : {"position", "speed", "DIN_10", "STATUS.4"}) {
     EXPECT_NE(text.find(name), std::string::npos) << name;
   }
-  // -1000 in 64 bits is there as it was.
+  // -1000 in 64 bits is unchanged.
   EXPECT_NE(text.find("b1111111111111111111111111111111111111111111111111111110000011000"),
             std::string::npos);
 }

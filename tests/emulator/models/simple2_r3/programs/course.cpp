@@ -202,7 +202,7 @@ Wishes wishes_of(const Course& wanted) {
 
 // --- playing -------------------------------------------------------------------------------------
 
-/// A box with the program running, and what is done to it in the order of time.
+/// A box with the program running, and what is done to it in chronological order.
 struct Stage {
   explicit Stage(const Play& given) : play(given), box(given.given) {
     for (const auto& some : play.deeds) deeds.insert(deeds.end(), some.begin(), some.end());
@@ -292,7 +292,7 @@ void expect_course(const Play& play, std::string_view table) {
   Course happened;
   play_and_look(stage, wishes_of(wanted), happened);
   if (const Tick differs = first_difference(wanted, happened); differs >= 0) {
-    ADD_FAILURE() << play.listing << ": first difference at " << differs << " ms\nworked out:\n"
+    ADD_FAILURE() << play.listing << ": first difference at " << differs << " ms\ncalculated:\n"
                   << to_string(wanted, differs - 10, 12) << "happened:\n"
                   << to_string(happened, differs - 10, 12);
   }
@@ -300,7 +300,7 @@ void expect_course(const Play& play, std::string_view table) {
 
   Stage leaping(play);
   play_in_leaps(leaping);
-  EXPECT_TRUE(same_state(stage.box.device(), leaping.box.device())) << play.listing << ", played in leaps";
+  EXPECT_TRUE(same_state(stage.box.device(), leaping.box.device())) << play.listing << ", with fast-forward";
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

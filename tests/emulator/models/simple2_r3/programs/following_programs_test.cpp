@@ -80,7 +80,7 @@ Deed potentiometer_goes(Tick at, int millivolts) {
 }
 
 // 200 counts of Analog_A a volt, 30 mRPM a count: 5 V are 30 RPM. VelMode_ACC 25000 is 0.025 RPM in each step
-// of 0.5 ms, speed first (appendix B: 2 kHz). With 6000 pulses a revolution 1 RPM makes 0.05 pulses a step,
+// of 0.5 ms, speed first (appendix B: 2 kHz). With 6000 pulses per revolution 1 RPM makes 0.05 pulses a step,
 // so after n steps
 //   from rest:          0.05 * 0.025 * n * (n + 1) / 2 = 0.000625 * n * (n + 1) pulses,
 //   at a speed of v:    0.05 * v * n                                            pulses,

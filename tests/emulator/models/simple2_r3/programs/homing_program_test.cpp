@@ -4,9 +4,8 @@
 namespace understudy::emulator::models::simple2_r3 {
 namespace homing_program_test {
 
-// 3000 pulses a revolution: homing at 20 RPM is 1 pulse/ms, its ramps of 10 ms take 5 pulses, so
-// s(j) = j - 5 from 10 ms on. The way to work is 200 RPM = 10 pulses/ms with ramps of 20 ms:
-// TT = P / 10 + 20.
+// 3000 pulses per revolution: homing at 20 RPM is 1 pulse/ms, its ramps of 10 ms take 5 pulses, so s(j) = j -
+// 5 from 10 ms on. The way to work is 200 RPM = 10 pulses/ms with ramps of 20 ms: TT = P / 10 + 20.
 const std::vector<std::pair<std::string, Value>> kMachine = {
     {"DIN0_Aaxis_Alarm", 1},    {"DIN1_Aaxis_Ready", 1},  {"DIN2_Aaxis_UP_Limit", 1},
     {"DIN3_Aaxis_DN_Limit", 1}, {"DIN4_Aaxis_Home", 1},   {"DOUT0_Aaxis_SVON", 1},
@@ -102,7 +101,7 @@ TEST(Program, HomingSeesAnAlarmInTheVeryMs) {
 )");
 }
 
-// There is no home switch between the limits. The search turns round at the first limit, at once and from
+// There is no home switch between the limits. The search reverses at the first limit, at once and from
 // standstill, and gives up at the second.
 TEST(Program, HomingWithoutASwitchGivesUpAtTheSecondLimit) {
   expect_course({.listing = "homing_with_alarm.lst",
