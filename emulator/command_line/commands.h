@@ -200,6 +200,12 @@ void require_page_port(const std::string& flag, int port);
 /// Serves the page like show_page(), in a separate process that ends with this one.
 void start_page_beside(const std::string& control, int port);
 
+struct DapArguments {
+  std::string listen;  // "127.0.0.1:4711"; empty: standard input and output
+};
+/// Serves editors by the Debug Adapter Protocol (docs/debugging.md).
+int serve_debug_adapter(const DapArguments& arguments);
+
 struct PollArguments {
   std::string port;
   // If unset or empty, the model's factory settings are used; a model without a station number uses station

@@ -255,7 +255,7 @@ void print_registers(const Json& reply) {
 
 bool add_look_words(const ControlArguments& arguments, Json& message) {
   const std::string& verb = arguments.verb;
-  if (verb == "bench" || verb == "where" || verb == "stack" || verb == "choices") {
+  if (verb == "bench" || verb == "where" || verb == "stack" || verb == "source" || verb == "choices") {
     add_one_device(arguments, message);
   } else if (verb == "coverage") {
     add_coverage_words(arguments, message);

@@ -52,6 +52,8 @@ inline constexpr std::array kControlWords{
     ControlWord{"continue", "Let simulated time run on after a stop", "WITHIN", "within=10s"},
     ControlWord{"stack", "Show where a device's programs are, and their callers", "DEVICE",
                 "Name of the device"},
+    ControlWord{"source", "Print the text in whose lines breakpoints and stacks count", "DEVICE",
+                "Name of the device"},
     ControlWord{"variables", "Show the values of a device's program, axes and terminals", "DEVICE",
                 "Name of the device, and scope=program, axes or terminals"},
     ControlWord{"speed", "Change how fast simulated time runs", "SPEED", "real, free, manual, or a factor"},

@@ -23,6 +23,7 @@
 #include "emulator/command_line/completion.h"
 #include "emulator/command_line/ctl_words.h"
 #include "emulator/command_line/poll_flags.h"
+#include "emulator/command_line/replay_flags.h"
 #include "emulator/command_line/run_flags.h"
 #include "emulator/command_line/serving_flags.h"
 #include "emulator/device/model.h"
@@ -44,6 +45,7 @@ struct CommandLine {
   WatchArguments watched;
   FramesArguments frames;
   PageArguments page;
+  DapArguments dap;
   PollArguments poll;
   PlotArguments plot;
   ProgramTextArguments program;
@@ -68,7 +70,7 @@ struct CommandLine {
     const char* help;
     void (CommandLine::*fill)(CLI::App& command);
   };
-  static const std::array<Command, 19> kCommands;
+  static const std::array<Command, 20> kCommands;
   static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
@@ -123,33 +125,7 @@ struct CommandLine {
   }
 
   void add_replay(CLI::App& command) {
-    command.add_option("RECORDING", replay.recording, "A file written by `serve --record` or `run`")
-        ->required();
-    command.add_option("--until", replay.until, "Stop at this simulated time and serve from there [the end]")
-        ->check(kNotEmpty);
-    command
-        .add_option("--control", replay.control,
-                    "Path of the control socket, with --until or --page [a private path]")
-        ->check(kNotEmpty);
-    CLI::Option* const trace = command.add_option(
-        "--trace", replay.trace,
-        "Write positions and signals over time to this file: FILE.csv, or FILE.vcd for GTKWave");
-    CLI::Option* const trace_also = command.add_option("--trace-also", replay.trace_also, kTraceAlsoHelp);
-    CLI::Option* const capture =
-        command.add_option("--capture", replay.capture,
-                           "Write the traffic on the lines to this file: FILE.pcapng for Wireshark, any "
-                           "other name for a text log");
-    CLI::Option* const report =
-        command.add_option("--report", replay.report, "Write a report on it to this file, as HTML");
-    for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
-    trace_also->delimiter(',');
-    command
-        .add_option(
-            "--page", replay.page,
-            "Open the recording in a browser, at the time of --until if given, on this port [any free port]")
-        ->expected(0, 1)
-        ->default_str("0")
-        ->excludes(trace, trace_also, capture, report);
+    add_replay_flags(command, replay);
     command.callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(models, replay); };
@@ -238,6 +214,14 @@ struct CommandLine {
     if (std::string_view(word.verb) != "run-until") return;
     command.add_option("--within", control.within, "Give up after this much simulated time")
         ->capture_default_str();
+  }
+
+  void add_dap(CLI::App& command) {
+    command
+        .add_option("--listen", dap.listen,
+                    "Serve clients at this address, HOST:PORT, one at a time [standard input and output]")
+        ->check(kNotEmpty);
+    command.callback([this] { chosen = [this] { return serve_debug_adapter(dap); }; });
   }
 
   void add_page(CLI::App& command) {
@@ -362,7 +346,7 @@ struct CommandLine {
 };
 
 // This is the order of `--help`.
-const std::array<CommandLine::Command, 19> CommandLine::kCommands{{
+const std::array<CommandLine::Command, 20> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
@@ -373,6 +357,7 @@ const std::array<CommandLine::Command, 19> CommandLine::kCommands{{
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
     {"ctl", "Inspect and control a running `serve`", &CommandLine::add_control},
     {"page", "Show running benches in a browser", &CommandLine::add_page},
+    {"dap", "Debug controllers' programs from an editor (Debug Adapter Protocol)", &CommandLine::add_dap},
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},

@@ -20,7 +20,7 @@ struct PassedVerb {
   bool changes = false;
   std::array<std::string_view, 2> only_with{};
 };
-constexpr std::array<PassedVerb, 37> kPassedVerbs{{{"status"},
+constexpr std::array<PassedVerb, 38> kPassedVerbs{{{"status"},
                                                    {"identify"},
                                                    {"bench"},
                                                    {"registers"},
@@ -33,6 +33,7 @@ constexpr std::array<PassedVerb, 37> kPassedVerbs{{{"status"},
                                                    {"events"},
                                                    {"where"},
                                                    {"stack"},
+                                                   {"source"},
                                                    {"variables"},
                                                    {"break", true},
                                                    {"continue", true},

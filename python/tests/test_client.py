@@ -415,6 +415,7 @@ def test_a_program_is_debugged(bench):
     stop = bench.go_on(within="1s")
     assert stop["breakpoint"] == number and stop["line"] == 2
     assert bench.stack()[0]["frames"][0]["line"] == 2
+    assert bench.source().splitlines()[1].split() == ["Delay_mSec", "5"]
     assert bench.variables()["program"] == {"device.PROG_VAR0": 3}
     assert bench.step_program("line")["line"] == 3
     assert [one["hits"] for one in bench.breaks()] == [1]

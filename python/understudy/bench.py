@@ -133,6 +133,10 @@ class Bench:
     def stack(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
         return cast(List[Dict[str, Any]], self.ask("stack", **_of(device))["stacks"])
 
+    def source(self, device: Optional[str] = None) -> str:
+        """Returns the text in whose lines breakpoints and stacks count."""
+        return str(self.ask("source", **_of(device))["text"])
+
     def variables(self, device: Optional[str] = None) -> Dict[str, Dict[str, Value]]:
         """Returns the values of the scopes `program`, `axes` and `terminals`."""
         return {scope["name"]: scope["values"] for scope in self.ask("variables", **_of(device))["scopes"]}

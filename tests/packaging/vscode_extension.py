@@ -160,6 +160,69 @@ class ProblemMatchers(unittest.TestCase):
         self.assertIn("Aaxis_Mode", found[0]["message"])
 
 
+class Adapter:
+    """The debug adapter, started as VS Code starts it: by the contribution's `runtime`, which is found in PATH."""
+
+    def __init__(self, debugger):
+        self.sent = 0
+        path = os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"]
+        self.process = subprocess.Popen([debugger["runtime"], *debugger["runtimeArgs"]], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, env=os.environ | {"PATH": path})
+
+    def receive(self):
+        length = int(self.process.stdout.readline().split(b":")[1])
+        self.process.stdout.readline()
+        return json.loads(self.process.stdout.read(length))
+
+    def ask(self, command, arguments):
+        self.sent += 1
+        text = json.dumps({"seq": self.sent, "type": "request", "command": command, "arguments": arguments}).encode()
+        self.process.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(text), text))
+        self.process.stdin.flush()
+        while True:
+            message = self.receive()
+            if message["type"] == "response" and message["request_seq"] == self.sent:
+                return message
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.stdout.close()
+        self.process.wait()
+
+
+class Debugger(unittest.TestCase):
+    def configurations(self):
+        """Returns the snippets of launch.json as a user gets them, without the names in the places."""
+        def plain(value):
+            if not isinstance(value, str):
+                return value
+            text = value[2:-1] if value.startswith('^"') else value  # VS Code: the rest is the JSON to insert
+            return re.sub(r"\$\{\d+:([^}]*)\}", r"\1", text).replace("\\$", "$")
+        debugger = package()["debuggers"][0]
+        bodies = [snippet["body"] for snippet in debugger["configurationSnippets"]]
+        return [{key: plain(value) for key, value in body.items()} for body in bodies + debugger["initialConfigurations"]]
+
+    def test_configurations_have_only_attributes_that_are_described(self):
+        attributes = package()["debuggers"][0]["configurationAttributes"]
+        for configuration in self.configurations():
+            described = set(attributes[configuration["request"]]["properties"])
+            self.assertLessEqual(set(configuration) - {"type", "request", "name"}, described)
+
+    def test_launch_configurations_start(self):
+        with tempfile.TemporaryDirectory() as folder:
+            understudy("init", "--model", "simple2-r3", folder)
+            for configuration in self.configurations():
+                arguments = {key: value.replace("${workspaceFolder}", folder) if isinstance(value, str) else value
+                             for key, value in configuration.items()}
+                if arguments["request"] == "launch":
+                    adapter = Adapter(package()["debuggers"][0])
+                    self.assertTrue(adapter.ask("initialize", {"adapterID": "understudy"})["success"])
+                    answer = adapter.ask("launch", arguments)
+                    self.assertTrue(answer["success"], (answer, arguments))
+                    adapter.ask("disconnect", {})
+                    adapter.end()
+
+
 class Recipes(unittest.TestCase):
     def test_tasks_name_the_problem_matchers_and_are_those_of_the_page(self):
         with open(os.path.join(PROJECT, "recipes", "vscode", "tasks.json"), encoding="utf-8") as file:

@@ -236,9 +236,11 @@ ReplyTask device_message(Daemon& daemon, std::size_t number) {
   text.member("registers", model.registers != nullptr);
   text.member("commands", !model.commands.empty() || model.window != nullptr);
   if (model.language != nullptr) {
-    text.member("program", Json{{"language", model.language->name()},
-                                {"file_ending", model.language->file_ending()},
-                                {"controls", controls_of(*model.language)}});
+    Json program{{"language", model.language->name()},
+                 {"file_ending", model.language->file_ending()},
+                 {"controls", controls_of(*model.language)}};
+    if (model.language->parts_run_at_once()) program["at_once"] = true;
+    text.member("program", program);
   }
   text.member("gaps", names_json(model.gaps));
   text.close_object();

@@ -4,11 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
@@ -149,25 +152,42 @@ void add_value(const Device& device, const std::string& word, Json& values) {
   values[device.name() + "." + name] = json_of(number_of(*place, read_value(*bank, *place)));
 }
 
-/// Returns the values of the words of the device's program that are its registers or values.
-Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
-  Json values = Json::object();
+/// Returns the words of the device's program that may be its registers or values, each once.
+std::vector<std::string> words_of_program(const Device& device) {
   const std::string text = device.user_program()->program_text();
+  std::vector<std::string> words;
   std::set<std::string> seen;
   const auto is_of_word = [](char letter) {
     return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
            (letter >= 'A' && letter <= 'Z') || letter == '_';
   };
-  for (std::size_t at = 0; at < text.size() && seen.size() < kMaxWords;) {
+  for (std::size_t at = 0; at < text.size() && words.size() < kMaxWords;) {
     const std::size_t begin = at;
     while (at < text.size() && is_of_word(text[at])) ++at;
     const std::string word = text.substr(begin, at - begin);
     if (word.empty()) ++at;
     const bool is_number = !word.empty() && word[0] >= '0' && word[0] <= '9';
     if (word.empty() || is_number || !seen.insert(word).second) continue;
-    add_value(device, word, values);
+    words.push_back(word);
   }
+  return words;
+}
+
+Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
+  Json values = Json::object();
+  for (const std::string& word : words_of_program(device)) add_value(device, word, values);
   return values;
+}
+
+/// Returns the names behind the words that are not names themselves.
+Json spelled_otherwise(const Device& device) {
+  Json names = Json::object();
+  if (device.register_bank() == nullptr) return names;
+  for (const std::string& word : words_of_program(device)) {
+    const std::string name = register_of(device, word);
+    if (name != word && device.register_bank()->find(name)) names[word] = device.name() + "." + name;
+  }
+  return names;
 }
 
 Json values_of_axes(const Daemon& daemon, const Device& device) {
@@ -207,10 +227,9 @@ const Device& require_program(Daemon& daemon, const Json& message) {
 
 }  // namespace
 
-Json time_and_stop(const Daemon& daemon) {
-  Json reply{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
+Json json_of_stop(const Daemon& daemon) {
   const world::DebugStop* const stop = daemon.observers().debugger.stop();
-  if (stop == nullptr) return reply;
+  if (stop == nullptr) return nullptr;
   Json entry{{"reason", reason_word(stop->reason)}, {"text", stop->text}};
   if (stop->breakpoint != 0) entry["breakpoint"] = stop->breakpoint;
   if (!stop->device.empty()) entry["device"] = stop->device;
@@ -221,7 +240,12 @@ Json time_and_stop(const Daemon& daemon) {
     entry["code"] = stop->place.text;
     entry["callers"] = stop->depth;
   }
-  reply["stop"] = std::move(entry);
+  return entry;
+}
+
+Json time_and_stop(const Daemon& daemon) {
+  Json reply{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
+  if (Json stop = json_of_stop(daemon); !stop.is_null()) reply["stop"] = std::move(stop);
   return reply;
 }
 
@@ -333,6 +357,21 @@ Json stack_message(Daemon& daemon, const Json& message) {
   return reply;
 }
 
+Json source_message(Daemon& daemon, const Json& message) {
+  require_keys(message, {"do", "device"});
+  daemon.catch_up();
+  const world::ProgramLines lines(require_program(daemon, message));
+  Json reply{{"ok", true}};
+  if (!lines.source().empty()) {
+    std::error_code error;
+    const auto path = std::filesystem::weakly_canonical(lines.source(), error);
+    reply["path"] = error ? lines.source() : path.string();
+  }
+  reply["text"] = lines.text();
+  reply["lines"] = lines.lines();
+  return reply;
+}
+
 Json variables_message(Daemon& daemon, const Json& message) {
   require_keys(message, {"do", "device", "scope"});
   const std::string wanted = message.contains("scope") ? require_text(message, "scope") : std::string();
@@ -344,7 +383,10 @@ Json variables_message(Daemon& daemon, const Json& message) {
   const Device& device = require_program(daemon, message);
   Json scopes = Json::array();
   for (const ScopeRow& row : kScopes) {
-    if (is_wanted(row)) scopes.push_back({{"name", row.name}, {"values", row.values(daemon, device)}});
+    if (!is_wanted(row)) continue;
+    scopes.push_back({{"name", row.name}, {"values", row.values(daemon, device)}});
+    Json words = row.values == values_of_program ? spelled_otherwise(device) : Json::object();
+    if (!words.empty()) scopes.back()["words"] = std::move(words);
   }
   Json reply = time_and_stop(daemon);
   reply["scopes"] = std::move(scopes);

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "emulator/serve/control/debug_messages.h"
 #include "emulator/serve/control/listing.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
@@ -201,6 +202,7 @@ ReplyTask look_message(Daemon& daemon, Json message) {
   text.member("paused", daemon.pacer().paused());
   text.member("speed", format_speed(daemon.pacer().speed()));
   text.member("advancing", daemon.is_advancing());
+  if (const Json stop = json_of_stop(daemon); !stop.is_null()) text.member("stop", stop);
   if (list) {
     text.member("look", *list);
     text.open_list("values");

@@ -36,7 +36,7 @@ struct Verb {
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*tell)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 37> kVerbs{{{"status", nullptr, nullptr, status_message},
+constexpr std::array<Verb, 38> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
                                        {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
@@ -72,6 +72,7 @@ constexpr std::array<Verb, 37> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"break", break_message},
                                        {"continue", nullptr, continue_message},
                                        {"stack", stack_message},
+                                       {"source", source_message},
                                        {"variables", variables_message}}};
 
 const Verb& require_verb(const Json& message) {

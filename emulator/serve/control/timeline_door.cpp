@@ -40,9 +40,9 @@ bool is_mark(std::string_view what) {
 }
 
 /// The commands that only read. No others are allowed in a recording, because it shows what happened.
-constexpr std::array<std::string_view, 17> kLooks{
-    "status", "identify", "bench", "registers", "choices", "faults",    "get",   "eval",     "list",
-    "frames", "events",   "where", "look",      "scope",   "snapshots", "stack", "variables"};
+constexpr std::array<std::string_view, 18> kLooks{
+    "status", "identify", "bench", "registers", "choices", "faults",    "get",   "eval",   "list",
+    "frames", "events",   "where", "look",      "scope",   "snapshots", "stack", "source", "variables"};
 
 bool only_looks(const Json& message, const std::string& word) {
   if (word == "program") return !message.contains("text");  // without a text, it reads the program

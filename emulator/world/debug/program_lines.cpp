@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,11 +31,14 @@ std::vector<ProgramPart> running_parts(const Device& device, const std::string& 
   return parts;
 }
 
+/// Parts may be in another order in the file than in the listing.
 bool is_same_program(const std::vector<ProgramPart>& a, const std::vector<ProgramPart>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const ProgramPart& one, const ProgramPart& other) {
-                      return one.number == other.number && one.lines == other.lines;
-                    });
+  const auto is_in_b = [&](const ProgramPart& one) {
+    return std::any_of(b.begin(), b.end(), [&](const ProgramPart& other) {
+      return one.number == other.number && one.lines == other.lines;
+    });
+  };
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), is_in_b);
 }
 
 }  // namespace
@@ -52,9 +56,10 @@ ProgramLines::ProgramLines(const Device& device)
   }
 }
 
-void ProgramLines::take_texts(const std::string& source) {
+void ProgramLines::take_texts(std::string text) {
+  text_ = std::move(text);
   constexpr std::string_view kBlanks = " \t\r";
-  for (const TextLine line : TextLines(source)) {
+  for (const TextLine line : TextLines(text_)) {
     const std::size_t first = line.text.find_first_not_of(kBlanks);
     const bool is_empty = first == std::string_view::npos;
     texts_.emplace_back(is_empty ? ""
@@ -71,6 +76,16 @@ int ProgramLines::line_from(int line) const {
     }
   }
   return found;
+}
+
+std::vector<int> ProgramLines::lines() const {
+  std::set<int> all;
+  for (const ProgramPart& part : parts_) {
+    for (const ProgramLine& one : part.lines) {
+      if (one.text_line > 0) all.insert(one.text_line);
+    }
+  }
+  return {all.begin(), all.end()};
 }
 
 int ProgramLines::last_line() const {

@@ -26,6 +26,10 @@ class ProgramLines {
 
   /// Returns the bench's file, or an empty text for the listing.
   const std::string& source() const { return source_; }
+  /// Returns the text whose lines these are: of the bench's program, or of the listing.
+  const std::string& text() const { return text_; }
+  /// Returns the lines that have an instruction, in order.
+  std::vector<int> lines() const;
   /// Returns the first line from `line` on that has an instruction, or 0.
   int line_from(int line) const;
   /// Returns the last line that has an instruction, or 0.
@@ -40,9 +44,10 @@ class ProgramLines {
   int source_line(int listing_line) const;
 
  private:
-  void take_texts(const std::string& source);
+  void take_texts(std::string text);
 
   std::string source_;
+  std::string text_;
   std::vector<std::string> texts_;    // of the source, by line
   std::vector<ProgramPart> parts_;    // of the source; of those with one number the first
   std::vector<ProgramPart> listing_;  // likewise, with the lines of the listing

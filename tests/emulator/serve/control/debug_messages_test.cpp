@@ -103,6 +103,26 @@ TEST(Break, TellsLogpointsAsEventsAlone) {
   EXPECT_EQ(told[0].substr(0, 4), "now ");
 }
 
+TEST(DebugMessages, GiveTheTextInWhoseLinesTheyCount) {
+  Debugged debugged;
+  Json source = debugged.ask({{"do", "source"}, {"device", "feeder"}});
+  EXPECT_FALSE(source.contains("path")) << "the bench names no file";
+  EXPECT_EQ(source["lines"], (Json{1, 2, 3, 4, 5, 6}));
+  EXPECT_NE(source["text"].get<std::string>().find("Wait_IO DIN_5 ON"), std::string::npos) << source;
+  EXPECT_EQ(
+      debugged.ask({{"do", "variables"}, {"device", "feeder"}, {"scope", "program"}})["scopes"][0]["words"],
+      (Json{{"VAR32", "feeder.PROG_VAR0"}}));
+}
+
+TEST(DebugMessages, TellAStopToObservers) {
+  Debugged debugged;
+  debugged.hold_input(true);
+  EXPECT_FALSE(debugged.ask({{"do", "look"}}).contains("stop"));
+  debugged.ask({{"do", "break"}, {"device", "feeder"}, {"line", 3}});
+  const Json stop = debugged.ask({{"do", "continue"}, {"within", "1s"}})["stop"];
+  EXPECT_EQ(debugged.ask({{"do", "look"}})["stop"], stop);
+}
+
 TEST(DebugMessages, RefuseWhatMakesNoSense) {
   Debugged debugged;
   const Json at{{"do", "break"}, {"device", "feeder"}};

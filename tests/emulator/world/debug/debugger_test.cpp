@@ -193,6 +193,22 @@ TEST(Debugger, FindsItsLinesInEachProgramAnew) {
   EXPECT_NE(counting.run(100), "") << "a power cycle does not delete it";
 }
 
+TEST(ProgramLines, AreOfAFileWithItsPartsInAnyOrder) {
+  const std::string file = "MP 41\n  RSM_MACRO_TIMER 5\nEND\nMP 2\n  RSM_MACRO_TIMER 6\nEND\n";
+  Bench bench = parse_bench(models::all_models(),
+                            "understudy: 1\nlines: { a: { stations: [ { name: m, model: rs-m8194h } ] } }\n",
+                            "bench.yaml", ".");
+  bench.devices[0].settings.program = file;
+  bench.devices[0].settings.program_name = "macros.mac";
+  World world(bench, {}, {});
+  const ProgramLines lines(world.device(0));
+  EXPECT_EQ(lines.source(), "macros.mac");
+  EXPECT_EQ(lines.text(), file);
+  EXPECT_EQ(lines.lines(), (std::vector<int>{2, 5}));
+  world.load_program(0, "MP 41\n  RSM_MACRO_TIMER 5\nEND\n");
+  EXPECT_EQ(ProgramLines(world.device(0)).source(), "") << "it has another program";
+}
+
 struct StepCase {
   const char* model;
   const char* program;

@@ -1,0 +1,41 @@
+// The flags of `replay`. Included by flags.cpp only: CLI11 is slow to compile.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/serving_flags.h"
+
+namespace understudy::emulator::command_line {
+
+inline void add_replay_flags(CLI::App& command, ReplayArguments& replay) {
+  command.add_option("RECORDING", replay.recording, "A file written by `serve --record` or `run`")
+      ->required();
+  command.add_option("--until", replay.until, "Stop at this simulated time and serve from there [the end]")
+      ->check(kNotEmpty);
+  command
+      .add_option("--control", replay.control,
+                  "Path of the control socket, with --until or --page [a private path]")
+      ->check(kNotEmpty);
+  CLI::Option* const trace = command.add_option(
+      "--trace", replay.trace,
+      "Write positions and signals over time to this file: FILE.csv, or FILE.vcd for GTKWave");
+  CLI::Option* const trace_also = command.add_option("--trace-also", replay.trace_also, kTraceAlsoHelp);
+  CLI::Option* const capture =
+      command.add_option("--capture", replay.capture,
+                         "Write the traffic on the lines to this file: FILE.pcapng for Wireshark, any "
+                         "other name for a text log");
+  CLI::Option* const report =
+      command.add_option("--report", replay.report, "Write a report on it to this file, as HTML");
+  for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
+  trace_also->delimiter(',');
+  command
+      .add_option(
+          "--page", replay.page,
+          "Open the recording in a browser, at the time of --until if given, on this port [any free port]")
+      ->expected(0, 1)
+      ->default_str("0")
+      ->excludes(trace, trace_also, capture, report);
+}
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,19 @@
+// Serves a session of the Debug Adapter Protocol on two descriptors.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "emulator/dap/session.h"
+
+namespace understudy::emulator::dap {
+
+/// Serves until the client ends the session, or goes away, or `is_interrupted` returns true after a signal.
+/// Returns an empty text, or one sentence: what came was not the protocol, and nothing behind it can be read.
+std::string serve_session(int input, int output, const Launcher& launcher,
+                          const std::function<bool()>& is_interrupted);
+
+/// Tells a client that it is not served, in the reply to its first request if one comes soon.
+void refuse_session(int client, const std::string& why);
+
+}  // namespace understudy::emulator::dap

@@ -1,0 +1,164 @@
+// Begins and ends a session with a bench.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/text/one_line.h"
+#include "emulator/dap/arguments.h"
+#include "emulator/dap/bench_link.h"
+#include "emulator/dap/session.h"
+
+namespace understudy::emulator::dap {
+
+namespace {
+
+constexpr const char* kAtLaunch = "dap";  // the snapshot to which `restart` goes back
+
+}  // namespace
+
+Json Session::launch(const Json& arguments) {
+  speed_ = text_or(arguments, "speed", "manual");
+  open("launch", arguments);
+  say_ports();
+  return nullptr;
+}
+
+Json Session::attach(const Json& arguments) {
+  open("attach", arguments);
+  return nullptr;
+}
+
+void Session::open(std::string_view request, const Json& arguments) {
+  stops_at_entry_ = flag_or(arguments, "stopOnEntry", false);
+  launched_ = launcher_(request, arguments);
+  link_.emplace(launched_.socket);
+  try {
+    find_devices();
+    const Json look = link_->ask({{"do", "look"}, {"events", 0}});
+    const Json next = link_->ask({{"do", "events"}, {"last", 0}});
+    next_event_ = next.value("next", std::uint64_t{1});
+    is_manual_ = look.value("speed", std::string()) == "manual";
+    was_paused_ = look.value("paused", false);
+    if (launched_.end && !launched_.is_recording) link_->ask({{"do", "snapshot"}, {"name", kAtLaunch}});
+    map_sources(arguments);
+  } catch (...) {
+    end();
+    throw;
+  }
+  phase_ = Phase::configuring;
+}
+
+void Session::find_devices() {
+  devices_.clear();
+  const Json bench = link_->ask({{"do", "bench"}})["bench"];
+  for (const Json& device : bench["devices"]) {
+    DeviceInfo info{.name = device["name"].get<std::string>()};
+    const Json more = link_->ask({{"do", "bench"}, {"device", info.name}})["device"];
+    info.has_program = more.contains("program");
+    info.has_many = info.has_program && more["program"].value("at_once", false);
+    for (const Json& section : more.value("sections", Json::array())) {
+      const std::string english = section.value("english", std::string());
+      info.sections.emplace_back(section.value("rows", std::int64_t{0}),
+                                 english.empty() ? section.value("name", std::string()) : english);
+    }
+    devices_.push_back(std::move(info));
+  }
+}
+
+/// Finds the devices that run the files of the argument `sources`.
+void Session::map_sources(const Json& arguments) {
+  if (!arguments.contains("sources")) return;
+  for (const Json& path : require_list(arguments, "sources")) {
+    if (!path.is_string()) throw RequestError("sources: expected a list of paths");
+    std::string why_none;
+    std::string what_differs;
+    devices_with({{"path", path}}, why_none, what_differs);
+    if (!why_none.empty()) say("sources: " + why_none + "\n");
+  }
+}
+
+/// Tells where hosts find the lines of a launched bench.
+void Session::say_ports() {
+  if (launched_.is_recording) return;
+  const Json daemon = link_->ask({{"do", "identify"}})["daemon"];
+  for (const Json& line : daemon["lines"]) {
+    std::string text = line.value("name", std::string());
+    for (const char* key : {"pty", "link"}) {
+      const std::string where = line.value(key, std::string());
+      if (!where.empty()) text += " " + where;
+    }
+    for (const Json& where : line.value("tcp", Json::array())) {
+      if (where.is_string()) text += " " + where.get<std::string>();
+    }
+    say(one_line(text) + "\n", "console");
+  }
+}
+
+Json Session::configuration_done(const Json& /*arguments*/) {
+  phase_ = Phase::stopped;
+  if (launched_.end && !launched_.is_recording) {
+    if (speed_ != "manual") {
+      link_->ask({{"do", "pause"}});
+      link_->ask({{"do", "speed"}, {"to", speed_}});
+      is_manual_ = false;
+    }
+    if (!stops_at_entry_) go_on(Json::object());
+  } else if (!launched_.is_recording && !is_manual_ && !was_paused_) {
+    if (stops_at_entry_) {
+      link_->ask({{"do", "pause"}});
+    } else {
+      phase_ = Phase::running;
+    }
+  }
+  return nullptr;
+}
+
+Json Session::restart(const Json& /*arguments*/) {
+  if (!launched_.end || launched_.is_recording)
+    throw RequestError("only a launched bench starts anew; expected a session by `launch`");
+  link_->pause();
+  phase_ = Phase::stopped;
+  delete_from_bench();
+  link_->ask({{"do", "restore"}, {"name", kAtLaunch}});
+  set_again();
+  if (stops_at_entry_) {
+    stands(Json(), "entry");
+  } else {
+    event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});
+    go_on(Json::object());
+  }
+  return nullptr;
+}
+
+Json Session::terminate(const Json& /*arguments*/) {
+  end();
+  phase_ = Phase::ended;
+  return nullptr;
+}
+
+Json Session::disconnect(const Json& /*arguments*/) {
+  end();
+  phase_ = Phase::over;
+  return nullptr;
+}
+
+/// Ends a bench that was launched. Leaves another one as it was found: without our breakpoints, and with its
+/// time running if it did.
+void Session::end() {
+  if (!link_) return;
+  try {
+    if (!launched_.end) {
+      if (awaited() >= 0) link_->pause();
+      delete_from_bench();
+      if (phase_ == Phase::stopped && !is_manual_ && !was_paused_) link_->ask({{"do", "resume"}});
+    }
+  } catch (const RequestError&) {  // it has ended already
+  }
+  points_.clear();
+  link_.reset();
+  if (launched_.end) launched_.end();
+  launched_ = {};
+}
+
+}  // namespace understudy::emulator::dap

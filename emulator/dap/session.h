@@ -1,0 +1,199 @@
+// A session of the Debug Adapter Protocol: it answers requests by messages to a daemon's control socket.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/dap/bench_link.h"
+
+namespace understudy::emulator::dap {
+
+/// A daemon that was started, or found.
+struct Launched {
+  std::string socket;
+  std::function<void()> end{};          // ends it; empty if it is not ours
+  std::function<std::string()> news{};  // what it has said since the last call; may be empty
+  bool is_recording = false;
+};
+/// Starts or finds a daemon for the request `launch` or `attach` with these arguments. A daemon that it
+/// starts has a stopped clock. Throws an exception of one sentence.
+using Launcher = std::function<Launched(std::string_view request, const Json& arguments)>;
+
+class Session {
+ public:
+  enum class Phase : std::uint8_t { fresh, ready, configuring, stopped, running, ended, over };
+
+  using Send = std::function<void(const Json& message)>;
+  Session(Launcher launcher, Send send) : launcher_(std::move(launcher)), send_(std::move(send)) {}
+  ~Session() { end(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Answers a request.
+  void handle(const std::string& text);
+  bool is_over() const { return phase_ == Phase::over; }
+  /// Returns true if look() is to be called now and then.
+  bool has_bench() const { return link_.has_value(); }
+  bool is_running() const { return phase_ == Phase::running; }
+  /// Returns the descriptor at which the end of an advance is told, or -1.
+  int awaited() const { return link_ ? link_->awaited() : -1; }
+  /// Tells the client what has happened on the bench.
+  void look();
+  /// Tells the client something that is no answer.
+  void say(const std::string& text, const char* category = "important");
+
+ private:
+  struct Row {
+    std::string_view command;
+    Json (Session::*answer)(const Json& arguments);
+    unsigned phases;
+  };
+  static std::span<const Row> rows();
+
+  struct DeviceInfo {
+    std::string name;
+    bool has_program = false;
+    bool has_many = false;  // programs at the same time; otherwise it is one thread, whatever its name
+    std::vector<std::pair<std::int64_t, std::string>> sections{};  // rows, and what they are
+    std::map<std::string, Json> registers{};                       // as `registers` tells them
+    std::string mapped{};       // the file that has the text of its program, if the bench names none
+    std::string mapped_text{};  // that text
+  };
+  struct Thread {
+    std::size_t device = 0;
+    std::string program{};
+  };
+  /// The program of a device: its text, and the file it is from, if there is one.
+  struct Source {
+    std::string path;
+    std::string text;
+    Json lines;  // those that have an instruction
+  };
+  /// A breakpoint of the client. One in a file that several devices run is several of ours.
+  struct SetPoint {
+    int id = 0;
+    std::string key{};  // the source, or kData, kEvents
+    Json message{};
+    int number = 0;  // the daemon's; 0: it does not have it
+    std::size_t device = 0;
+    int line = 0;  // 0: it is not at a line, or not found
+  };
+  // Above the references of scopes are those of registers with bits, and their numbers in with_bits_.
+  static constexpr std::int64_t kFirstBits = 1'000'000'000;
+  static constexpr const char* kEvents = "events";
+  static constexpr const char* kData = "data";
+  static constexpr const char* kLongTime = "1h";  // of simulated time
+
+  // session.cpp
+  Json answer(const std::string& command, const Json& arguments);
+  void event(std::string_view name, Json body);
+  Json initialize(const Json& arguments);
+
+  // opening.cpp
+  Json launch(const Json& arguments);
+  Json attach(const Json& arguments);
+  Json configuration_done(const Json& arguments);
+  Json restart(const Json& arguments);
+  Json terminate(const Json& arguments);
+  Json disconnect(const Json& arguments);
+  void open(std::string_view request, const Json& arguments);
+  void find_devices();
+  void map_sources(const Json& arguments);
+  void say_ports();
+  void end();
+
+  // stacks.cpp
+  Json threads(const Json& arguments);
+  Json stack_trace(const Json& arguments);
+  Json source(const Json& arguments);
+  Json stack_of(std::size_t device) const;
+  Source source_of(std::size_t device) const;
+  Json source_json(std::size_t device) const;
+  const Thread& thread_of(const Json& arguments) const;
+  std::string thread_name(const Thread& thread) const;
+  int thread_number(std::size_t device, const std::string& program);
+  std::size_t device_of_source(std::int64_t reference) const;
+  std::size_t device_of_frame(const Json& arguments) const;
+
+  // going_on.cpp
+  Json go_on(const Json& arguments);
+  Json next(const Json& arguments);
+  Json step_in(const Json& arguments);
+  Json step_out(const Json& arguments);
+  Json pause(const Json& arguments);
+  Json step(const Json& arguments, const char* what);
+  void stands(const Json& stop, const char* reason, const std::string& text = {});
+  const char* reason_of(const Json& stop, Json& body) const;
+  void hear_events(const Json& events);
+  Json look_at_bench();
+  void follow(const Json& seen);
+  void has_ended(const std::string& why);
+
+  // breakpoints.cpp
+  Json set_breakpoints(const Json& arguments);
+  Json set_exception_breakpoints(const Json& arguments);
+  Json set_data_breakpoints(const Json& arguments);
+  Json data_breakpoint_info(const Json& arguments);
+  Json set_one(const std::string& key, int id, Json message);
+  Json set_line(const std::string& key, const Json& wanted, const std::vector<std::size_t>& devices);
+  void delete_those(const std::string& key);
+  void delete_from_bench();
+  void set_again();
+  std::vector<std::size_t> devices_with(const Json& source, std::string& why_none, std::string& what_differs);
+
+  // values.cpp
+  Json scopes(const Json& arguments);
+  Json variables(const Json& arguments);
+  void add_state(std::size_t device, Json& all);
+  void add_scope(std::size_t device, const std::string& scope, bool as_hex, Json& all);
+  void add_section(std::size_t device, std::int64_t section, const Json& arguments, Json& all);
+  void add_bits(const std::string& whole, Json& all);
+  Json entry(std::size_t device, const std::string& name, const Json& value, bool as_hex, bool is_register);
+  const Json* known_register(std::size_t device, const std::string& name);
+  std::size_t device_of_reference(std::int64_t reference) const;
+  const std::string& register_of_reference(std::int64_t reference) const;
+
+  // expressions.cpp
+  Json evaluate(const Json& arguments);
+  Json set_variable(const Json& arguments);
+  Json set_expression(const Json& arguments);
+  Json completions(const Json& arguments);
+  Json value_of(const std::string& expression, std::size_t device) const;
+  Json set_value(const std::string& whole, const std::string& value) const;
+  Json set_bit(const std::string& whole, const std::string& bit, const std::string& value);
+  Json words_of(std::size_t device) const;
+  std::vector<std::string> names_of(const DeviceInfo& device, const std::string& part) const;
+  std::size_t device_of_name(const std::string& whole) const;
+  std::string whole_name(const std::string& name, std::size_t device) const;
+
+  Launcher launcher_;
+  Send send_;
+  Phase phase_ = Phase::fresh;
+  std::int64_t next_sequence_ = 1;
+  int line_offset_ = 0;    // what a client's lines are less than ours
+  int column_offset_ = 0;  // likewise
+  bool stops_at_entry_ = false;
+  bool is_manual_ = true;
+  bool wants_pause_ = false;
+  bool was_paused_ = false;  // when it was attached
+  std::string speed_{};      // that a launched bench is to have
+  Launched launched_{};
+  std::optional<BenchLink> link_{};
+  std::vector<DeviceInfo> devices_{};
+  std::vector<Thread> threads_{};         // by number, from 1
+  std::vector<std::string> with_bits_{};  // whole names of registers
+  Json stop_{};                           // of the bench, while it stands at one
+  std::uint64_t next_event_ = 1;
+  std::vector<SetPoint> points_{};
+  int last_id_ = 0;
+};
+
+}  // namespace understudy::emulator::dap

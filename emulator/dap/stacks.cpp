@@ -1,0 +1,155 @@
+// Threads are the programs of devices. Their stacks, and the sources of these.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/dap/arguments.h"
+#include "emulator/dap/bench_link.h"
+#include "emulator/dap/session.h"
+
+namespace understudy::emulator::dap {
+
+namespace {
+
+constexpr std::int64_t kPerThread = 1'000;  // frames
+
+}  // namespace
+
+int Session::thread_number(std::size_t device, const std::string& program) {
+  for (std::size_t i = 0; i < threads_.size(); ++i) {
+    if (threads_[i].device == device && threads_[i].program == program) return static_cast<int>(i) + 1;
+  }
+  threads_.push_back({device, program});
+  return static_cast<int>(threads_.size());
+}
+
+std::string Session::thread_name(const Thread& thread) const {
+  return devices_[thread.device].name + (thread.program.empty() ? "" : " " + thread.program);
+}
+
+/// Returns the stacks of a device's programs; none if it has no power.
+Json Session::stack_of(std::size_t device) const {
+  try {
+    return link_->ask({{"do", "stack"}, {"device", devices_[device].name}});
+  } catch (const RequestError&) {
+    link_->ask({{"do", "look"}});  // throws if the bench has ended
+    return {{"stacks", Json::array()}};
+  }
+}
+
+/// Returns nothing if the device has no power, or no program.
+Session::Source Session::source_of(std::size_t device) const {
+  try {
+    Json reply = link_->ask({{"do", "source"}, {"device", devices_[device].name}});
+    return {.path = reply.value("path", std::string()),
+            .text = reply.value("text", std::string()),
+            .lines = std::move(reply["lines"])};
+  } catch (const RequestError&) {
+    return {};
+  }
+}
+
+Json Session::threads(const Json& /*arguments*/) {
+  Json all = Json::array();
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    if (!devices_[d].has_program) continue;
+    Json stacks = stack_of(d)["stacks"];
+    if (stacks.empty()) stacks.push_back(Json::object());
+    if (!devices_[d].has_many) stacks.erase(stacks.begin() + 1, stacks.end());
+    for (const Json& stack : stacks) {
+      const int number = thread_number(d, devices_[d].has_many ? text_or(stack, "program") : "");
+      all.push_back({{"id", number}, {"name", thread_name(threads_[static_cast<std::size_t>(number) - 1])}});
+    }
+  }
+  // Without a program, the bench itself is a thread: clients need one to stop and go on.
+  if (all.empty() && !devices_.empty()) {
+    const int number = thread_number(0, {});
+    all.push_back({{"id", number}, {"name", devices_[0].name}});
+  }
+  return {{"threads", std::move(all)}};
+}
+
+const Session::Thread& Session::thread_of(const Json& arguments) const {
+  const std::int64_t number = require_whole(arguments, "threadId");
+  if (number < 1 || number > static_cast<std::int64_t>(threads_.size()))
+    throw RequestError("threadId: there is no thread " + std::to_string(number) +
+                       "; expected one of `threads`");
+  return threads_[static_cast<std::size_t>(number) - 1];
+}
+
+/// Returns the source as clients open it: the file, or the text that the device has.
+Json Session::source_json(std::size_t device) const {
+  const DeviceInfo& info = devices_[device];
+  const Source source = source_of(device);
+  const bool is_mapped = source.path.empty() && !info.mapped.empty() && source.text == info.mapped_text;
+  const std::string path = is_mapped ? info.mapped : source.path;
+  if (!path.empty()) return {{"name", std::filesystem::path(path).filename().string()}, {"path", path}};
+  return {{"name", info.name + " (read back)"}, {"sourceReference", static_cast<int>(device) + 1}};
+}
+
+Json Session::stack_trace(const Json& arguments) {
+  const Thread& thread = thread_of(arguments);
+  const bool has_many = devices_[thread.device].has_many;
+  const Json told = stack_of(thread.device);
+  std::vector<std::pair<int, std::string>> lines;  // and what is there
+  for (const Json& stack : told["stacks"]) {
+    if (has_many && text_or(stack, "program") != thread.program) continue;
+    for (const Json& frame : stack["frames"])
+      lines.emplace_back(frame["line"].get<int>(), frame.value("text", std::string()));
+    break;
+  }
+  const bool has_stopped = stop_.is_object() && stop_.contains("line") &&
+                           stop_.value("device", std::string()) == devices_[thread.device].name &&
+                           (!has_many || text_or(stop_, "program") == thread.program);
+  if (has_stopped) {
+    // It may have gone on within the tick: people look for the line at which it stopped.
+    const auto callers = stop_.value("callers", std::size_t{0});
+    if (lines.size() > callers)
+      lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(callers));
+    lines.insert(lines.begin(), {stop_["line"].get<int>(), stop_.value("code", std::string())});
+  }
+  const Json source = lines.empty() ? Json() : source_json(thread.device);
+  Json frames = Json::array();
+  const auto count = static_cast<std::int64_t>(std::min(lines.size(), static_cast<std::size_t>(kPerThread)));
+  const std::int64_t first = std::max<std::int64_t>(0, whole_or(arguments, "startFrame", 0));
+  const std::int64_t most = whole_or(arguments, "levels", 0);
+  for (std::int64_t i = first; i < count && (most <= 0 || i - first < most); ++i) {
+    const auto& [line, text] = lines[static_cast<std::size_t>(i)];
+    frames.push_back({{"id", require_whole(arguments, "threadId") * kPerThread + i},
+                      {"name", text.empty() ? thread_name(thread) : text},
+                      {"line", std::max(0, line - line_offset_)},
+                      {"column", line > 0 ? 1 - column_offset_ : 0}});
+    if (line > 0) frames.back()["source"] = source;
+  }
+  return {{"stackFrames", std::move(frames)}, {"totalFrames", count}};
+}
+
+std::size_t Session::device_of_source(std::int64_t reference) const {
+  if (reference < 1 || reference > static_cast<std::int64_t>(devices_.size()))
+    throw RequestError("sourceReference: there is no source " + std::to_string(reference) +
+                       "; expected one of `stackTrace`");
+  return static_cast<std::size_t>(reference) - 1;
+}
+
+Json Session::source(const Json& arguments) {
+  const std::int64_t reference = arguments.contains("sourceReference")
+                                     ? require_whole(arguments, "sourceReference")
+                                     : require_whole(require(arguments, "source"), "sourceReference");
+  return {{"content",
+           link_->ask({{"do", "source"}, {"device", devices_[device_of_source(reference)].name}})["text"]}};
+}
+
+std::size_t Session::device_of_frame(const Json& arguments) const {
+  if (!arguments.contains("frameId") || arguments["frameId"].is_null()) return 0;
+  const std::int64_t thread = require_whole(arguments, "frameId") / kPerThread;
+  if (thread < 1 || thread > static_cast<std::int64_t>(threads_.size()))
+    throw RequestError("frameId: there is no such frame; expected one of `stackTrace`");
+  return threads_[static_cast<std::size_t>(thread) - 1].device;
+}
+
+}  // namespace understudy::emulator::dap
