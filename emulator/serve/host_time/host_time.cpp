@@ -114,6 +114,7 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       }),
       tasks_(daemon.loop(),
              [this](int process) {
+               if (silent_.contains(process)) hear_all();
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
@@ -173,6 +174,16 @@ void HostTime::drop(int number) {
   const bool has_others =
       std::ranges::any_of(waits_.threads(), [&](const auto& each) { return each.second.process == process; });
   if (!has_others && tasks_.is_alive(process)) silent_.insert(process);
+}
+
+/// A program that is over at once may have greeted, and its end may be noticed first.
+void HostTime::hear_all() {
+  listener_->accept_all();
+  std::vector<int> numbers;
+  for (const auto& [number, connection] : connections_) numbers.push_back(number);
+  for (const int number : numbers) {
+    if (connections_.contains(number)) on_message(number);
+  }
 }
 
 void HostTime::judge_end_of(int process) {

@@ -56,6 +56,7 @@ class HostTime {
   void admit(Descriptor client);
   void on_message(int number);
   void drop(int number);
+  void hear_all();
   void judge_end_of(int process);
   void answer(int number, HostAnswer answer, const HostWaits::Thread& thread);
   void consider();

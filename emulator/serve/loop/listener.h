@@ -22,9 +22,10 @@ class Listener {
 
   /// A descriptor was closed: tries again.
   void try_again();
+  /// Admits all clients that wait now.
+  void accept_all();
 
  private:
-  void accept_all();
   void rest();
 
   EventLoop& loop_;
