@@ -71,7 +71,7 @@ struct ExecArguments {
   ServeArguments serve;
   std::vector<std::string> command;      // the words after --: a command and its arguments
   std::vector<std::string> stray_words;  // the words before --
-  std::string with;                      // the file of a scenario that runs beside the command
+  std::string with;                      // the file of a scenario that runs alongside the command
   std::string save_below;                // the folder in which the scenario may save; empty: its own
   bool tty_shim = false;
   bool host_time = false;     // the command lives in simulated time

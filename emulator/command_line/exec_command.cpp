@@ -187,7 +187,7 @@ void share_ports(const serve::Daemon& daemon, gid_t group) {
   }
 }
 
-/// Serves the bench until both the command and the scenario beside it end.
+/// Serves the bench until both the command and the scenario alongside it end.
 int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);

@@ -242,7 +242,7 @@ TEST(PowerCycle, StopsWhateverWasGoingOnAndForgetsItWholly) {
         EXPECT_EQ(feeder.get(zero), 0) << zero;
       }
 
-      // Fit for work, from 0 on, wherever the machine stands.
+      // Ready to work, from 0 on, wherever the machine is.
       for (Switched* device : {&feeder, &twin}) {
         device->set("Aaxis_SVON", 1);
         device->set_one_pulse_a_tick('A', -30);

@@ -201,7 +201,7 @@ TEST(WrongMoment, StartedWhileItRunsItBeginsAnewAtThatLine) {
 )");
 }
 
-// A delay that has begun continues as it began; flags lead where they stand now.
+// A delay that has begun continues as it began; flags jump to their present places.
 TEST(WrongMoment, RewrittenWhileItRunsItGoesOnWithTheNewLines) {
   expect_course({.listing = "rewritten_as_it_runs.lst",
                  .deeds = {{host_writes(31, "MAIN_LINE1_DATA1", 4), host_writes(61, "MAIN_LINE0_JMP", 0),
