@@ -75,7 +75,7 @@ TEST(PowerCycle, KeepsEveryRegisterThatTheManualMarksAndNoOther) {
 struct Situation {
   const char* what;
   std::function<void(Switched&)> begin;
-  const char* busy;  // a register that tells that it is going on
+  const char* busy;  // a register that shows that it is in progress
   Value busy_value = 1;
 };
 
