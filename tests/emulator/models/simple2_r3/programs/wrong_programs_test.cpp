@@ -5,7 +5,7 @@
 namespace understudy::emulator::models::simple2_r3 {
 namespace wrong_programs_test {
 
-// "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is met.
+// "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is reached.
 TEST(WrongProgram, WithNestedLoopsEndsWhereTheInnerLoopIsMetAgain) {
   expect_course({.listing = "wrong_nested_loops.lst", .until = 100}, R"(
 0       run L0 C1=1
