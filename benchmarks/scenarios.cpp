@@ -27,7 +27,7 @@ using emulator::play::ScenarioResult;
 using emulator::world::World;
 
 constexpr int kRounds = 21;
-constexpr double kSuiteBar = 1.0 / 2000;  // processor time of simulated time
+constexpr double kSuiteBar = 1.0 / 2000;  // processor time per simulated time
 constexpr double kStartBar = 1;           // of a scenario of the suite
 constexpr double kRecordingBar = 1.05;
 constexpr double kSnapshotBar = 1;  // of making the world

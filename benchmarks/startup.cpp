@@ -1,4 +1,4 @@
-// Short runs of the program, and from exec to the `ready` line, beside the start and end of /bin/true.
+// Short runs of the program, and from exec to the `ready` line, compared with the start and end of /bin/true.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>

@@ -57,7 +57,7 @@ class AxisTick {
   Events take_events();
   /// Moves a start at this moment to the events of the next tick.
   void leave_start_to_next_tick();
-  /// Ends the tick. Returns its pulses, signed as they come out; Axis::events then holds all its events.
+  /// Ends the tick. Returns its pulses, with their sign; Axis::events then holds all its events.
   std::int64_t finish();
 
  private:

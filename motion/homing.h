@@ -98,7 +98,7 @@ struct Homing {
   std::int32_t counted = 0;       // edges of the row's signal so far
   std::int64_t began_pulses = 0;  // travel where the row began
   bool reference_known = false;
-  std::int64_t reference_pulses = 0;  // travel at the marked edge; without a mark, where the axis stood
+  std::int64_t reference_pulses = 0;  // travel at the marked edge; without a mark, where the axis was
 
   bool operator==(const Homing&) const = default;
 

@@ -47,7 +47,7 @@ void require_stale(const std::string& path, const std::string& absolute_path) {
   if (!dangles) throw PortError(path + ": is a link to " + target + kExpected);
 }
 
-/// Creates a link under the first free name beside `name` and returns that name, or an empty string with
+/// Creates a link under the first free name next to `name` and returns that name, or an empty string with
 /// errno set if it fails.
 std::string make_link_beside(const std::string& name, const std::string& target) {
   for (int i = 1;; ++i) {

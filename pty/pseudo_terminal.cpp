@@ -224,7 +224,7 @@ bool PseudoTerminal::count_event(std::uint32_t mask) {
       return false;
     }
     if (opens_ == 0 && is_present_) {
-      // The host closed and opened again since the last look. The settings stay, as on a serial port.
+      // The host closed and opened again since the last check. The settings stay, as on a serial port.
       count_departure();
       is_present_ = news_.opened = true;
     } else if (!is_present_) {

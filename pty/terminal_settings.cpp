@@ -1,7 +1,7 @@
 #include "pty/terminal_settings.h"
 
 // This is a file of its own because the kernel's structure, which holds any speed as a number, cannot be
-// included beside libc's <termios.h>.
+// included together with libc's <termios.h>.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 

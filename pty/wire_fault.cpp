@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::uint8_t kSomebody = 0x55;  // edges all along, as of a talker at another speed
+constexpr std::uint8_t kSomebody = 0x55;  // edges throughout, as from a sender at another speed
 
 void collide(Bytes& bytes, const Bytes& other) {
   const std::size_t common = other.empty() ? bytes.size() : std::min(bytes.size(), other.size());

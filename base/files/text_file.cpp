@@ -54,12 +54,12 @@ int write_all(int file, const std::string& contents) {
 
 constexpr std::string_view kBeside = ".new";
 
-/// Returns the name of a temporary file beside `path`: "a.json.new", then "a.json.new-2".
+/// Returns the name of a temporary file next to `path`: "a.json.new", then "a.json.new-2".
 std::string name_beside(const std::string& path, int number) {
   return path + std::string(kBeside) + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
-/// Returns true if `rest`, the end of a name behind that of the file, is one of name_beside()'s.
+/// Returns true if `rest`, the part of a name after that of the file, is one of name_beside()'s.
 bool is_beside(std::string_view rest) {
   if (!rest.starts_with(kBeside)) return false;
   rest.remove_prefix(kBeside.size());
@@ -73,7 +73,7 @@ bool is_still_there(int file, const std::string& name) {
          opened.st_dev == named.st_dev;
 }
 
-/// Creates a new file beside `path`, locked while it is written: an unlocked one was left by a writer that
+/// Creates a new file next to `path`, locked while it is written: an unlocked one was left by a writer that
 /// was killed.
 Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) {
   for (int number = 1;; ++number) {

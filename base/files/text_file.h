@@ -29,12 +29,12 @@ std::string why_not_readable(const std::string& path);
 /// cannot be read.
 std::string head_of_file(const std::string& path);
 
-/// Replaces a file as a whole: writes a new file beside it, and renames that once its bytes are on the disk.
+/// Replaces a file as a whole: writes a new file next to it, and renames that once its bytes are on the disk.
 /// base/files/output_file.h has the rules about what may be replaced. The new file gets the owner and mode
 /// of the old one. Returns an empty string, or the reason of a failure; the old file then stays.
 std::string replace_text_file(const std::string& path, const std::string& contents, ContentKind kind);
 
-/// Removes temporary files of replace_text_file() that killed processes left beside `path`: files of that
+/// Removes temporary files of replace_text_file() that killed processes left next to `path`: files of that
 /// kind that no process has locked.
 void remove_left_beside(const std::string& path, ContentKind kind);
 

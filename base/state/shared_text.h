@@ -36,7 +36,7 @@ class SharedText {
 
 using SharedTexts = std::vector<SharedText>;
 
-/// Saves the text itself or, if the writer shares texts, its digest, with the text kept beside the bytes
+/// Saves the text itself or, if the writer shares texts, its digest, with the text kept with the bytes
 /// (state_bytes.h).
 template <>
 struct StateOf<SharedText> {

@@ -255,7 +255,7 @@ struct StateHeldBy {
   static const auto& told(const T& value) { return value.save(); }
 };
 
-// These functions stand outside their classes so that a library can instantiate those of its big types once
+// These functions are outside their classes so that a library can instantiate those of its big types once
 // (motion/state_fields.h).
 
 template <class T>

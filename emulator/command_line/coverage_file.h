@@ -46,7 +46,7 @@ class CoverageFile {
   void add(const world::CoverageReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer(const play::Scenario& scenario);
-  /// Writes the file, and beside it the listings of programs that have no file of their own. Prints what has
+  /// Writes the file, and next to it the listings of programs that have no file of their own. Prints what has
   /// run. Returns false if that is less than the minimum.
   bool write(std::FILE* told);
   /// Returns what was written.

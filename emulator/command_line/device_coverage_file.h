@@ -28,7 +28,7 @@ class DeviceCoverageFile {
   void add(const world::TouchedReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer();
-  /// Writes the file, and prints what the worst gaps are.
+  /// Writes the file, and prints the largest gaps.
   void write(std::FILE* told);
 
  private:

@@ -99,7 +99,7 @@ int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   return end.exit_code;
 }
 
-/// Serves the bench until both the command and the scenario beside it end.
+/// Serves the bench until both the command and the scenario alongside it end.
 int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
          const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const CourseEnd end = run_course({.serving = serving,

@@ -1,4 +1,4 @@
-// The base of a device class `Itself`, beside its facets. A question for a facet returns the device if it
+// The base of a device class `Itself`, apart from its facets. A question for a facet returns the device if it
 // derives from that facet, and null if it does not. (If a facet is a member of the device instead, the
 // device overrides the question.)
 #pragma once

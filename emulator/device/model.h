@@ -131,8 +131,9 @@ struct AxisRow {
   int index_input = -1;  // of the encoder
 };
 
-/// A protocol on a line. Each protocol has one object, beside the facet that speaks it (modbus/, text/). The
-/// world's object for the protocol (world/speech/) defines what it means for a line and its hosts.
+/// A protocol on a line. Each protocol has one object, in addition to the facet that speaks it (modbus/,
+/// text/). The world's object for the protocol (world/speech/) defines what it means for a line and its
+/// hosts.
 struct Protocol {
   std::string_view name;  // "Modbus", for messages
 };

@@ -31,7 +31,7 @@ struct InstructionRow {
   std::span<const OperandRow> operands{};
   std::string_view areas{};  // the parts of a program that may contain it: "C X Y Z U"
   int size = 0;              // its size in program memory, in the language's unit; 0: unknown
-  std::string_view cost{};   // its time, for people: "3 lines", "until the axes stand"
+  std::string_view cost{};   // its time, for people: "3 lines", "until the axes stop"
   std::string_view meaning{};
 };
 
@@ -69,7 +69,7 @@ class ProgramLanguage {
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
   /// Returns the parts of a text that loads, for observers of the program; of one that does not, none.
   virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
-  /// Returns true if each part is a program that runs beside the others; false if parts call each other.
+  /// Returns true if each part is a program that runs alongside the others; false if parts call each other.
   virtual bool parts_run_at_once() const { return false; }
   virtual std::span<const ProgramControl> controls() const { return {}; }
   virtual const ProgramCells* cells() const { return nullptr; }

@@ -168,7 +168,7 @@ inline constexpr std::array kModelKeys{
         &world::kTextByName},
     Key{"axes", "Its motor axes, by name, and the registers that are bound to them.", &kAxesSchema},
     Key{"follows", "Registers that follow another value with a lag.", &kFollowsSchema},
-    Key{"shows", "Bits that are 1 while a relation holds: { STATUS.ALARM: TEMPERATURE > LIMIT }.",
+    Key{"shows", "Bits that are 1 while a comparison is true: { STATUS.ALARM: TEMPERATURE > LIMIT }.",
         &world::kTextByName},
     Key{"momentary", "Registers that return to 0 once they have started something.", &world::kTextList}};
 

@@ -25,7 +25,7 @@ struct Watching {
   bool frames = false;
   bool events = false;
   bool status = false;
-  // Progress of sending; `seen` counts looks.
+  // Progress of sending; `seen` is the last look whose changes were sent.
   std::uint64_t seen = 0;
   std::uint64_t epoch = 0;
   std::uint64_t next_frame = 0;

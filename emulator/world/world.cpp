@@ -117,7 +117,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   for (const Fault& fault : bench.faults) inject(fault);
   for (const MachineSetup& machine : bench.machines) connect_drive(machine);
-  // A machine may stand on a switch at power-up.
+  // A machine may be on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     wire_contacts(d);
     step_plant(d);

@@ -58,7 +58,7 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
     return blocks.back().opener == Verb::if_ ? rule.in_if : rule.in_for;
   }
   if (verb == Verb::goto_ && options.goto_stays_in_its_block && !blocks_behind(lines).empty()) {
-    return Fault::goto_without_label;  // labels stand outside of all blocks
+    return Fault::goto_without_label;  // labels are outside all blocks
   }
   for (const DepthRule& rule : kDepthRules) {
     if (rule.verb != verb) continue;

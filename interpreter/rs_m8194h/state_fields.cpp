@@ -66,7 +66,7 @@ void StateOf<lang::Run>::check(const lang::Run& run) {
 }
 
 void StateOf<lang::Execution>::check(const lang::Execution& execution) {
-  require_state(execution.isrs.size() <= 64, "too many ISRs are at work");
+  require_state(execution.isrs.size() <= 64, "too many ISRs are active");
 }
 
 }  // namespace understudy

@@ -4,7 +4,7 @@
 //   RSM_SET_NHOME INITIAL_XY 1            ; into the Initial Table; AXIS_XY is XY
 //   RSM_WRITE_MD MD1500 0 1.5
 //   RSM_MACRO_IF VAR1 <= VAR2
-//   RSM_MACRO_FRNET_OUT bVAR0, VAR1       ; commas may stand between them
+//   RSM_MACRO_FRNET_OUT bVAR0, VAR1       ; with or without commas
 //
 // Names in upper or lower case; numbers decimal or 0x.
 #pragma once

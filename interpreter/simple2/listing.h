@@ -4,7 +4,7 @@
 //         alike
 // again:  Out DOUT_0 ON            ; a label: some flag that is free, 1 to 64
 //         VAR_DirectAdd MEM3 -5    ; parameters by the manual's aliases, or by number
-//         Wait_IO DIN_3, OFF       ; commas may stand between operands
+//         Wait_IO DIN_3, OFF       ; with or without commas
 //         Loop again 3
 // JMP7:   Jump JMP9                ; JMP1 to JMP64: just this flag
 // @200    NOP                      ; the JMP cell itself, 0 to 255, whether it makes a flag or not

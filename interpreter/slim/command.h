@@ -49,7 +49,7 @@ struct Command {
   bool operator==(const Command&) const = default;
 };
 
-/// A parsed line. A line may be empty, and a label may stand alone.
+/// A parsed line. A line may be empty, and a label may be alone on it.
 struct ParsedLine {
   std::string label = {};  // in capitals, without the $
   std::optional<Command> command = {};

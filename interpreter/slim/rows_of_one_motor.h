@@ -12,7 +12,7 @@ namespace understudy::interpreter::slim::rows {
 using enum Slot;
 using enum Condition;
 
-/// How a row is written down: what the manual's columns print as one word.
+/// Abbreviations for rows: one word for what the manual's columns print.
 struct PrintedColumns {
   Printed program, immediate, external;
 };

@@ -58,7 +58,7 @@ inline constexpr std::array<std::string_view, 24> kCodeWords{
     "ALM",
     "M8002, emergency stop",
     "a file or recipe that does not exist",
-    "an axis that something else moves, or that moves",
+    "an axis that is moving, or that something else moves",
     "CEMG, emergency input",
     "a comparator",
 };

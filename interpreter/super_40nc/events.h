@@ -47,8 +47,8 @@ enum class Reaction : std::uint8_t {
   resume,       // continues what was frozen
   pause,        // pauses between lines; a wait is suspended
   pause_later,  // pauses when its motion has ended
-  hold,         // like pause, and holds the motions beside the lines
-  freeze,       // freezes its motion or wait, and the motions beside the lines
+  hold,         // like pause, and holds the motions outside the lines
+  freeze,       // freezes its motion or wait, and the motions outside the lines
   next_line,
   forget,        // becomes idle: drops its pointer, calls, waits and held motions; motors continue
   restart,       // gives END's signal, and makes a fresh start
@@ -88,7 +88,7 @@ constexpr Reaction reaction_of(Event event, Phase phase) {
   return kReactions[static_cast<std::size_t>(event)][static_cast<std::size_t>(phase)];
 }
 
-/// What happens to motions beside the lines (a DRV with CHK 0, VDRV), and to axes that follow the wheel by
+/// What happens to motions outside the lines (a DRV with CHK 0, VDRV), and to axes that follow the wheel by
 /// MPG. The machine receives the same calls as for its line.
 enum class Beside : std::uint8_t { goes_on, is_held, is_stopped, machine_knows };
 struct BesideRow {

@@ -126,7 +126,7 @@ struct Options {
   bool start_begins_anew = false;  // true: STR restarts a running program
   bool c3p_is_in_xy = false;       // true: C3P is in XY, whatever plane is set
   bool joins_paths = false;        // LIN and arcs that follow each other are joined while D9005 is ON
-  bool rotation_0_waits = true;    // VDRV 0 waits until its axes stand
+  bool rotation_0_waits = true;    // VDRV 0 waits until its axes stop
   bool continuous_by_key = true;   // M8600 acts as M8007
 
   bool operator==(const Options&) const = default;

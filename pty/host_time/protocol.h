@@ -46,7 +46,7 @@ enum class Said : uint32_t {
   child,      // `process` is a new child of this process
   wait,       // until `until_ns`, or until something comes on one of the lines
   cancel,     // it no longer waits: something else has woken it
-  outside,    // it waits for something that is not simulated: time must stand; no answer
+  outside,    // it waits for something that is not simulated: time must not go on; no answer
   inside,     // it does so no longer; no answer
   timer,  // the timer `sequence` of this process: first at `until_ns`, then every `interval_ns`; no answer
   // the bench

@@ -99,7 +99,7 @@ class Daemon:
         self._to_guard.close()
         guard.wait()
         self._from_program.close()
-        if guard.returncode == -signal.SIGKILL:  # somebody killed it: its work is ours
+        if guard.returncode == -signal.SIGKILL:  # it was killed, so we do its work
             self._work_of_the_guard()
             return None
         return guard.returncode

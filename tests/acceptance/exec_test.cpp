@@ -266,7 +266,7 @@ TEST_F(Exec, RefusesBadUsageBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(mark));
 }
 
-// --- with a scenario beside it ---------------------------------------------------------------------
+// --- with a scenario alongside ---------------------------------------------------------------------
 
 class ExecWith : public Exec {
  protected:

@@ -1,4 +1,4 @@
-// The live page in real browsers, with mbpoll as the host beside it. Browsers are heavy to install, so this
+// The live page in real browsers, with mbpoll as the host alongside. Browsers are heavy to install, so this
 // runs only with UNDERSTUDY_HEAVY_HOSTS=1 (./test then installs them).
 #include <gtest/gtest.h>
 

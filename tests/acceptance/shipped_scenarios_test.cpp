@@ -113,7 +113,7 @@ TEST(ShippedScenarios, EachAsksAQuestionAndThePageKnowsIt) {
 /// Returns the complete output of a run, with the hashes of everything that the devices sent and did.
 std::string printed(const Words& flags = {}, const Environment& environment = {},
                     const std::string& program = UNDERSTUDY_BINARY) {
-  // More than a thousand scenarios: with sanitizers and another test beside them they took 12 s.
+  // More than a thousand scenarios: with sanitizers and another test alongside they took 12 s.
   const Finished finished =
       run(Words{program, "run", "--hash"} + flags + all() + of_choices(), environment, 8 * kPatience);
   EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;

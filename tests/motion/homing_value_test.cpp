@@ -191,7 +191,7 @@ TEST(HomingValue, StartsInTheMidstOfAnotherMotion) {
   EXPECT_EQ(bench.axis.travel_pulses, 43'000);
 }
 
-/// A machine with anything anywhere.
+/// A machine with random switches at random places.
 Environment random_machine(std::mt19937_64& random) {
   const auto between = [&](std::int64_t low, std::int64_t high) {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);

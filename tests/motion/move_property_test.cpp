@@ -33,7 +33,7 @@ Fault wrong_peak(const Profile& profile, double distance, const SpeedLaw& law) {
   const Long duration_s = oracle::shape_of(law.up, peak - start).duration_s() +
                           oracle::shape_of(law.down, peak - start).duration_s() +
                           (distance - ramps_u(law, peak)) / peak;
-  // If no ramp fits except one of a rounding error, the sum above counts it in full: none is right, too.
+  // If no ramp fits except one of a rounding error, the sum above counts it in full: no ramp is correct, too.
   const bool no_ramp =
       std::abs(profile.duration_s - distance / peak) <= kDurationTolerance * profile.duration_s;
   if (std::abs(profile.duration_s - duration_s) > kDurationTolerance * duration_s && !no_ramp) {

@@ -101,7 +101,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
     const Job& job = jobs_[i];
     require_within(job.takes, 0, kLongestJob);
     if (job.slot == kEverything) {
-      require_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot write everything");
+      require_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot be writing everything");
     } else {
       require_state(job.slot < left.size() && left[job.slot] == Slot::waits,
                     "the memory's writes are out of order");
@@ -111,7 +111,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   require_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
                 "the memory's writes are out of order");
   const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
-  require_state(rewrites || rewriting_.empty(), "the memory cannot write everything");
+  require_state(rewrites || rewriting_.empty(), "the memory cannot be writing everything");
   require_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");
   if (done_at_ != kNever) require_reach(done_at_);
 }

@@ -1,4 +1,4 @@
-// Stores NV images on disk. A file is replaced as a whole by a new one written beside it, so a reader finds
+// Stores NV images on disk. A file is replaced as a whole by a new one written next to it, so a reader finds
 // either the old image or the new one, even if the writer is killed.
 #pragma once
 

@@ -79,7 +79,7 @@ void check_restored_registers(const RegisterBank& bank, std::span<const std::uin
     if (row.is_view) continue;
     const bool is_kept = bank.keeps(row);
     for (int i = 0; i < row.count; ++i, ++slot) {
-      // Without power the image is blank except for later writes, and a register that is used up may be 0.
+      // Without power the image is blank except for later writes, and a worn-out register may be 0.
       const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
                           (!is_kept || can_hold(policy, row, kept[slot]));
       if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds a value that is not possible");

@@ -193,7 +193,7 @@ Objection write_message(RegisterBank& bank, const Place& window, const RegisterR
   return refused;
 }
 
-/// Carries out a write outside windows that the device takes as one message.
+/// Executes a write outside windows that the device takes as one message.
 Objection write_whole(RegisterBank& bank, const RegisterRequest& request) {
   if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
@@ -220,7 +220,7 @@ void take_effect(RegisterBank& bank, const Change& change) {
   if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
-/// Carries out the changes in ascending order. By policy it first stores them all and then applies their
+/// Makes the changes in ascending order. By policy it first stores them all and then applies their
 /// effects, or does both for each register in turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
   std::span all = std::span(changes.all).first(changes.count);

@@ -28,7 +28,7 @@ struct Place {
   Part part = Part::whole;
 
   explicit operator bool() const { return row != nullptr; }
-  std::uint16_t address() const {  // of the whole's first word
+  std::uint16_t address() const {  // of the first word of the whole register
     return static_cast<std::uint16_t>(row->address + index * row->stride);
   }
   bool is_second_word(bool low_word_first) const {

@@ -72,7 +72,7 @@ void validate_values(const RegisterRow& row, const Require& require) {
   require(fits(row.factory), "has a factory value that it cannot hold");
   require(!row.ranged || (fits(row.min) && fits(row.max)), "has a range that it cannot hold");
   require(!row.ranged || is_in_order(row), "has a range that ends before it begins");
-  require(row.stored_bits == 0xFFFF'FFFF || row.type != Type::f32, "is a real, which is held whole");
+  require(row.stored_bits == 0xFFFF'FFFF || row.type != Type::f32, "is a real, which must be stored whole");
   require(row.stored_bits != 0, "holds no bit of what is written");
 }
 

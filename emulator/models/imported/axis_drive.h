@@ -69,7 +69,7 @@ class AxisNumbers {
   const CountsOf& counts_of_;
 };
 
-/// Carries out a command that acts at one moment. `now` is the last completed tick. Throws motion::BadMotion
+/// Executes a command that acts at one moment. `now` is the last completed tick. Throws motion::BadMotion
 /// for numbers that no motion can have, and then changes nothing.
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
 /// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.

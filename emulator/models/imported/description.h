@@ -181,7 +181,7 @@ struct Following {
   Tick every = 100;                       // period of its updates
 };
 
-/// A bit or a register that is 1 while a relation holds.
+/// A bit or a register that is 1 while a comparison is true.
 struct Comparison {
   enum class Relation : std::uint8_t { less, at_most, equal, unequal, at_least, greater };
   Spot spot;

@@ -141,7 +141,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
     for (const auto& segment : state.loaded) {
       require_state(emulator::models::rs_m8194h::is_path(segment.command) &&
                         emulator::models::rs_m8194h::is_segment(segment),
-                    "what is loaded is not a segment");
+                    "the loaded segment is not one");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
       require_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");

@@ -1,5 +1,5 @@
-// The tick of an axis, and what stops it: STOP and SVOFF, limits and alarms. Position moves and homing meet
-// those in motion/, by AxisSettings and the homing's own table; the other modes by the table in
+// The tick of an axis, and what stops it: STOP and SVOFF, limits and alarms. Position moves and homing
+// handle those in motion/, by AxisSettings and the homing's own table, and the other modes by the table in
 // transitions.h.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Queries and assignments past the line: scenarios, traces, the control socket.
+// Queries and assignments that bypass the line: scenarios, traces, the control socket.
 #pragma once
 
 #include <functional>

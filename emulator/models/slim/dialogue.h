@@ -16,7 +16,7 @@ TextRules text_rules(const Setup& setup);
 /// state.
 void hear_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
 void hear_overlong(State& state, const Setup& setup);
-/// Executes a command past the line, without a word.
+/// Executes a command silently, without using the line.
 DeviceAnswer take_command(State& state, const Setup& setup, const lang::Machine& machine,
                           std::string_view line);
 

@@ -11,7 +11,7 @@
 //   program_text.h      programs that are loaded
 //   queries.h           what queries answer
 //   actions.h           what commands do (commands.cpp)
-//   by_name.h           queries and assignments past the line
+//   by_name.h           queries and assignments that bypass the line
 //   dialogue.h          what happens to a line
 //
 // Each may know those above it. device.h joins them to a device.

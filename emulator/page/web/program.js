@@ -1,4 +1,4 @@
-// The program: its listing with the running line, what it waits for, and values beside it; starts, stops and loads it.
+// The program: its listing with the running line, what it waits for, and values next to it; starts, stops and loads it.
 import { html, useEffect, useRef, useState } from './preact.js';
 import { ask, askQuietly, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped } from './small.js';

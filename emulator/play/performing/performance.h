@@ -46,7 +46,7 @@ class Performance {
     std::vector<std::pair<std::string, std::size_t>> faults;
     Tick last_write = 0;
     std::map<std::string, ConditionHistory::State> histories;
-    std::vector<SimTime> quiet_since;  // as Stage has it
+    std::vector<SimTime> quiet_since;  // as in Executor
     std::uint64_t hash = 0;
   };
 
@@ -66,7 +66,7 @@ class Performance {
   void restore(const Checkpoint& checkpoint);
 
   SimTime now() { return executor_->now(); }
-  /// See Stage::with_world().
+  /// See Executor::with_world().
   void with_world(const std::function<void(world::World&)>& act) { executor_->with_world(act); }
   std::uint64_t outcome_hash();
 

@@ -28,7 +28,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Returns why a step cannot run beside another host, or null if it can.
+/// Returns why a step cannot run alongside another host, or null if it can.
 struct Objection {
   const char* operator()(const WriteStep&) const { return kUsesLine; }
   const char* operator()(const CommandStep&) const { return kUsesLine; }

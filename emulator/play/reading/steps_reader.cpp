@@ -50,7 +50,7 @@ const StepRow* row_of(const world::YamlFields& step) {
   entries.front().second.fail("is not a step" + suggestion(key, names));
 }
 
-/// Returns the size of a step's data beside its text, for kinds that may have much.
+/// Returns the size of a step's data other than its text, for kinds that may have much.
 struct BytesOf {
   std::size_t operator()(const SendStep& step) const {
     return step.bytes.size() + (step.reply ? step.reply->size() : 0);

@@ -59,7 +59,7 @@ std::size_t length_of_escape(std::string_view text, std::size_t at) {
   return is_one ? 4 : 0;
 }
 
-/// Adds one sign for all numbers and bytes that stand side by side, because they look alike.
+/// Adds one sign for all numbers and bytes that are adjacent, because they look alike.
 void add_sign(std::string& made) {
   if (made.ends_with("# ")) {
     made.pop_back();

@@ -207,7 +207,7 @@ class SchemaWriter {
 
   Json described(const world::Key& row) const {
     Json schema = of(*row.form);
-    // Draft 7 ignores keys beside a $ref.
+    // Draft 7 ignores keys next to a $ref.
     if (schema.contains("$ref")) schema = Json{{"allOf", {schema}}};
     schema["description"] = row.doc;
     return schema;

@@ -234,7 +234,7 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
   return heard.lines;
 }
 
-/// Sends text after the gap. On return, all of it is on the line, but not over.
+/// Sends text after the gap. On return, the line has all of it, but may still be sending it.
 void FreeExecutor::put_text(Host& host, const std::string& text) {
   writing_ = nullptr;
   world_.advance_to(world_.now());  // output from an act at this moment comes first

@@ -106,7 +106,7 @@ HostReply LibmodbusHost::judge(int result) {
     } else if (error >= EMBBADCRC) {
       reply.kind = HostReply::Kind::garbled;
     } else {
-      throw pty::PortError(port_ + ": " + modbus_strerror(error) + "; expected a port that stays");
+      throw pty::PortError(port_ + ": " + modbus_strerror(error) + "; expected a port that stays open");
     }
   }
   quiet_since_ = serve::wall_now();
@@ -162,7 +162,7 @@ std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::Wa
   std::array<std::uint8_t, 512> part;
   const ssize_t size = ::read(port.fd, part.data(), part.size());
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-  if (size <= 0) throw pty::PortError(port_ + ": has hung up; expected a port that stays");
+  if (size <= 0) throw pty::PortError(port_ + ": has hung up; expected a port that stays open");
   bytes.insert(bytes.end(), part.begin(), part.begin() + size);
   return static_cast<std::size_t>(size);
 }
@@ -176,7 +176,7 @@ void LibmodbusHost::write_all(std::span<const std::uint8_t> bytes) {
       continue;
     }
     if (size < 0 && errno != EAGAIN && errno != EINTR)
-      throw pty::PortError(port_ + ": " + modbus_strerror(errno) + "; expected a port that stays");
+      throw pty::PortError(port_ + ": " + modbus_strerror(errno) + "; expected a port that stays open");
     pollfd writable{.fd = port, .events = POLLOUT, .revents = 0};
     ::poll(&writable, 1, 100);
   }

@@ -28,12 +28,12 @@ class LibmodbusHost {
   HostReply read(int station, Table table, std::uint16_t first, int count);
   HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   HostReply write_message(int station, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// Exchanges raw bytes without libmodbus; see Stage::exchange(). `sending` is the time of the bytes on the
-  /// line.
+  /// Exchanges raw bytes without libmodbus; see Executor::exchange(). `sending` is the time of the bytes on
+  /// the line.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
-  /// Exchanges lines of text without libmodbus; see Stage::converse().
+  /// Exchanges lines of text without libmodbus; see Executor::exchange_text().
   std::vector<std::string> exchange_text(const std::optional<std::string>& text,
                                          const world::LinesWanted& wanted, serve::WallTime sending,
                                          serve::WallTime within);

@@ -211,8 +211,8 @@ void program_message(Daemon& daemon, const Json& message, const ControlServer::R
   }
   const std::string text = require_text(message, "text");
   if (text.size() <= kMaxAtOnce) return answer(reply, [&] { return load_program(daemon, number, text); });
-  // The check runs aside, because a message may be far longer than any program that a device holds. To load a
-  // valid program is quick.
+  // The check runs in a helper thread, because a message may be far longer than any program that a device
+  // holds. Loading a valid program is quick.
   daemon.do_aside([&daemon, &model = device.model(), settings = device.settings(), number, text,
                    author = daemon.observers().events.author(), reply]() -> std::function<void()> {
     std::vector<ProgramMistake> mistakes = check_program(model, text, settings);

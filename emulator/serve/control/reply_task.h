@@ -1,7 +1,7 @@
 // A reply that is made in pieces. Devices wait while a reply is made, so a reply that takes long pauses
 // between its parts and continues when the work due meanwhile is done (EventLoop::do_in_pieces).
 //
-//   Telling list_message(Daemon& daemon, Json message) {
+//   ReplyTask list_message(Daemon& daemon, Json message) {
 //     const Pause pause(daemon);
 //     ReplyText text;
 //     for (...) {

@@ -1,4 +1,4 @@
-// The doors of a daemon to the outside: pseudo-terminals, who opens them, and TCP addresses.
+// A daemon's connections to the outside: pseudo-terminals, who opens them, and TCP addresses.
 #include <fcntl.h>
 #include <unistd.h>
 

@@ -122,7 +122,7 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
                          ": nv: another running understudy uses this memory; expected a separate file, or a "
                          "separate folder with --nv, for each");
   }
-  // Nobody else writes this file, so files beside it come from a writer that was killed.
+  // Nobody else writes this file, so files next to it come from a writer that was killed.
   remove_left_beside(file_of(device).string(), ContentKind::nv_image);
 }
 

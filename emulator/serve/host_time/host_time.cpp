@@ -76,7 +76,7 @@ Descriptor listen_at(const std::string& place) {
   return socket;
 }
 
-/// Receives a message, and the descriptor beside it if there is one.
+/// Receives a message, and the descriptor sent with it, if any.
 ssize_t receive_message(int socket, host_time::Message& message, Descriptor& passed) {
   iovec part{&message, sizeof message};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
@@ -296,7 +296,7 @@ bool HostTime::expire_timers() {
   return !expired.empty();
 }
 
-/// Returns how far time may go before somebody must be asked, or nothing if it must stand.
+/// Returns how far time may go before a program must be asked, or nothing if it must not go on.
 std::optional<SimTime> HostTime::next_stop() const {
   const world::World& world = daemon_.world();
   const SimTime now = world.now();

@@ -14,7 +14,7 @@ struct NoTtyShim : std::runtime_error {
 inline constexpr const char* kTtyShimLibrary = "tty_shim.so";
 inline constexpr const char* kHostTimeLibrary = "host_time.so";
 
-/// Returns a library's path: in lib/understudy beside the running program, or beside the program's folder.
+/// Returns a library's path: in lib/understudy next to the running program, or next to the program's folder.
 /// Throws NoTtyShim.
 std::string library_path(const std::string& name);
 

@@ -95,7 +95,7 @@ const YamlNode* value_in(const YamlNode& map, const YamlNode& key) {
   return nullptr;
 }
 
-/// The depth is limited because an alias may stand inside the node that it names.
+/// The depth is limited because an alias may be inside the node that it names.
 constexpr int kMaxJoinedDepth = 32;
 
 const YamlNode* joined(const YamlNode& own, const YamlNode& defaults, JoinedNodes& nodes, int depth = 0) {

@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::world {
 
-/// Reads a tracefile: of this program, or a sum that lcov has made of them. Throws FileError, which names
-/// `file` and the line.
+/// Reads a tracefile: of this program, or several merged by lcov. Throws FileError, which names `file`
+/// and the line.
 CoverageReport read_tracefile(std::string_view text, const std::string& file);
 
 }  // namespace understudy::emulator::world

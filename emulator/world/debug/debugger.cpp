@@ -166,7 +166,7 @@ void Debugger::require_place(const Point& point) const {
     throw BreakpointError(world_.device(setup.device).name() + " has no program; expected one to be loaded");
   if (setup.kind == BreakpointSetup::Kind::line) {
     throw BreakpointError("line: no instruction is on line " + std::to_string(setup.line) +
-                          " or behind it; expected at most " + std::to_string(lines.last_line()));
+                          " or after it; expected at most " + std::to_string(lines.last_line()));
   }
   const ProgramPart* const part = lines.find_part(setup.program);
   if (part == nullptr) {

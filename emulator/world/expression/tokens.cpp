@@ -139,7 +139,7 @@ Token Lexer::next() {
 }
 
 // Reads a unit after a number, with or without a space between. A word there can only be a unit, because two
-// values never stand side by side.
+// values are never adjacent.
 std::string_view Lexer::unit_here() {
   std::size_t begin = next_;
   while (at(begin) == ' ') ++begin;

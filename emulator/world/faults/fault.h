@@ -57,7 +57,7 @@ struct Fault {
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
   std::int64_t over_ticks = 0;
-  bool on_line = false;   // all of its line is meant
+  bool on_line = false;   // its whole line
   bool of_input = false;  // of `turn`: the place is a counted input
   enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
   std::vector<std::uint8_t> before{};

@@ -41,10 +41,10 @@ struct RecordedEvent {
     power,    // the device was switched to `value`
     inject,   // `fault`
     clear,    // fault number `value`
-    write,    // `write`, past the line
+    write,    // `write`, bypassing the line
     assign,   // a device without registers was given the value `real` by the name `text`
     program,  // a device was given the program `text`; it refused it if `value` is not 0
-    command,  // and the command `text`, past the line
+    command,  // and the command `text`, bypassing the line
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
   SimTime at{0};

@@ -57,7 +57,7 @@ struct ModbusReply {
   RefusedRequest refused{};  // the refused request and the reason, if the reply is an exception
 };
 
-/// Carries out one request (function code and data) and makes its reply. A request that is answered with an
+/// Executes one request (function code and data) and makes its reply. A request that is answered with an
 /// exception has changed nothing. Checks are in this order: function, quantity and byte count, addresses,
 /// values, and whether the device takes it now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);

@@ -27,7 +27,7 @@ namespace understudy {
 
 void StateOf<emulator::world::TextStation::State>::check(const emulator::world::TextStation::State& state) {
   emulator::world::FaultyWire::check(state.late);
-  const auto require = [](bool holds) { require_state(holds, "a station cannot have such text"); };
+  const auto require = [](bool holds) { require_state(holds, "the texts of a station are not possible"); };
   require(state.waiting.size() <= 1);
   for (const auto& waiting : state.waiting) require(pty::is_within_reach(waiting.heard.end));
   for (const auto& outgoing : state.outgoing) require(!outgoing.text.empty());

@@ -59,7 +59,7 @@ class TextStation final : public LineStation {
     std::vector<Waiting> waiting{};  // at most one
     std::vector<FaultyWire::Late> late{};
     std::vector<Outgoing> outgoing{};
-    pty::SimTime free_at{0};                  // when the wire has carried what it was given
+    pty::SimTime free_at{0};                  // when the wire has carried its data
     std::optional<pty::SimTime> speaks_at{};  // when the device's unasked text is taken
     bool is_held = false;                     // by the host's XOFF
   };

@@ -34,7 +34,7 @@ enum class Phase : std::uint8_t {
   move,   // the end of a move that the current line has started
 };
 
-/// The one Loop that counts.
+/// The Loop that is counting; there is at most one.
 struct LoopState {
   bool counts = false;
   std::uint8_t first_line = 0;

@@ -28,7 +28,7 @@ TEST(NearWord, HasTheFewestChangesWithinAThirdOfItsLetters) {
       {"abcdefghi", {"abcdefXYZ"}, "abcdefXYZ"},  // 9 allow 3
       {"y", {"x"}, std::nullopt},                 // nothing would be left
       {"ya", {"xa"}, "xa"},
-      {"puls", {"speed", "pulses"}, "pulses"},            // 2 changes, but the beginning of it
+      {"puls", {"speed", "pulses"}, "pulses"},            // 2 changes, but a prefix of it
       {"Cord", {"Curve", "Cord_A", "Cord_B"}, "Cord_A"},  // 2 changes; the first one with this beginning
       {"cor", {"Chord", "Cord_A"}, "Cord_A"},
       {"co", {"Cord_A"}, std::nullopt},  // too short to tell

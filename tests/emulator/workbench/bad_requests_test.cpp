@@ -44,7 +44,7 @@ struct Heard {
 struct Case {
   Fault fault;
   const char* request;
-  int exception;  // 0: it is valid, which the table contains as well
+  int exception;  // 0: valid; the table has valid requests too
   Cause cause = Cause::none;
   Heard heard{};
   int reason = 0;

@@ -64,7 +64,7 @@ const Case kCases[] = {
     {word().range(5, 4), "has a range that ends before it begins"},
     {real().real_range(1, -1), "has a range that ends before it begins"},
     {real().real_range(0, std::numeric_limits<float>::quiet_NaN()), "has a range that ends before it begins"},
-    {real().holding_bits(0xFF), "is a real, which is held whole"},
+    {real().holding_bits(0xFF), "is a real, which must be stored whole"},
     {word().holding_bits(0), "holds no bit of what is written"},
     {input(0, "I", Type::u16).always(1).kept(), "is a view, which keeps nothing"},
     {input(0, "I", Type::s32).does<set_position>(), "can only be read, and has an effect"},

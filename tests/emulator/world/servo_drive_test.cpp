@@ -69,7 +69,7 @@ class Servos : public OneSimple2 {
 TEST(ServoDrive, ReadyComesAfterItsDelayToTheMillisecond) {
   for (const char axis : {'A', 'B'}) {
     for (const Tick delay : {0, 1, 50, 1000}) {
-      for (const bool straight : {true, false}) {  // SVON_Polarity 1, or 0 and a drive that off enables
+      for (const bool straight : {true, false}) {  // SVON_Polarity 1, or 0 and a drive that "off" enables
         Servos servos({.ready_after = delay, .enabled_by = straight, .servo_polarity = straight});
         servos.run_to(10);
         servos.set(servos.name(axis, "SVON"), 1);

@@ -309,7 +309,7 @@ TEST(Super40ncEvents, AStartElsewhereKeepsTheOldModes) {
   EXPECT_EQ(first.machine.log.back(), "C: DRV 1 * * * at 100");
 }
 
-/// The calls to the machine about a motion beside the lines, and about the wheel: they are the same.
+/// The calls to the machine about a motion outside the lines, and about the wheel: they are the same.
 TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
   for (std::size_t i = 0; i < kBeside.size(); ++i) {
     const BesideRow& row = kBeside[i];

@@ -18,13 +18,13 @@ class Scans final : public Part {
   Scans(const Ground& ground, Chip& chip, Interrupts& interrupts)
       : Part(ground), chip_(chip), interrupts_(interrupts) {}
 
-  /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them stand.
+  /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them have ended.
   void open(AxisMask axes);
   /// Returns true if, by choice, a scan at this speed is void.
   bool is_too_fast(std::size_t axis, const motion::SpeedLaw& law) const;
   /// Begins the scan of an axis that has set out for `distance_pulses`.
   void begin(std::size_t axis, std::int64_t distance_pulses);
-  /// Gives the triggers of a tick, and ends the scans of axes that stand.
+  /// Sends the triggers of a tick, and ends the scans of axes at rest.
   void step(Tick tick);
   /// Returns what the counter that LINE_SCAN's Type names has counted: a ring wraps in it, and it may be set.
   std::int64_t travel(std::size_t axis) const;

@@ -147,7 +147,7 @@ void External::set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint
   unit.external_pps = data;
   if (!was_running) return;
   if (mode == Mode::continuous) {
-    // Another speed of what runs, which its input still stops.
+    // Changes the speed of the running motion; its input still stops it.
     motion::SpeedLaw law = motor.law;
     law.top_speed_u_s = law_at(unit, data, machine_options().speed).top_speed_u_s;
     law.start_speed_u_s = std::min(law.start_speed_u_s, law.top_speed_u_s);

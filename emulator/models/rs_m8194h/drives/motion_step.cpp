@@ -118,7 +118,7 @@ Tick MotionStep::quiet_until(Tick done, Tick last, const ClearTravel& ahead) con
         motor.quiet_until(done + 1, last, chip_.environment(a),
                           {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
   }
-  // Held paths wait for an axis to stand.
+  // Held paths wait for an axis to stop.
   return streams_.held().empty() || chip_.driving() != 0 ? last : done;
 }
 

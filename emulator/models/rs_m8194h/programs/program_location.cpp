@@ -24,7 +24,7 @@ std::string_view awaited_by(lang::Hold hold) {
     case lang::Hold::timer: return "its time";
     case lang::Hold::axes: return "axes to stop";
     case lang::Hold::frnet: return "an input of the FRnet";
-    case lang::Hold::machine: return "the drive to take it";
+    case lang::Hold::machine: return "the drive to accept it";
   }
   return "";
 }

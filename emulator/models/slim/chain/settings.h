@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Changes them. They return Error::none, or the value is refused and nothing has changed.
+/// Functions that change them. They return Error::none, or refuse the value and change nothing.
 class ChainSettings {
  public:
   explicit ChainSettings(ChainState& chain) : chain_(chain) {}

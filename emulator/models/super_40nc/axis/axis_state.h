@@ -47,7 +47,7 @@ struct AxisState {
   std::int32_t index_count = 0;  // C signals (EZ) of the last homing
   bool latch_was_on = false;
   std::uint8_t clears = 0;            // which of COUNTER2 to 4 to clear once the tick's counts are in
-  std::uint8_t compares_by_tick = 0;  // comparators that the chip's own cannot do, checked once a tick
+  std::uint8_t compares_by_tick = 0;  // comparators that the chip cannot evaluate, checked every tick
   motion::Events latching = 0;        // events of the chip's comparators that latch
   std::array<std::int64_t, kComparators>
       compared{};                  // the last values seen by the comparators that are checked by tick

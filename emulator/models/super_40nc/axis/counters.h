@@ -40,7 +40,7 @@ class Counters : protected Chips {
   BeforeTick begin_tick(Tick tick, std::int32_t wheel_counts);
   /// Counts the rest of a tick of an axis; set_encoder() counts the encoder.
   void end_tick(int axis_number, const BeforeTick& before);
-  /// Returns what has come at a moment of the tick, with the axis at `place`, since it was counted last.
+  /// Returns the input from the last count to a moment of the tick, with the axis at `place`.
   Counted counted_until(int axis_number, double at_s, const motion::AxisPlace& place) const;
   /// Counts until this moment of the tick.
   void count_until(int axis_number, double at_s);

@@ -210,7 +210,7 @@ std::optional<Broken> Moves::go_on_axis(int axis_number) {
   return std::nullopt;
 }
 
-/// Resets the program, as if the axis had met in motion what it stands at now.
+/// Resets the program, as if the axis had reached its present signals in motion.
 std::optional<Broken> Moves::cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
   const motion::Axis& motor = chip(axis_number);
   parts_.starts.let_go(axis_number);

@@ -30,7 +30,7 @@ void Programs::broken(const Broken& broken) {
   controls_.moves.break_program(broken.mover, broken.axis);
   const auto area = static_cast<language::Area>(broken.mover);
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
-  // A motion beside the lines also resets a running program; a program that has ended is left alone.
+  // A motion outside the lines also resets a running program; a program that has ended is left alone.
   const bool runs_on = !broken.is_awaited && phase != language::Phase::idle;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
   const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;

@@ -231,7 +231,7 @@ TEST(RsM8194hMacros, TriggersRunWithoutAHost) {
   EXPECT_EQ(rsm.get("LP_X"), 0);  // not enabled
   EXPECT_EQ(rsm.ask("06 00 09 00 01"), "06 00 09 00 01");
   rsm.run(10);
-  EXPECT_EQ(rsm.get("LP_X"), 0);  // an edge is not there already
+  EXPECT_EQ(rsm.get("LP_X"), 0);  // no edge yet
   rsm.input(kFirstDi, false);
   rsm.run(10);
   rsm.input(kFirstDi, true);

@@ -24,7 +24,7 @@ TEST(ChoicesMotion, CommandWhileMovingReplacesTheMoveOrIsIgnored) {
     feeder.set("Aaxis_Move_INC", 1);
     feeder.run(200);
     EXPECT_EQ(feeder.coordinate('A'), end) << option;
-    feeder.set("Aaxis_Move_INC", 1);  // it stands: taken either way
+    feeder.set("Aaxis_Move_INC", 1);  // at rest: accepted either way
     feeder.run(20);
     feeder.set("Aaxis_GoHome", 1);
     EXPECT_EQ(feeder.bit("STATUS.6"), option == "replaces") << option;

@@ -158,7 +158,7 @@ TEST(ChoicesProgramRun, StartWhileRunningRestartsOrJumpsOrIsIgnored) {
       feeder.run(100);
       EXPECT_FALSE(runs(feeder)) << option;
       EXPECT_EQ(feeder.get("Counter1_Value"), counted) << option << ", START " << line;
-      feeder.set("PROG_MAIN_RunTime_START", 0);  // of a program that stands: always afresh
+      feeder.set("PROG_MAIN_RunTime_START", 0);  // of a program that is not running: always a new start
       feeder.run(100);
       EXPECT_EQ(feeder.get("Counter1_Value"), counted + 3) << option << ", START " << line;
     }

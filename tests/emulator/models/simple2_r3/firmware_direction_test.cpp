@@ -163,7 +163,7 @@ TEST(FirmwareDirection, VelocityAndSyncModeAreCountedAlike) {
   }
 }
 
-// Turned while it stands between two moves: what was counted before stays.
+// Changed at rest between two moves: earlier counts remain.
 TEST(FirmwareDirection, ThePolarityCountsFromWhenItIsWritten) {
   for (const Polarity& p : every_polarity()) {
     SCOPED_TRACE(text_of(p));

@@ -175,7 +175,7 @@ TEST(HomingInterrupted, FactoryResetStopsItAndPutsTheHomeBitOut) {
   EXPECT_FALSE(homed.homed());
 }
 
-// By hand from each moment's place: where it stands it begins anew, from standstill.
+// By hand from the place at each moment: it begins again there, from standstill.
 TEST(HomingInterrupted, BegunAnewItStartsFromStandstillWhereItIs) {
   struct Anew {
     std::size_t moment;

@@ -28,7 +28,7 @@ struct HomingLeg {
   Tick at = 0;
   Does does = Does::run;
   int direction = +1;
-  std::int64_t from = 0;      // where the axis last stood
+  std::int64_t from = 0;      // where the axis was last at rest
   double gone_pulses = 0;     // of slow: from there to where slowing down began
   double pulses_a_ms = 0;     // of slow: the speed there
   std::int64_t distance = 0;  // of back

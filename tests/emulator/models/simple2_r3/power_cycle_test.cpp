@@ -75,7 +75,7 @@ TEST(PowerCycle, KeepsEveryRegisterThatTheManualMarksAndNoOther) {
 struct Situation {
   const char* what;
   std::function<void(Switched&)> begin;
-  const char* busy;  // a register that tells that it is going on
+  const char* busy;  // a register that shows that it is in progress
   Value busy_value = 1;
 };
 
@@ -242,7 +242,7 @@ TEST(PowerCycle, StopsWhateverWasGoingOnAndForgetsItWholly) {
         EXPECT_EQ(feeder.get(zero), 0) << zero;
       }
 
-      // Fit for work, from 0 on, wherever the machine stands.
+      // Ready to work, from 0 on, wherever the machine is.
       for (Switched* device : {&feeder, &twin}) {
         device->set("Aaxis_SVON", 1);
         device->set_one_pulse_a_tick('A', -30);

@@ -382,7 +382,7 @@ TEST(SlimMotionOptions, WhatIsRefusedForAModuleWithALetter) {
                                  "> T1H\n@ 201\nT1HORG = 1\n@ 200\n> ?T1PE\n< 0\n> ?T1ST\n< 49\n"}});
 }
 
-// Found during the motion, and belongs to us.
+// The cases were found while the motion code was written.
 TEST(SlimMotionOptions, AnalogSpeedNeitherBreaksNorRevivesAJog) {
   // Reversing, without a voltage, and reversing again: it waits for a voltage.
   play_all("analog_speed",

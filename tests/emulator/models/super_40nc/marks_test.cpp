@@ -13,7 +13,8 @@ namespace marks_test {
 
 constexpr Tick kFinishTicks = 20;
 
-/// M10 to M12 move X through the PLC, M20 to M22 are STP of X and of C, and the DRV checks that all is well.
+/// M10 to M12 move X through the PLC, M20 to M22 are STP of X and of C, and the DRV checks that everything
+/// still works.
 const std::string kPlc =
     "AREA PLC\nLD M10\nPJG K1\nLDP M11\nHOM K1\nLDP M12\nDRV K900000\nLD M20\nSTP K1\nLD M21\nSTP\nLDP M22\n"
     "INCC\nDRV K1000\nEND\n";

@@ -147,7 +147,7 @@ TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {
     }
     return "";
   };
-  EXPECT_EQ(error_of({.line = 300}), "line: no instruction is on line 300 or behind it; expected at most 5");
+  EXPECT_EQ(error_of({.line = 300}), "line: no instruction is on line 300 or after it; expected at most 5");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .line = 999}),
             "instruction: there is no number 999; expected 0 to 255");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .program = "MP1"}).substr(0, 25),

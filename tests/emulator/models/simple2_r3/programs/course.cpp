@@ -175,7 +175,7 @@ std::set<std::string> compare(const View& before, const View& after,
 
 // --- what the table asks for -----------------------------------------------------------------------
 
-/// The registers that the table names, and the ms in which it asks where an axis is on the way.
+/// The registers that the table names, and the ms in which it asks where an axis is during a move.
 struct Wishes {
   std::vector<std::string> watched;
   std::map<Tick, std::set<char>> samples;

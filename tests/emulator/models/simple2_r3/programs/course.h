@@ -1,4 +1,4 @@
-// The whole course of a program, beside the one worked out by hand.
+// The whole course of a program, next to the one worked out by hand.
 //
 // A course is everything that can be seen from outside, ms by ms, from the slot of the first line on (ms 0):
 //

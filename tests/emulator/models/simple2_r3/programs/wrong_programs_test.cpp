@@ -5,7 +5,7 @@
 namespace understudy::emulator::models::simple2_r3 {
 namespace wrong_programs_test {
 
-// "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is met.
+// "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is reached.
 TEST(WrongProgram, WithNestedLoopsEndsWhereTheInnerLoopIsMetAgain) {
   expect_course({.listing = "wrong_nested_loops.lst", .until = 100}, R"(
 0       run L0 C1=1
@@ -201,7 +201,7 @@ TEST(WrongMoment, StartedWhileItRunsItBeginsAnewAtThatLine) {
 )");
 }
 
-// A delay that has begun continues as it began; flags lead where they stand now.
+// A delay that has begun continues as it began; flags jump to their present places.
 TEST(WrongMoment, RewrittenWhileItRunsItGoesOnWithTheNewLines) {
   expect_course({.listing = "rewritten_as_it_runs.lst",
                  .deeds = {{host_writes(31, "MAIN_LINE1_DATA1", 4), host_writes(61, "MAIN_LINE0_JMP", 0),
