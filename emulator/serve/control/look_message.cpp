@@ -201,6 +201,7 @@ ReplyTask look_message(Daemon& daemon, Json message) {
   text.member("paused", daemon.pacer().paused());
   text.member("speed", format_speed(daemon.pacer().speed()));
   text.member("advancing", daemon.is_advancing());
+  if (daemon.observers().altered_at) text.member("altered_at_ns", daemon.observers().altered_at->count());
   if (list) {
     text.member("look", *list);
     text.open_list("values");
