@@ -17,7 +17,7 @@ test_packages=(python3                                   # counts the results
                python3-pytest python3-pytest-xdist python3-hypothesis python3-yaml mypy  # the Python client
                python3-pip python3-setuptools python3-wheel                  # its wheel
                python3-pymodbus python3-serial-asyncio)  # a host; it only recommends the second package, but needs it
-heavy_host_packages=(ser2net libqt5serialbus5-dev chromium chromium-driver firefox-esr python3-selenium npm)  # with UNDERSTUDY_HEAVY_HOSTS=1
+heavy_host_packages=(ser2net libqt5serialbus5-dev chromium chromium-driver firefox-esr python3-selenium npm node-typescript)  # with UNDERSTUDY_HEAVY_HOSTS=1
 
 # Succeeds if apt-get can install packages here, as root.
 can_install() {

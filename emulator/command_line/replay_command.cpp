@@ -74,7 +74,7 @@ class Rememberer final : public world::ReplayWatcher {
     begins = world.now();
   }
   void happened(const world::RecordedEvent& event, std::size_t) override {
-    const bool is_told = event.what != world::RecordedEvent::What::end || !event.failed.empty();
+    const bool is_told = event.what != world::RecordedEvent::What::end || !event.failed.what.empty();
     if (is_told) events_.push_back(event);
   }
 
@@ -82,8 +82,8 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// Replays the whole recording, then serves any moment of it, at first `until` or the beginning. A recording
-/// that differs is served up to the difference.
+/// Replays the whole recording, then serves any moment of it, at first `until`, the failure or the beginning.
+/// A recording that differs is served up to the difference.
 int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> until) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;
@@ -95,8 +95,16 @@ int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
   const SimTime end = replayed.result.reached;
-  const SimTime at_first = std::clamp(until.value_or(*begins), *begins, end);
-  const auto door = serve::timeline_door(arguments.control, *begin, events, end, at_first);
+  SimTime begins_at = *begins;
+  for (const world::RecordedEvent& event : events)
+    if (!event.failed.what.empty()) begins_at = event.failed.at;
+  const SimTime at_first = std::clamp(until.value_or(begins_at), *begins, end);
+  const auto door = serve::timeline_door(arguments.control, {.bench = replayed.bench,
+                                                             .options = replayed.header.options,
+                                                             .begin = *begin,
+                                                             .events = std::move(events),
+                                                             .end = end,
+                                                             .at_first = at_first});
   return serve_from(replayed, *begin, at_first, arguments.recording, door, arguments.page);
 }
 

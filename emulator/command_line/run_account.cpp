@@ -12,6 +12,7 @@
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/failure_story.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
@@ -47,8 +48,9 @@ std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool go
 
 }  // namespace
 
-RunAccount::RunAccount(const RunArguments& arguments)
-    : arguments_(arguments),
+RunAccount::RunAccount(ModelList models, const RunArguments& arguments)
+    : models_(models),
+      arguments_(arguments),
       // If results go to standard output, text for people goes to standard error.
       told_(arguments.junit == kStandardOutput ? stderr : stdout) {
   for (const std::string& path : arguments.results) rows_.push_back(open_results(path, arguments.resume));
@@ -111,6 +113,7 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   }
   files.settle(result, is_new);
   if (kind != nullptr && !is_new && result.recording.empty()) result.like = kind->first;
+  if (is_new && !result.recording.empty()) result.failure->led_to = what_led_to_it(models_, result.recording);
   const bool is_one_of_many = result.which.is_varied && !is_new && !arguments_.hash;
   if (!is_one_of_many) {
     progress.above([&] {

@@ -15,6 +15,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
+#include "emulator/device/model.h"
 #include "emulator/play/results/failure_kinds.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
@@ -26,7 +27,7 @@ namespace understudy::emulator::command_line {
 class RunAccount {
  public:
   /// Opens the files of results. Throws UsageError and GrowingFileError.
-  explicit RunAccount(const RunArguments& arguments);
+  RunAccount(ModelList models, const RunArguments& arguments);
 
   /// Returns true if the files of results already have this case. Then it need not run again and counts as
   /// left out. May be called on any thread, one call at a time.
@@ -51,6 +52,7 @@ class RunAccount {
                const std::function<std::vector<play::ScenarioResult>()>& again);
   void note_lint_findings(const play::ScenarioResult& result);
 
+  ModelList models_;
   const RunArguments& arguments_;
   std::FILE* told_;
   std::vector<std::unique_ptr<play::ResultsFile>> rows_;

@@ -346,7 +346,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
   RunCoverage coverage(arguments);
-  RunAccount account(arguments);
+  RunAccount account(models, arguments);
   RunFiles files(folders_of(arguments), std::move(known.claims), recorded_by(arguments), arguments.version);
   junit.empty();
   report.empty();

@@ -186,7 +186,8 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
     }
     const std::string time =
         "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
-        ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
+        ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing")) +
+        (look.contains("altered_at_ns") ? ",\"altered_at_ns\":" + text_of(look["altered_at_ns"]) : "");
     const std::uint64_t who = look.at("pid").get<std::uint64_t>();
     if (who != who_) {
       // The numbers of lists belong to the old daemon.

@@ -20,7 +20,7 @@ struct PassedVerb {
   bool changes = false;
   std::array<std::string_view, 2> only_with{};
 };
-constexpr std::array<PassedVerb, 38> kPassedVerbs{{{"status"},
+constexpr std::array<PassedVerb, 41> kPassedVerbs{{{"status"},
                                                    {"identify"},
                                                    {"bench"},
                                                    {"registers"},
@@ -57,7 +57,10 @@ constexpr std::array<PassedVerb, 38> kPassedVerbs{{{"status"},
                                                    {"resume", true},
                                                    {"speed", true},
                                                    {"timeline"},
-                                                   {"seek", true}}};
+                                                   {"seek", true},
+                                                   {"curves"},
+                                                   {"spans"},
+                                                   {"what-if", true}}};
 
 constexpr int kDeepest = 8;
 constexpr std::size_t kMaxNames = 2'000;

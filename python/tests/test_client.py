@@ -284,6 +284,17 @@ def test_to_and_fro_in_a_recording(folders):
             assert one.seek(to_ns=7_000_000) == 7_000_000
             assert one.seek(by="tick", steps=-3) == 4_000_000
             assert one.eval("power") == 1
+            assert one.curves("power", dots=2) == {"power": {"least": [1, 0], "greatest": [1, 1]}}
+            off = [span for span in one.spans() if span["kind"] == "power"]
+            assert [(span["begin_ns"], span["end_ns"]) for span in off] == [(5_000_000, 10_000_000)]
+            one.what_if()
+            one.power("off")
+            one.advance("1ms")
+            with pytest.raises(understudy.Refused):
+                one.seek(to_ns=0)
+            one.what_if(False)
+            assert one.timeline()["at_ns"] == 4_000_000
+            assert one.eval("power") == 1
     finally:
         replay.terminate()
         replay.wait()

@@ -244,7 +244,7 @@ class Bench:
         while begin is not None:
             reply = self.ask("timeline", **{"from": begin})
             some = reply["timeline"]
-            whole = {**some, "marks": whole.get("marks", []) + some["marks"]}
+            whole = {**whole, **some, "marks": whole.get("marks", []) + some["marks"]}
             begin = some.get("next", reply.get("next"))
         whole.pop("next", None)
         return whole
@@ -255,6 +255,20 @@ class Bench:
             raise ValueError("expected either a time, or a number of ticks, frames or events")
         how: Dict[str, Any] = {"to_ns": to_ns} if by is None else {"by": by, "steps": steps}
         return int(self.ask("seek", **how)["simulated_time_ns"])
+
+    def curves(self, *names: str, from_ns: Optional[int] = None, to_ns: Optional[int] = None,
+               dots: int = 1000) -> Dict[str, Dict[str, List[float]]]:
+        """Returns the `least` and the `greatest` value of each name in every dot of a stretch of a recording."""
+        reply = self.ask("curves", **_given({"names": list(names), "from_ns": from_ns, "to_ns": to_ns, "dots": dots}))
+        return dict(zip(names, reply["curves"]))
+
+    def spans(self, from_ns: Optional[int] = None, to_ns: Optional[int] = None, dots: int = 1000) -> List[Dict[str, Any]]:
+        """Returns the frames, lines of programs, faults and events of a stretch of a recording."""
+        return self._pages("spans", "spans", {"from_ns": from_ns, "to_ns": to_ns, "dots": dots})
+
+    def what_if(self, on: bool = True) -> None:
+        """Allows a recording to be altered from here, or goes back to it."""
+        self.ask("what-if", **({} if on else {"off": True}))
 
     def _pages(self, do: str, of: str, asked: Dict[str, Any]) -> List[Dict[str, Any]]:
         rows: List[Dict[str, Any]] = []

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "tests/acceptance/running_understudy.h"
@@ -33,6 +34,7 @@ class PageOfAFailure : public testing::Test {
     const std::string scenario = folder_.write("failing.yaml", kFailing);
     const Finished run = understudy({"run", scenario, "--record", folder_.path()});
     ASSERT_EQ(run.exit_code, 1) << run.errors;
+    run_ = run.output;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
       if (entry.path().string().find("jsonl") != std::string::npos) recording_ = entry.path();
     }
@@ -71,6 +73,7 @@ class PageOfAFailure : public testing::Test {
 
   const PrivateFolder folder_;
   std::string recording_;
+  std::string run_;  // what `run` has printed
   std::unique_ptr<Process> process_;
   std::unique_ptr<TestBrowser> browser_;
 };
@@ -181,6 +184,90 @@ TEST_F(PageOfAFailure, OpensAtTheTimeOfUntilOrAtItsEnd) {
   open_page({"--until", "10h"});
   const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
   EXPECT_EQ(timeline["at_ns"], timeline["end_ns"]);
+}
+
+TEST_F(PageOfAFailure, OpensAtTheFailureWithItsStory) {
+  const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
+  const TestJson& story = timeline["story"];
+  EXPECT_EQ(timeline["at_ns"], story["time_ns"]);
+  EXPECT_EQ(timeline["scenario"], "ends elsewhere");
+  EXPECT_NE(story.value("text", "").find("(failing.yaml:11: expect"), std::string::npos) << story.dump();
+  EXPECT_EQ(story["names"], TestJson({"feeder.Cord_A"}));
+  std::vector<std::string> told;
+  for (const TestJson& moment : story["moments"]) told.push_back(moment.value("text", ""));
+  ASSERT_EQ(told.size(), 2U) << story.dump();
+  EXPECT_EQ(told[0], "host writes feeder.Aaxis_SVON = 1");
+  EXPECT_NE(told[1].find("feeder.Aaxis_Move_INC = 1"), std::string::npos);
+  for (const std::string& moment : told)
+    EXPECT_NE(run_.find("  " + moment + "\n"), std::string::npos) << run_;
+  EXPECT_NE(run_.find("understudy replay " + recording_ + " --page\n"), std::string::npos) << run_;
+}
+
+/// Whoever wants to try something else says so; all see that it is not what happened, and there is a way
+/// back.
+TEST_F(PageOfAFailure, IsAlteredOnlyWhereSomebodyAsksForIt) {
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  const std::int64_t half = position_at(end / 2);
+  EXPECT_EQ(ask({{"do", "what-if"}})["altered"], true);
+  EXPECT_EQ(ask({{"do", "timeline"}})["timeline"]["altered_at_ns"], end / 2);
+  browser_->say({{"do", "watch"}, {"bench", 0}, {"names", {"feeder.A.position"}}});
+  EXPECT_EQ(browser_->hear_one("look")["altered_at_ns"], end / 2);
+  EXPECT_EQ(ask({{"do", "power"}, {"device", "feeder"}, {"to", "off"}})["ok"], true);
+  EXPECT_EQ(ask({{"do", "advance"}, {"by", "500ms"}})["ok"], true);
+  const auto position = [&] {
+    return ask({{"do", "get"}, {"names", {"feeder.A.position"}}})["values"]["feeder.A.position"];
+  };
+  EXPECT_LT(position(), 3200);
+  const TestJson refused = ask({{"do", "seek"}, {"to_ns", 0}});
+  EXPECT_EQ(refused["ok"], false);
+  EXPECT_NE(refused.value("error", "").find("altered"), std::string::npos);
+  const TestJson back = ask({{"do", "what-if"}, {"off", true}});
+  EXPECT_EQ(back["altered"], false);
+  EXPECT_EQ(back["simulated_time_ns"], end / 2);
+  EXPECT_EQ(position(), half);
+  EXPECT_EQ(ask({{"do", "power"}, {"device", "feeder"}, {"to", "off"}})["ok"], false);
+  EXPECT_EQ(position_at(end), 3200);
+}
+
+TEST_F(PageOfAFailure, HasCurvesAndSpans) {
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  const TestJson curves =
+      ask({{"do", "curves"}, {"names", {"feeder.A.position", "feeder.A.speed"}}, {"dots", 50}});
+  ASSERT_EQ(curves["ok"], true) << curves.dump();
+  EXPECT_EQ(curves["step_ns"], 1'000'000);
+  const TestJson& position = curves["curves"][0];
+  ASSERT_EQ(position["least"].size(), 50U);
+  EXPECT_EQ(position["least"][0], 0);
+  EXPECT_EQ(position["greatest"][49], 3200);
+  for (std::size_t i = 0; i + 1 < 50; ++i) EXPECT_LE(position["greatest"][i], position["least"][i + 1]) << i;
+
+  const TestJson spans = ask({{"do", "spans"}, {"dots", 4000}});
+  ASSERT_EQ(spans["ok"], true) << spans.dump();
+  EXPECT_FALSE(spans.contains("next"));
+  std::map<std::string, int> kinds;
+  for (const TestJson& span : spans["spans"]) {
+    ++kinds[span["kind"]];
+    EXPECT_LE(span["begin_ns"], span["end_ns"]);
+    EXPECT_LE(span["end_ns"], end + 20'000'000);
+    if (span["kind"] != "frame") continue;
+    EXPECT_GT(span["latency_ns"], 0) << span.dump();
+  }
+  EXPECT_EQ(kinds["failed"], 1);
+  EXPECT_EQ(kinds["frame"], 3);  // the two writes, and the read that is not as expected
+  EXPECT_GE(kinds["event"], 1);
+  // Seen from far away the writes are one.
+  const TestJson few = ask({{"do", "spans"}, {"dots", 2}});
+  EXPECT_LT(few["of"], spans["of"]);
+
+  for (const TestJson& message :
+       {TestJson{{"do", "curves"}, {"names", {"feeder.nonsense"}}},
+        TestJson{{"do", "curves"}, {"names", TestJson::array()}},
+        TestJson{{"do", "curves"}, {"names", {"time"}}, {"dots", 0}},
+        TestJson{{"do", "curves"}, {"names", {"time"}}, {"dots", 9999}},
+        TestJson{{"do", "curves"}, {"names", {"time"}}, {"from_ns", 5}, {"to_ns", 5}},
+        TestJson{{"do", "spans"}, {"to_ns", -1}}, TestJson{{"do", "spans"}, {"nonsense", 1}}}) {
+    EXPECT_EQ(ask(message)["ok"], false) << message.dump();
+  }
 }
 
 TEST_F(PageOfAFailure, WritesNoFilesOfAReplayBesideIt) {

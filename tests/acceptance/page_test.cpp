@@ -157,7 +157,7 @@ TEST(Page, ARecordingShowsWhereItsScenarioFailed) {
   ASSERT_EQ(timeline["marks"].size(), 2U) << timeline;
   EXPECT_EQ(timeline["marks"][0]["what"], "exception");
   EXPECT_EQ(timeline["marks"][1]["what"], "failed");
-  EXPECT_EQ(timeline["marks"][1]["text"], "'feeder.Cord_A == 1' does not hold");
+  EXPECT_EQ(timeline["marks"][1]["text"], "'feeder.Cord_A == 1' does not hold (feeder.Cord_A is 0)");
   EXPECT_EQ(timeline["marks"][1]["time_ns"], timeline["end_ns"]);
   EXPECT_FALSE(timeline.contains("marks_left_out"));
   EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", timeline["end_ns"]}})["simulated_time_ns"], timeline["end_ns"]);

@@ -56,7 +56,7 @@ function Switch({ device, axis, contact }) {
 }
 
 function Figure({ value, unit, wide, as = grouped }) {
-  return html`<span class=${wide ? 'reading wide' : 'reading'}><output class="figure">${as(value)}</output> <small>${unit}</small></span>`;
+  return html`<span class=${wide ? 'reading wide' : 'reading'}><output class="figure" aria-live="off">${as(value)}</output> <small>${unit}</small></span>`;
 }
 
 function Axis({ device, axis }) {

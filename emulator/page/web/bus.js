@@ -22,13 +22,13 @@ function dropNext(frame) {
 }
 
 function Frame({ frame }) {
-  const kind = frame.exception ? 'bad' : frame.remark ? 'odd' : '';
+  const kind = frame.exception || /drop|not heard|not said|cut|corrupt/.test(frame.remark ?? '') ? 'bad' : frame.remark ? 'odd' : '';
   const latency = frame.latency_ns !== undefined ? `${(frame.latency_ns / 1e6).toFixed(2)} ms` : '';
   const isRequest = frame.way === 'in';
   return html`<tr class=${`${frame.way} ${kind}`} title=${frame.bytes}>
     <td class="figure">${seconds(frame.time_ns)}</td><td class="line">${frame.line}</td>
     <td class="way" aria-label=${isRequest ? 'from the host' : 'to the host'}>${isRequest ? '→' : '←'}</td>
-    <td class="words">${frame.text} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
+    <td class="words">${frame.text || (frame.bytes ? '' : html`<b>no frame</b>`)} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
     <td class="figure">${latency}</td>
     <td>${frame.bytes && html`<${Button} kind="small faint" title=${`drop the next ${isRequest ? 'request' : 'reply'} like this`} disabled=${isLocked()}
       does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
@@ -59,6 +59,28 @@ function Drops() {
     <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isLocked()} does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}</div>`;
 }
 
+/// An mbpoll command that reads a station's first register, for a line of Modbus.
+function exampleFor(line, status) {
+  const station = line.stations.find((it) => it.address !== undefined);
+  const [, baud, , parity, stop] = /^(\d+) (\d)([A-Z])(\d)/.exec(status.settings) ?? [];
+  if (line.text || !station || !baud || !status.link || status.link.includes(':')) return '';
+  const word = { E: 'even', O: 'odd' }[parity] ?? 'none';
+  return `mbpoll -m rtu -a ${station.address} -b ${baud} -P ${word} -s ${stop} -0 -r 0 -c 1 -1 ${status.link}`;
+}
+
+/// Where a host connects, and whether one has: open where nothing has been said yet.
+function Connections({ isFirst }) {
+  const lines = store.status?.lines ?? [];
+  if (lines.length === 0) return null;
+  return html`<details class="connections" open=${isFirst}><summary>where to connect</summary><ul>${lines.map((status) => {
+    const line = lineNamed(status.name);
+    const example = line ? exampleFor(line, status) : '';
+    return html`<li key=${status.name}><b>${status.name}</b> <code>${status.link || status.pty}</code>${(status.tcp ?? []).map((place) => html`, <code>${place}</code>`)},
+      ${status.settings}; ${status.host === 'open' ? `a host has it open${status.host_settings ? ` (${status.host_settings})` : ''}` : 'no host has it open'}
+      ${example && html`<br /><code class="example">${example}</code>`}</li>`;
+  })}</ul></details>`;
+}
+
 export function Bus() {
   const [filter, setFilter] = useKept('filter of frames', '');
   const [what, setWhat] = useKept('which frames', 'all');
@@ -79,6 +101,7 @@ export function Bus() {
     </div>
     <${ByHand} /><${Drops} />
     ${frames.length === 0 && html`<p>No traffic on the lines yet.</p>`}
+    ${!store.timeline && html`<${Connections} isFirst=${frames.length === 0} />`}
     ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
       <tbody>${shown.slice(-kShown).reverse().map((frame) => (frame.key
         ? html`<${Missed} key=${frame.key} count=${frame.missed} what="frames" columns="6" />` : html`<${Frame} key=${frame.number} frame=${frame} />`))}</tbody></table></div>`}

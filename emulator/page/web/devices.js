@@ -4,8 +4,9 @@ import { store } from './store.js';
 import { Choice } from './small.js';
 import { useKept } from './kept.js';
 
-/// `panel` is the name of the panel. `weigh` returns the size of a device in it; a total above `most` is too much to
-/// watch at once. Returns the devices, and a choice to show above them (nothing if there is only one device).
+/// `panel`: which one asks. `weigh`: how much of a panel a device fills; more than `most` of it together is too much to be told at once.
+/// Returns the devices, and a choice to put above them (nothing where there is only one).
+/** @type {(panel: string, weigh: (device: any) => number, most: number) => [any[], unknown]} */
 export function useDevices(panel, weigh, most) {
   const [chosen, choose] = useKept(`devices of ${panel}`, null);
   const all = Object.values(store.devices);

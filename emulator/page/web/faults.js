@@ -1,14 +1,21 @@
 // Active faults, power, snapshots, and recent events.
 import { html, useEffect, useState } from './preact.js';
-import { ask, askQuietly, isLocked, store, withHoles } from './store.js';
-import { Button, Field, Missed, seconds } from './small.js';
+import { ask, askQuietly, isLocked, store } from './store.js';
+import { Button, Field, seconds } from './small.js';
+import { EventList } from './events.js';
 import { FaultForm } from './fault_form.js';
+
+/// A fault that was to happen so often, and has.
+function isSpent({ fault, hits }) {
+  const times = / times=(\d+)/.exec(fault)?.[1] ?? (/ nth=\d+/.test(fault) ? 1 : undefined);
+  return times !== undefined && hits >= Number(times);
+}
 
 function InForce() {
   const faults = store.status?.faults ?? [];
   if (faults.length === 0) return html`<p>No fault is in force or pending.</p>`;
   return html`<div class="scroll"><table><thead><tr><th>no.</th><th>fault</th><th>seen</th><th>matched</th><th>hits</th><th></th></tr></thead>
-    <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ?? it.seen === undefined ? html` <b class="bad">in force</b>` : ''}</td>
+    <tbody>${faults.map((it) => html`<tr key=${it.number}><td>${it.number}</td><td>${it.fault}${it.in_force ?? it.seen === undefined ? html` <b class="bad">in force</b>` : isSpent(it) ? html` <small>done</small>` : ''}</td>
       <td>${it.seen ?? ''}</td><td>${it.matched ?? ''}</td><td>${it.hits ?? ''}</td>
       <td><${Button} kind="small" title=${`clear fault ${it.number}`} disabled=${isLocked()}
         does=${() => ask({ do: 'clear', number: it.number })}>clear<//></td></tr>`)}</tbody></table></div>
@@ -35,18 +42,11 @@ function Snapshots() {
     ${kept.length === 0 && html`<small>A snapshot saves the current state; restore returns to it.</small>`}</div>`;
 }
 
-const placeOf = (event) => [event.line, event.name ?? event.device].filter(Boolean).join(' ');
-
 export function Faults() {
   return html`<h2>Faults</h2><${InForce} />
     ${!isLocked() && html`<${FaultForm} />`}
     <h2>Power</h2><${Power} />
     <h2>Snapshots</h2><${Snapshots} />
     <h2>What has happened</h2>
-    ${store.events.length === 0 && html`<p>Nothing yet.</p>`}
-    <div class="scroll"><table class="events"><tbody>${withHoles(store.events).slice(-100).reverse().map((event) => event.missed && event.key ? html`<${Missed}
-      key=${event.key} count=${event.missed} what="events" columns="4" />` : html`<tr key=${event.number}
-      class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : ''}>
-      <td class="figure">${seconds(event.time_ns)}</td><td>${event.what}</td><td>${event.by ?? ''}</td>
-      <td>${placeOf(event)}${event.value !== undefined && !event.text ? ` = ${event.value}` : ''} ${event.text ?? ''}</td></tr>`)}</tbody></table></div>`;
+    <${EventList} most="100" />`;
 }

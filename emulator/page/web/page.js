@@ -1,27 +1,40 @@
 // The page: a header with the time, tabs, and the visible panel.
 import { html, render } from './preact.js';
-import { ask, complain, draw, drawBy, hasPower, isReadOnly, show, store } from './store.js';
-import { Button, Choice, Field, seconds } from './small.js';
+import { ask, askQuietly, complain, draw, drawBy, hasPower, isAltered, isReadOnly, show, store } from './store.js';
+import { Button, Choice, Field, exactly, seconds } from './small.js';
 import { Axes } from './axes.js';
 import { Signals } from './signals.js';
 import { Plot } from './plot.js';
 import { Registers } from './registers.js';
 import { Bus } from './bus.js';
 import { Program } from './program.js';
+import { Events } from './events.js';
 import { Faults } from './faults.js';
+import { Story, WhatIf } from './story.js';
+import { copyMoment, goThere, noteMoment } from './link.js';
+import { Timeline } from './timeline.js';
 import { Travel } from './travel.js';
+import { keepPaths } from './plane.js';
 import { keep, kept } from './kept.js';
 
-const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
-                 ['Program', Program], ['Faults', Faults]];
+const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Timeline', Timeline], ['Registers', Registers], ['Bus', Bus],
+                 ['Program', Program], ['Events', Events], ['Faults', Faults]];
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
 const kMaxNamed = 3;  // devices in the header
+
+// The snapshot from before the last "run until": it may take much time away.
+const kBefore = 'before run until';
+async function undoRun() {
+  if ((await ask({ do: 'restore', name: kBefore })).ok) keep(kBefore, undefined);
+}
 
 /// Stops time first if it runs, because run-until requires it.
 async function runUntil(condition) {
   const { look } = store;
   if (!(await ask({ do: 'eval', expression: condition })).ok) return false;
   if (!look.paused && look.speed !== 'manual' && !(await ask({ do: 'pause' })).ok) return false;
+  const from = store.timeline ? null : store.look.time_ns;
+  if (from !== null && (await askQuietly({ do: 'snapshot', name: kBefore })).ok) keep(kBefore, from);
   const reply = await ask({ do: 'run-until', condition, within: '60s' });
   if (reply.ok && !reply.reached && reply.simulated_time_ns - look.time_ns >= 60e9) complain(`this did not become true within 60 s: ${condition}`);
   return reply.ok;
@@ -30,16 +43,18 @@ async function runUntil(condition) {
 function Time() {
   const { look } = store;
   if (!look) return null;
-  const clock = html`<output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>`;
-  if (store.timeline) return html`<div class="time" role="group" aria-label="time">${clock}<span class="badge">recording</span></div>`;
   const stands = look.paused || look.speed === 'manual';
+  const isExact = stands && !look.advancing && look.time_ns % 1e6 !== 0;
+  const clock = html`<output class="clock figure" aria-live="off" aria-label="simulated time">${(isExact ? exactly : seconds)(look.time_ns)}</output>`;
+  if (store.timeline && !isAltered()) return html`<div class="time" role="group" aria-label="time">${clock}<${WhatIf} /></div>`;
+  const undo = kept(kBefore);
   const isRunning = !stands || look.advancing;  // a pause ends either
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
   const step = (ticks, name) => html`<${Button} kind="small" title=${`advance by ${name}`} disabled=${locked || isRunning}
     does=${() => ask({ do: 'step', ticks })}>+${name}<//>`;
   return html`<div class="time" role="group" aria-label="time">
-    ${clock}
+    ${clock}${store.timeline && html`<${WhatIf} />`}
     <${Button} kind="pause" title=${isRunning ? 'stop time' : 'resume time'} pressed=${look.paused} disabled=${locked}
       does=${() => ask({ do: isRunning ? 'pause' : 'resume' })}>${isRunning ? '❚❚ pause' : '▶ resume'}<//>
     <span class="joined">${step(1, '1 ms')}${step(10, '10 ms')}${step(1000, '1 s')}</span>
@@ -47,12 +62,14 @@ function Time() {
       disabled=${locked} takes=${(to) => ask({ do: 'speed', to })} />
     ${look.advancing ? html`<span class="badge">running</span>` : html`<${Field} label="run until a condition is true, at most 60 s; then time pauses"
       placeholder="run until ..." size="16" disabled=${locked} takes=${runUntil} />`}
+    ${undo !== undefined && html`<${Button} kind="small" title=${`back to ${seconds(undo)}, before the last run until`} disabled=${locked} does=${undoRun}>↶ ${seconds(undo)}<//>`}
   </div>`;
 }
 
 function Said() {
+  const isStranger = store.link.includes('token');
   const bench = { gone: 'The daemon is gone; the page waits for it.', silent: 'The daemon does not answer.' }[store.states[store.number]];
-  const lost = store.link || bench;
+  const lost = (isStranger ? 'This address is not complete, or of an earlier run: open the whole address that was printed, with all that follows #.' : store.link) || bench;
   const text = lost || (store.said && performance.now() - store.said.at < 6000 ? store.said.text : '');
   return html`<div class=${`said ${lost ? 'lost' : ''} ${text ? '' : 'nothing'}`} role="status" aria-live="polite">${text}</div>`;
 }
@@ -73,8 +90,14 @@ function nameOf({ socket }, number) {
   return others.length > 0 ? `${name} (${socket})` : name;
 }
 
+/// The panel in view: a recording opens with its course.
+function panelShown() {
+  const wanted = kept('panel', store.timeline ? 'Timeline' : 'Axes', '');
+  return kPanels.some(([name]) => name === wanted) ? wanted : 'Axes';
+}
+
 function Page() {
-  const panel = kept('panel', 'Axes', '');
+  const panel = panelShown();
   const setPanel = (name) => keep('panel', name, { of: '' });
   const benches = store.hello?.benches ?? [];
   const Shown = kPanels.find(([name]) => name === panel)[1];
@@ -95,14 +118,15 @@ function Page() {
       <${Devices} />
       ${isReadOnly() && html`<span class="badge">read only</span>`}
       <${Time} />
+      <${Button} kind="small" title="copy a link to this moment (key: c)" does=${copyMoment}>link<//>
     </header>
     <${Travel} />
     <nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
       key=${name} id=${`tab_${name}`} aria-selected=${name === panel} aria-controls="panel" tabindex=${name === panel ? 0 : -1}
       onClick=${() => setPanel(name)}>${name}</button>`)}</nav></div>
-    <${Said} />
+    <${Said} /><${Story} />
     <div id="panel" class=${isLost ? 'stale' : ''} role="tabpanel" aria-labelledby=${`tab_${panel}`}>
-      ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>Looking for the bench...</p>`}</div>`;
+      ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>${store.link.includes('too many') ? 'Too many browsers look at this page: close one of them, and this one comes by itself.' : 'Looking for the bench...'}</p>`}</div>`;
 }
 
 store.number = kept('bench', 0, '');
@@ -110,7 +134,15 @@ document.getElementById('page').textContent = '';
 drawBy(() => {
   const file = store.bench?.path?.split('/').at(-1);
   document.title = file ? `${file} - Understudy` : 'Understudy';
+  goThere();
+  keepPaths();
   render(html`<${Page} />`, document.getElementById('page'));
+  noteMoment(panelShown());
+});
+addEventListener('keydown', (event) => {
+  const at = /** @type {Element} */ (event.target);
+  const isTyped = at.closest?.('input, textarea, select') || event.ctrlKey || event.metaKey || event.altKey;
+  if (event.key === 'c' && !isTyped) copyMoment();
 });
 draw();
 setInterval(draw, 1000);  // flashes end even if no message arrives

@@ -44,7 +44,7 @@ const words = (...values) => numbers((view, at, value) => view.setUint32(at, val
 const halves = (...values) => numbers((view, at, value) => view.setUint16(at, value), 2, ...values);  // tags are big-endian
 const tag = (code, value) => joined(halves(code, 4), numbers((view, at, it) => view.setUint32(at, it), 4, value));
 const text = (it) => new TextEncoder().encode(it);
-const bytesOf = (hex) => Uint8Array.from((hex ?? '').match(/../g) ?? [], (pair) => parseInt(pair, 16));
+const bytesOf = (hex) => new Uint8Array(((hex ?? '').match(/../g) ?? []).map((pair) => parseInt(pair, 16)));
 
 function dataOf(frame, number, isText) {
   const bytes = bytesOf(frame.bytes);

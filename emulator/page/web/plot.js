@@ -1,8 +1,9 @@
 // Plots any names over time, and shows an oscilloscope with every tick around a trigger.
 import { html, useEffect, useRef, useState } from './preact.js';
 import { ask, askQuietly, complain, isLocked, onLook, store, unwant, valueOf, want } from './store.js';
-import { Button, Choice, Field, grouped, save } from './small.js';
+import { Button, Choice, Field, grouped, nameOfBench, save } from './small.js';
 import { keep, kept, useKept } from './kept.js';
+import { useRecordedPlot } from './recorded_plot.js';
 
 const kMax_s = 60;
 const kMaxNames = 8;
@@ -47,14 +48,15 @@ function drop(name) {
   names.length > 0 ? want('plot', [...names]) : unwant('plot');
   keep('plotted', [...names]);
 }
-/// For another bench, restores the names that were plotted before; at first, offers its first axis.
+/// The names that were plotted before, or that somebody else wants plotted; at first an axis is offered.
 function beginWith(bench) {
-  if (of === bench) return;
+  const wanted = kept('plotted', suggestions().slice(0, 1));
+  if (of === bench && wanted.join() === names.join()) return;
   names.length = 0;
   rows.clear();
   forget();
   of = bench;
-  for (const name of kept('plotted', suggestions().slice(0, 1))) add(name);
+  for (const name of wanted) add(name);
 }
 
 /// Returns the names to offer: of axes, terminals and the registers that show a device's state.
@@ -87,12 +89,15 @@ function isLevel(label, row) {
 /// A lane at the bottom of the plot; the step from off to on is a twentieth of the plot's height.
 const lane = (number) => ({ range: () => [-(0.4 + 1.4 * number), 20 - (0.4 + 1.4 * number)] });
 
-/// A uPlot drawing of changing columns. Once the user has zoomed, it keeps its range. Each on/off curve has a lane of
-/// its own. With `isApart`, each of the other curves has a scale of its own.
-function Drawing({ columns, labels, window_s, isShot, isApart }) {
+/// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed. What is on or off has a lane of
+/// its own; `isApart`: so have all others their scale.
+/// `moment`: where a line stands, in seconds. `sees`: is told which seconds are in view, once somebody has zoomed.
+function Drawing({ columns, labels, window_s, isShot, isApart, moment, sees }) {
   const place = useRef(null);
   const plot = useRef(null);
   const zoomed = useRef(false);
+  const present = useRef(null);
+  present.current = moment;
   const [scheme, setScheme] = useState(dark.matches);
   const levels = labels.map((label, i) => isLevel(label, columns[i + 1]));
   const scales = labels.map((_, i) => (levels[i] ? `lane${i}` : isApart ? `y${i}` : 'y'));
@@ -116,12 +121,20 @@ function Drawing({ columns, labels, window_s, isShot, isApart }) {
       width: width(), height: kHeight,
       scales: { x: { time: false }, ...Object.fromEntries(lanes.map((scale, number) => [scale, lane(number)])) },
       axes: [{ ...axis, label: isShot ? 's from the trigger' : 'simulated time, s' }, ...upright],
+      pxAlign: 0,
       series: [{ label: 's', value: (_, at) => (at === null ? '–' : at.toFixed(3)) },
                ...labels.map((label, i) => ({ label, scale: scales[i], stroke: colour(`--c${i}`), width: 1.5, spanGaps: false,
                  ...(levels[i] ? { paths: uPlot.paths.stepped({ align: 1 }) } : {}), value: (_, at) => (at === null ? '–' : grouped(at)) }))],
-      hooks: { setSelect: [(self) => { if (self.select.width > 0) zoomed.current = true; }] },
+      hooks: {
+        setSelect: [(self) => {
+          if (self.select.width <= 0) return;
+          zoomed.current = true;
+          sees?.([self.posToVal(self.select.left, 'x'), self.posToVal(self.select.left + self.select.width, 'x')]);
+        }],
+        draw: [(self) => drawMoment(self, present.current)],
+      },
     }, columns, place.current);
-    place.current.ondblclick = () => { zoomed.current = false; };
+    place.current.ondblclick = () => { zoomed.current = false; sees?.(null); };
     const resized = () => plot.current.setSize({ width: width(), height: kHeight });
     addEventListener('resize', resized);
     return () => { removeEventListener('resize', resized); plot.current.destroy(); };
@@ -130,10 +143,22 @@ function Drawing({ columns, labels, window_s, isShot, isApart }) {
     plot.current.setData(columns, false);
     if (zoomed.current) return plot.current.redraw();
     const [first, last] = [columns[0][0] ?? 0, columns[0].at(-1) ?? 0];
-    const from = isShot ? first : Math.max(0, last - window_s);
-    plot.current.setScale('x', { min: from, max: Math.max(last, from + (isShot ? 1e-3 : window_s)) });
+    const isWhole = isShot || sees !== undefined;
+    const from = isWhole ? first : Math.max(0, last - window_s);
+    plot.current.setScale('x', { min: from, max: Math.max(last, from + (isWhole ? 1e-3 : window_s)) });
   }, [columns, columns[0].length, columns[0].at(-1), window_s, looks]);
+  useEffect(() => { plot.current.redraw(false); }, [moment]);
   return html`<div class="drawing" ref=${place}></div>`;
+}
+
+/// The moment of the bar, or that of a trigger.
+function drawMoment(self, moment) {
+  if (moment === undefined) return;
+  const x = Math.round(self.valToPos(moment, 'x', true));
+  const { left, top, width, height } = self.bbox;
+  if (x < left || x > left + width) return;
+  self.ctx.fillStyle = colour('--accent');
+  self.ctx.fillRect(x - 1, top, 2, height);
 }
 
 function asCsv(labels, columns) {
@@ -143,6 +168,7 @@ function asCsv(labels, columns) {
 
 /// Saves the drawing on its background, with the names of the curves.
 function savePicture(labels) {
+  /** @type {HTMLCanvasElement | null} */
   const drawn = document.querySelector('.drawing canvas');
   if (!drawn) return;
   const scale = drawn.width / drawn.clientWidth;
@@ -226,7 +252,7 @@ function Scope({ shot, show }) {
     <${Choice} label="time before and after the trigger" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
             : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isLocked()}>arm<//>`}
-    <output>${state}</output>
+    <output>${state}${state === 'armed' && store.look?.paused ? ': time stands' : ''}</output>
     ${state === 'done' && !shot && html`<${Button} title="show what the scope has kept" does=${async () => {
       const { scope } = await askQuietly({ do: 'scope' });
       if (scope) await showShot(scope);
@@ -241,7 +267,10 @@ export function Plot() {
   const [isApart, setApart] = useKept('own scales', false);
   if (store.bench) beginWith(store.number);
   const running = () => ({ labels: [...names], columns: [times, ...names.map((name) => rows.get(name))] });
-  const { labels, columns } = shot ?? frozen ?? running();
+  const isRecording = store.timeline !== null;
+  const [recorded, sees] = useRecordedPlot(isRecording ? names : []);
+  const { labels, columns } = shot ?? frozen ?? (isRecording ? { labels: [...names], columns: recorded } : running());
+  const moment = shot ? 0 : isRecording ? store.look?.time_ns / 1e9 : undefined;
   const take = async (name) => {
     if (names.length >= kMaxNames) { complain(`${kMaxNames} curves at most; remove one first`); return false; }
     if (!(await ask({ do: 'get', names: [name] })).ok) return false;
@@ -253,17 +282,18 @@ export function Plot() {
   return html`<div class="bar">
       <${Field} label="a name to plot" list="names" size="28" takes=${take} />
       <datalist id="names">${suggestions().slice(0, 600).map((name) => html`<option value=${name}></option>`)}</datalist>
-      <${Choice} label="seconds shown" value=${String(window_s)} options=${['1', '2', '5', '10', '30', '60'].map((s) => [s, `${s} s`])}
+      ${!isRecording && html`<${Choice} label="seconds shown" value=${String(window_s)} options=${['1', '2', '5', '10', '30', '60'].map((s) => [s, `${s} s`])}
         takes=${(s) => setWindow(Number(s))} />
-      <${Button} title="freeze the plot" pressed=${frozen !== null} disabled=${shot !== null} does=${hold}>freeze<//>
-      <${Button} title="save as CSV" does=${() => save('plot.csv', [asCsv(labels, columns)], 'text/csv')}>CSV<//>
+      <${Button} title="freeze the plot" pressed=${frozen !== null} disabled=${shot !== null} does=${hold}>freeze<//>`}
+      <${Button} title="save as CSV" does=${() => save(`plot ${nameOfBench()}.csv`, [asCsv(labels, columns)], 'text/csv')}>CSV<//>
       <${Button} title="save as a picture" does=${() => savePicture(labels)}>picture<//>
       <${Button} title="give each curve its own scale" pressed=${isApart} does=${() => setApart(!isApart)}>own scales<//>
-      <small>Drag to zoom, double click to go back.</small>
+      <small>Drag to zoom${isRecording ? ', down to every tick' : ''}; double click to go back.</small>
     </div>
     <div class="bar">${names.map((name, i) => html`<span class="joined curve" key=${name}><b class=${`c${i}`}>${name}</b>
-      <output class="figure">${grouped(numberOf(valueOf(name)))}</output>
+      <output class="figure" aria-live="off">${grouped(numberOf(valueOf(name)))}</output>
       <${Button} kind="small" title=${`remove ${name}`} does=${() => { freeze(null); drop(name); }}>×<//></span>`)}</div>
-    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} isApart=${isApart} />`}
-    <${Scope} shot=${shot} show=${show} />`;
+    ${labels.length > 0 && html`<${Drawing} columns=${columns} labels=${labels} window_s=${window_s} isShot=${shot !== null} isApart=${isApart}
+      moment=${moment} sees=${isRecording ? sees : undefined} />`}
+    ${!isRecording && html`<${Scope} shot=${shot} show=${show} />`}`;
 }

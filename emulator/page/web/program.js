@@ -23,11 +23,11 @@ function Waits({ device, program }) {
   const left_ns = program.until_ns !== undefined && store.look ? program.until_ns - store.look.time_ns : null;
   const waited = waited_ns(`${device}.${program.program}`, program);
   return html`<li><b>${program.program}</b> <span class=${`state ${program.state}`}>${program.state}</span>
-    ${program.line ? html` at line <output class="figure count">${program.line}</output>` : ''}
+    ${program.line ? html` at line <output aria-live="off" class="figure count">${program.line}</output>` : ''}
     ${program.text && html` <code>${program.text}</code>`}
     ${program.waits_for && html` waits for ${program.waits_for}`}
-    ${waited > 0 ? html` since <output class="figure count">${(waited / 1e9).toFixed(2)} s</output>` : ''}
-    ${left_ns !== null && left_ns > 0 ? html`, at most another <output class="figure count">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
+    ${waited > 0 ? html` since <output aria-live="off" class="figure count">${(waited / 1e9).toFixed(2)} s</output>` : ''}
+    ${left_ns !== null && left_ns > 0 ? html`, at most another <output aria-live="off" class="figure count">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
     ${program.why && html` <span class=${program.state === 'failed' ? 'bad' : ''}>${program.why}</span>`}</li>`;
 }
 
@@ -88,6 +88,17 @@ function Values({ device }) {
     <${Field} label="another value to show here" placeholder="another value" takes=${add} /></div>`;
 }
 
+/// Puts the cursor of the editor there.
+function goToLine(line, column) {
+  const area = document.querySelector('textarea');
+  if (!area) return;
+  const lines = area.value.split('\n');
+  const from = lines.slice(0, line - 1).reduce((sum, it) => sum + it.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(from + Math.max(0, column - 1), from + (lines[line - 1] ?? '').length);
+  area.scrollTop = Math.max(0, (line - 5) * area.scrollHeight / Math.max(lines.length, 1));
+}
+
 export function Program() {
   const devices = Object.values(store.devices).filter((device) => device.program);
   const [deviceName, setDevice] = useKept('device of programs', '');
@@ -131,6 +142,7 @@ export function Program() {
     event.target.value = '';
   };
   const lines = text.split('\n');
+  const shown = (edited ?? text) === '' ? 0 : (edited ?? text).split('\n').length;
   const running = new Set(programs.filter((it) => it.line).map((it) => it.line));
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
@@ -144,11 +156,12 @@ export function Program() {
             ${!isLocked() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
         : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
             <${Button} title="discard the changes" does=${() => { setEdited(null); setMistakes([]); }}>cancel<//>`}
-      <small>${device.program.language}, ${grouped(text === '' ? 0 : lines.length)} ${text !== '' && lines.length === 1 ? 'line' : 'lines'}</small>
+      <small>${device.program.language}, ${grouped(shown)} ${shown === 1 ? 'line' : 'lines'}</small>
     </div>
     <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}
       ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
-    ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
+    ${mistakes.map((it, i) => html`<p class="bad" role="alert" key=${i}>${it.line > 0 && html`<button type="button" class="link" title=${`go to line ${it.line}`}
+      onClick=${() => goToLine(it.line, it.column)}>line ${it.line}, column ${it.column}</button>: `}${it.what}</p>`)}
     ${lines.length > kMaxLines && html`<p>The first ${grouped(kMaxLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
       ${edited !== null

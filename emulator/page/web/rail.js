@@ -63,12 +63,13 @@ function Carriage({ x, slip, perDot }) {
   const take = (event) => {
     if (!slip || event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    setDrag({ rail: rail(event), from: event.clientX, to: event.clientX });
+    // A finger that only wanted to scroll, or a hand that trembles, does not push.
+    setDrag({ rail: rail(event), from: event.clientX, to: event.clientX, slack: event.pointerType === 'mouse' ? 5 : 20 });
   };
   const move = (event) => { if (drag) setDrag({ ...drag, to: event.clientX }); };
   const letGo = () => {
     setDrag(null);
-    if (drag && Math.abs(drag.to - drag.from) > 3 && pulses !== 0) slip(pulses);
+    if (drag && Math.abs(drag.to - drag.from) > drag.slack && pulses !== 0) slip(pulses);
   };
   return html`<svg x=${x}><path class="hair" d="M0 12 v54" />
     <path class=${`carriage ${slip ? 'pushable' : ''}`} d="M0 31 l-9 -19 h18 z" onPointerDown=${take} onPointerMove=${move}

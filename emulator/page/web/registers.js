@@ -2,8 +2,8 @@
 // own range check.
 import { html, useEffect, useState } from './preact.js';
 import { ask, askQuietly, complain, flashOf, isLocked, store, unwant, valueOf, want } from './store.js';
-import { Button, Choice, Field, grouped, save } from './small.js';
-import { useKept } from './kept.js';
+import { Button, Choice, Field, exactly, grouped, nameOfBench, save, seconds } from './small.js';
+import { keep, useKept } from './kept.js';
 import { isHeard } from './heard.js';
 
 const kPage = 100;
@@ -28,6 +28,14 @@ async function write(name, text) {
   return (await ask({ do: 'set', values: { [name]: number } })).ok;
 }
 
+/// Who wrote it last, and when: a click lists its writes.
+function Writer({ name }) {
+  const last = store.writers[name];
+  if (!last) return null;
+  const list = () => { keep('filter of events', name); keep('panel', 'Events', { of: '' }); };
+  return html`<button type="button" class="link" title=${`list what has happened to ${name}`} onClick=${list}><small>${last.by} ${seconds(last.time_ns)}</small></button>`;
+}
+
 function Row({ device, row, explain, section }) {
   const name = `${device}.${row.name}`;
   const value = valueOf(name);
@@ -38,7 +46,7 @@ function Row({ device, row, explain, section }) {
     <td class="what"><span class="name">${row.name}</span> <small>${row.number === row.name ? '' : row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
       ${row.meaning && html`<small> ${row.meaning}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
     <td class="value" title=${hex}>${isPlain(row) ? html`${value ?? '–'} <small>${row.unit ?? ''}</small>` : ''}</td>
-    <td class="by">${flash}</td>
+    <td class="by">${flash || html`<${Writer} name=${name} />`}</td>
     <td class="write">${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} of=${device} placeholder="write" size="8"
       disabled=${isLocked()} takes=${(text) => write(name, text)} />`}</td>
     <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
@@ -75,7 +83,7 @@ export function Registers() {
   const [section, setSection] = useKept('section', '0');
   const [find, setFind] = useKept('find a register', '');
   const [from, setFrom] = useKept('first register', 0);
-  const [page, setPage] = useState({ registers: [], of: 0 });
+  const [page, setPage] = useState(/** @type {any} */ ({ registers: [], of: 0 }));
   const [onlyHeard, setHeard] = useKept('only what hosts use', false);
   const [choice, setChoice] = useKept('choice that is told', null);
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
@@ -120,11 +128,11 @@ export function Registers() {
         onInput=${(event) => { setFind(event.target.value); setFrom(0); }} />
       <label class="check"><input type="checkbox" checked=${onlyHeard} onChange=${(event) => { setHeard(event.target.checked); setFrom(0); }} />
         only what the host uses</label>
-      <${Button} title="save what is shown as CSV" does=${() => save('registers.csv', ['name,address,value\n', page.registers.map((row) =>
-        `"${row.name}",${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''}`).join('\n'), '\n'], 'text/csv')}>CSV<//>
-      ${keptWrites !== undefined && html`<small>non-volatile memory: <output class="figure count">${grouped(keptWrites)}</output> ${keptWrites === 1 ? 'write' : 'writes'}</small>`}
+      <${Button} title="save what is shown as CSV" does=${() => save(`registers of ${device.name} ${nameOfBench()} ${exactly(store.look?.time_ns ?? 0)}.csv`, ['name,address,value,unit\n',
+        page.registers.map((row) => `"${row.name}",${row.address ?? row.number},${valueOf(`${device.name}.${row.name}`) ?? ''},${row.unit ?? ''}`).join('\n'), '\n'], 'text/csv')}>CSV<//>
+      ${keptWrites !== undefined && html`<small>non-volatile memory: <output class="figure count" aria-live="off">${grouped(keptWrites)}</output> ${keptWrites === 1 ? 'write' : 'writes'}</small>`}
     </div>
-    ${!isMixed && html`<p class="section_name">${at?.name} ${at?.english !== at?.name && html`<small>${at?.english}</small>`}</p>`}
+    ${!isMixed && html`<p class="section_name"><span lang="zh">${at?.name}</span> ${at?.english !== at?.name && html`<small>${at?.english}</small>`}</p>`}
     ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${englishOf(choice.section)}): ${choice.question}
       <p>Chosen: <b>${spacedChoice(choice.chosen)}</b> of ${choice.options.map(spacedChoice).join('; ')}. ${choice.why} <small>${choice.confidence}</small></p>
       <${Button} title="close" does=${() => setChoice(null)}>close<//></aside>`}

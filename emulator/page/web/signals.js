@@ -1,7 +1,7 @@
 // Signals: every terminal, its level, and what drives it. A click holds an input, another click releases it.
 import { html, useEffect } from './preact.js';
 import { ask, complain, isLocked, store, unwant, valueOf, want } from './store.js';
-import { Button, Field, Lamp, Slider, isOn } from './small.js';
+import { Button, Choice, Field, Lamp, Slider, isOn } from './small.js';
 import { useDevices } from './devices.js';
 import { useKept } from './kept.js';
 import { usesOf, whyUnused } from './uses.js';
@@ -46,7 +46,7 @@ function Analog({ device, terminal }) {
         value=${value} disabled=${isLocked()} takes=${hold} />
       <${Field} label=${`set ${terminal.name}, ${terminal.lowest} to ${terminal.highest} ${unit}`} of=${device} placeholder=${unit || 'set'} size="6"
         disabled=${isLocked()} takes=${async (text) => { const to = numberFrom(text); return to !== null && (await hold(to)).ok; }} />`}
-    <output class="figure">${value ?? '–'} ${unit}</output></div>`;
+    <output class="figure" aria-live="off">${value ?? '–'} ${unit}</output></div>`;
 }
 
 function Wheel({ device, terminal }) {
@@ -58,7 +58,7 @@ function Wheel({ device, terminal }) {
       disabled=${isLocked()} does=${() => turn(counts)}>${counts > 0 ? `+${counts}` : counts}<//>`)}</span>
     <${Field} label=${`turn ${terminal.name} by, in a second`} of=${device} placeholder="counts in 1 s" disabled=${isLocked()}
       takes=${async (text) => { const by = numberFrom(text); return by !== null && (await turn(by, '1s')).ok; }} />
-    <output class="figure">${valueOf(name) ?? '–'}</output></div>`;
+    <output class="figure" aria-live="off">${valueOf(name) ?? '–'}</output></div>`;
 }
 
 const kTwoLevels = ['digital_in', 'digital_out', 'dip_switch', 'pulse_out'];
@@ -70,23 +70,35 @@ function Terminals({ device, kind, terminals }) {
       html`<${One} key=${terminal.name} device=${device} terminal=${terminal} />`)}</div>`;
 }
 
+/// Of those that were seen: whatever has had another level before.
+const changedSince = () => new Set(Object.keys(store.changes));
+
+/// The machine or a wire is at it, or the device gives it a function.
+function isWired(device, terminal) {
+  const name = `${device}.${terminal.name}`;
+  return (terminal.functions ?? []).length > 0 || (store.bench?.wires ?? []).some(({ from, to }) => from === name || to === name);
+}
+
 export function Signals() {
   const [filter, setFilter] = useKept('filter of signals', '');
   const [devices, choice] = useDevices('signals', (device) => device.terminals.length, kMaxTerminals);
-  const fits = (terminal) => [terminal.name, ...(terminal.functions ?? [])]
-    .some((text) => text.toLowerCase().includes(filter.toLowerCase()));
+  const [which, setWhich] = useKept('which signals', 'all');
+  const changed = changedSince();
+  const fits = (terminal, device) => [terminal.name, ...(terminal.functions ?? [])].some((text) => text.toLowerCase().includes(filter.toLowerCase())) &&
+    (which === 'all' || (which === 'wired' ? isWired(device, terminal) : changed.has(`${device}.${terminal.name}`)));
   const shown = devices.map((device) => device.name).join();
   useEffect(() => {
-    want('signals', devices.flatMap((device) => device.terminals.filter(fits)
+    want('signals', devices.flatMap((device) => device.terminals.filter((it) => which === 'changed' || fits(it, device.name))
       .flatMap(({ name }) => [`${device.name}.${name}`, `${device.name}.${name}@by`])
-      .concat(usesOf(device.name, device.terminals.filter(fits)))));
+      .concat(usesOf(device.name, device.terminals))));
     return () => unwant('signals');
-  }, [store.bench, filter, shown]);
+  }, [store.bench, filter, which, shown]);
   return html`<div class="bar">${choice}<input type="search" aria-label="find a signal" placeholder="find a signal" value=${filter}
       onInput=${(event) => setFilter(event.target.value)} />
+      <${Choice} label="which signals" value=${which} takes=${setWhich} options=${[['all', 'all signals'], ['wired', 'wired or used'], ['changed', 'changed since the page was opened']]} />
       <small>A click holds an input on, another lets it go. Stuck levels are faults.</small></div>
     ${devices.map((device) => html`<section class="device" key=${device.name}><h2>${device.name}</h2>
-      ${Object.keys(kTitles).map((kind) => [kind, device.terminals.filter((it) => it.kind === kind && fits(it))])
+      ${Object.keys(kTitles).map((kind) => [kind, device.terminals.filter((it) => it.kind === kind && fits(it, device.name))])
         .filter(([, terminals]) => terminals.length > 0)
         .map(([kind, terminals]) => html`<${Terminals} key=${kind} device=${device.name} kind=${kind}
           terminals=${terminals} />`)}

@@ -1,8 +1,12 @@
 // Small parts that several panels use.
 import { html, useRef, useState } from './preact.js';
+import { store } from './store.js';
 import { useKept } from './kept.js';
 
-export const seconds = (ns) => `${(ns / 1e9).toFixed(3)} s`;
+/// Cut, not rounded: what is said to be over is over.
+export const seconds = (ns) => `${(Math.floor(ns / 1e6) / 1e3).toFixed(3)} s`;
+/// The same to the microsecond, for where time stands.
+export const exactly = (ns) => `${(Math.floor(ns / 1e3) / 1e6).toFixed(6)} s`;
 export const grouped = (number) =>
   typeof number === 'number' ? number.toLocaleString('en', { maximumFractionDigits: 1, minimumFractionDigits: Number.isInteger(number) ? 0 : 1 }) : '–';
 /// A changing number always has the same number of decimals.
@@ -62,7 +66,7 @@ export function Choice({ label, value, options, takes, disabled }) {
 /// While it is dragged, it shows the dragged value, not the last value from the bench.
 export function Slider({ label, lowest, highest, value, takes, disabled }) {
   const [dragged, setDragged] = useState(null);
-  const kept = useRef({});
+  const kept = useRef(/** @type {any} */ ({}));
   const drag = (event) => {
     const to = Number(event.target.value);
     setDragged(to);
@@ -80,6 +84,9 @@ export function Lamp({ on, says }) {
   return html`<span class=${`lamp ${on === undefined || on === null ? 'dark' : isOn(on) ? 'on' : 'off'}`}
     role="img" aria-label=${`${says}: ${isOn(on) ? 'on' : 'off'}`}></span>`;
 }
+
+/// For the names of files.
+export const nameOfBench = () => store.bench?.path?.split('/').at(-1)?.replace(/\.(yaml|jsonl)$/, '') ?? '';
 
 /// Offers the browser a file to save.
 export function save(name, parts, type) {

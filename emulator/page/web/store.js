@@ -25,9 +25,10 @@ export const store = {
   status: null,
   look: null,       // time_ns, paused, speed, advancing
   changes: {},      // by name: time and author of the last change
+  writers: {},      // by name: the last event that wrote it
   heard: new Map(), // by device: what its hosts have used (heard.js)
   said: null,       // the last error: { text, at }
-  timeline: null,   // of a recording: { begin_ns, end_ns, marks }
+  timeline: null,   // of a recording: { begin_ns, end_ns, marks, story }
 };
 
 const listeners = new Set();
@@ -102,7 +103,8 @@ function take(look) {
   // Time went back to a snapshot, so what came after it has not happened; or a recording moved, and the server sends
   // its past again.
   const moved = store.look ? look.time_ns - store.look.time_ns : 0;
-  if (moved < 0 || (store.timeline && moved !== 0)) Object.assign(store, { frames: [], events: [], changes: {} });
+  const isTravel = store.timeline && look.altered_at_ns === undefined && moved !== 0;
+  if (moved < 0 || isTravel) Object.assign(store, { frames: [], events: [], changes: {}, writers: {} });
   store.look = look;
   for (const [name, value] of Object.entries(look.values ?? {})) {
     if (!watched.has(name)) continue;
@@ -113,7 +115,9 @@ function take(look) {
     store.values[name] = value;
   }
   for (const event of look.events ?? []) {
-    if (event.what === 'write' && event.name) store.changes[event.name] = { at: now, by: event.by };
+    if (event.what !== 'write' || !event.name) continue;
+    store.changes[event.name] = { at: now, by: event.by };
+    store.writers[event.name] = event;
   }
   // Frames can only be interpreted when the bench is known, which takes some requests.
   unheard.push(...(look.frames ?? []));
@@ -145,7 +149,7 @@ function joined(list, more, most) {
 }
 
 /// Returns the items that fit, with `{ missed, key }` where some were missed.
-export function withHoles(list, fits = () => true) {
+export function withHoles(list, fits = (/** @type {any} */ _one) => true) {
   const shown = [];
   let missed = 0;
   for (const one of list) {
@@ -174,7 +178,7 @@ let isKnown = false;  // whether messages continue the previous ones of this dae
 function forget() {
   unheard = [];
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
-                         changes: {}, framesLost: 0, eventsLost: 0, heard: new Map(), timeline: null });
+                         changes: {}, writers: {}, framesLost: 0, eventsLost: 0, heard: new Map(), timeline: null });
 }
 
 /// Finds a label for each of several benches.
@@ -188,11 +192,12 @@ async function learnLabel(number) {
 
 /// A recording has a timeline; a running bench refuses the request.
 async function timelineOf(number) {
+  /** @type {any} */
   let timeline = null;
   for (let from = 0; from !== undefined;) {
     const reply = await wire.ask(number, { do: 'timeline', from });
     if (!reply.timeline) return null;
-    timeline = { ...reply.timeline, marks: [...(timeline?.marks ?? []), ...reply.timeline.marks] };
+    timeline = { ...timeline, ...reply.timeline, marks: [...(timeline?.marks ?? []), ...reply.timeline.marks] };
     from = reply.next;
   }
   return timeline;
@@ -202,17 +207,14 @@ async function learn() {
   const number = store.number;
   if (!isKnown) forget();
   isKnown = true;
-  const { bench } = await wire.ask(number, { do: 'bench' });
-  const kinds = await wire.ask(number, { do: 'faults' });
+  // All at once, because a question may take long to go round.
+  const [{ bench }, kinds, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }), wire.ask(number, { do: 'faults' }), timelineOf(number)]);
   if (number !== store.number || !bench) return;
   store.kinds = kinds.kinds ?? [];
   store.trigger = kinds.trigger ?? [];
-  for (const device of bench.devices) {
-    const reply = await wire.ask(number, { do: 'bench', device: device.name });
-    if (reply.device) store.devices[device.name] = reply.device;
-  }
-  const timeline = await timelineOf(number);
+  const replies = await Promise.all(bench.devices.map(({ name }) => wire.ask(number, { do: 'bench', device: name })));
   if (number !== store.number) return;
+  bench.devices.forEach(({ name }, i) => { if (replies[i].device) store.devices[name] = replies[i].device; });
   store.timeline = timeline;
   store.bench = bench;
   hearAll();
@@ -239,7 +241,9 @@ export const askQuietly = (message) => wire.ask(store.number, message);
 
 export const isReadOnly = () => store.hello?.read_only ?? false;
 /// Returns whether changes are disabled: a recording only shows what happened.
-export const isLocked = () => isReadOnly() || store.timeline !== null;
+export const isLocked = () => isReadOnly() || (store.timeline !== null && !isAltered());
+/// Of a recording: whether somebody tries what would happen if something were otherwise.
+export const isAltered = () => store.look?.altered_at_ns !== undefined;
 export const valueOf = (name) => store.values[name];
 export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';
 /// Returns whether a program runs in the device.

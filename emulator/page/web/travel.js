@@ -1,6 +1,6 @@
 // The timeline of a recording, which moves to any moment: by dragging, by steps, or to its marks.
 import { html, useRef, useState } from './preact.js';
-import { ask, draw, isReadOnly, store } from './store.js';
+import { ask, draw, isAltered, isReadOnly, store } from './store.js';
 import { Button, Choice, seconds } from './small.js';
 
 const kTick_ns = 1_000_000;
@@ -36,7 +36,7 @@ export function Travel() {
   if (!timeline || !look) return null;
   const { begin_ns, end_ns, marks } = timeline;
   const length = Math.max(end_ns - begin_ns, 1);
-  const locked = isReadOnly();
+  const locked = isReadOnly() || isAltered();
   const at = dragged ?? look.time_ns;
   const drag = (event) => {
     const to_ns = Math.min(end_ns, begin_ns + Number(event.target.value) * kTick_ns);

@@ -5,7 +5,7 @@ const kDead_ms = 5000;   // and then gives it up
 export class Wire {
   constructor(hears) {
     this.hears = hears;  // { hello, bench, look, lost, dead }
-    this.token = location.hash.slice(1);
+    this.token = location.hash.slice(1).split('&')[0];  // what follows is a moment (link.js)
     this.watched = new Map();
     this.waiting = new Map();
     this.lastId = 0;

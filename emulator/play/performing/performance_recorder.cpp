@@ -1,6 +1,7 @@
 #include "emulator/play/performing/performance_recorder.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,24 @@
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
+
+namespace {
+
+world::RecordedFailure recorded_failure(const ScenarioResult& result) {
+  if (!result.failure) return {};
+  world::RecordedFailure failed{
+      .what = result.failure->what, .at = result.failure->at, .scenario = result.name};
+  // Of a condition that does not hold: the values behind it.
+  const std::size_t values = result.failure->came.find("  (");
+  if (values != std::string::npos) failed.what += result.failure->came.substr(values + 1);
+  if (result.steps.empty()) return failed;
+  const StepResult& step = result.steps.back();
+  failed.place = std::filesystem::path(step.file).filename().string() + ":" + std::to_string(step.line);
+  failed.step = step.text;
+  return failed;
+}
+
+}  // namespace
 
 PerformanceRecorder::PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path)
     : world_(world), header_(std::move(header)), path_(std::move(path)) {
@@ -45,7 +64,7 @@ void PerformanceRecorder::finish(ScenarioResult& result) {
   // Most recordings are discarded, so only those of failures end with a state. The state of a world takes a
   // third of the time of a short one.
   if (result.verdict != ScenarioResult::Verdict::passed) {
-    spool_->finish(result.failure ? result.failure->what : std::string());
+    spool_->finish(recorded_failure(result));
   }
   const std::string failure = spool_->close();
   spool_.reset();

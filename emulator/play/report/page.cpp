@@ -84,12 +84,14 @@ std::string failure_text(const Failure& failure) {
   row("came", failure.came);
   for (const std::string& detail : failure.details) row("also", detail);
   text += "</table>\n";
-  const auto fold = [&](const char* title, const std::vector<std::string>& lines) {
+  const auto fold = [&](const char* title, const std::vector<std::string>& lines, bool is_open = false) {
     if (lines.empty()) return;
-    text += "<details><summary>" + std::string(title) + "</summary><pre>";
+    text += std::string(is_open ? "<details open>" : "<details>") + "<summary>" + std::string(title) +
+            "</summary><pre>";
     for (const std::string& line : lines) text += xml_escaped(line) + "\n";
     text += "</pre></details>\n";
   };
+  fold("what led to it", failure.led_to, true);
   fold("the last frames before the failure", failure.frames);
   fold("the state at that time", failure.state);
   return text + "</div>\n";
@@ -182,8 +184,9 @@ std::string body_of(const ScenarioResult& result) {
   std::string text;
   if (result.failure) text += failure_text(*result.failure);
   if (!result.recording.empty()) {
-    text += "<p>to run this again: " + in("code", xml_escaped("understudy replay " + result.recording)) +
-            "</p>\n";
+    const std::string again = xml_escaped("understudy replay " + result.recording);
+    text += "<p>to run this again: " + in("code", again) +
+            "</p>\n<p>to see it in a browser: " + in("code", again + " --page") + "</p>\n";
   }
   if (!result.run_log || result.run_log->stretches.empty()) {
     text += steps_text(result.steps, 1, nullptr);

@@ -30,6 +30,7 @@ struct Failure {
   std::string expected{};              // "feeder.Cord_A = 32000"
   std::string came{};                  // "feeder.Cord_A = 31999"
   std::vector<std::string> details{};  // expressions with their values, more that differs
+  std::vector<std::string> led_to{};   // the events that led there (world::Story)
   std::vector<std::string> frames{};   // the last ones on all lines, decoded
   std::vector<std::string> state{};    // of the devices and machines
 };

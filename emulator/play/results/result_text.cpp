@@ -58,11 +58,16 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   if (!failure.expected.empty()) add("  expected: " + failure.expected);
   if (!failure.came.empty()) add("  came:     " + failure.came);
   for (const std::string& detail : failure.details) add("  also:     " + detail);
+  if (!failure.led_to.empty()) add("  what led to it:");
+  for (const std::string& moment : failure.led_to) add("    " + moment);
   if (!failure.frames.empty()) add("  the last frames:");
   for (const std::string& frame : failure.frames) add("    " + frame);
   if (!failure.state.empty()) add("  the state at " + format_duration(failure.at) + ":");
   for (const std::string& state : failure.state) add("    " + state);
-  if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
+  if (!result.recording.empty()) {
+    add("to run this again: understudy replay " + result.recording);
+    add("to see it in a browser: understudy replay " + result.recording + " --page");
+  }
   if (!result.like.empty())
     add("it failed in the same way as this one, whose recording is kept: " + result.like);
   if (!result.rerun.empty()) {

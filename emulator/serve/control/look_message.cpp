@@ -203,6 +203,7 @@ ReplyTask look_message(Daemon& daemon, Json message) {
   text.member("speed", format_speed(daemon.pacer().speed()));
   text.member("advancing", daemon.is_advancing());
   if (const Json stop = json_of_stop(daemon); !stop.is_null()) text.member("stop", stop);
+  if (daemon.observers().altered_at) text.member("altered_at_ns", daemon.observers().altered_at->count());
   if (list) {
     text.member("look", *list);
     text.open_list("values");

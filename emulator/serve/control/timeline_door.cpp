@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/serve/control/course_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/messages.h"
 #include "emulator/serve/control/server.h"
@@ -19,11 +21,15 @@
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/door.h"
+#include "emulator/serve/loop/pacer.h"
 #include "emulator/world/events/event_log.h"
+#include "emulator/world/events/history.h"
+#include "emulator/world/events/story.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/timeline.h"
 #include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::serve {
 
@@ -54,15 +60,19 @@ bool only_looks(const Json& message, const std::string& word) {
 /// together with its door.
 class Travel {
  public:
-  Travel(Daemon& daemon, const world::WorldState& begin, std::vector<world::RecordedEvent> events,
-         SimTime end, SimTime at_first)
-      : daemon_(daemon), timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
+  Travel(Daemon& daemon, const TimelineSetup& setup)
+      : daemon_(daemon),
+        setup_(setup),
+        timeline_(daemon.world(), setup.begin, setup.events, setup.end, [this] { collect(); }) {
     std::sort(moments_.begin(), moments_.end());
     for (const world::RecordedEvent& event : timeline_.events()) {
-      if (event.failed.empty()) continue;
-      marks_.push_back(Json{{"time_ns", event.at.count()}, {"what", "failed"}, {"text", event.failed}});
+      const world::RecordedFailure& failed = event.failed;
+      if (failed.what.empty()) continue;
+      marks_.push_back(Json{{"time_ns", failed.at.count()}, {"what", "failed"}, {"text", failed.what}});
+      scenario_ = failed.scenario;
+      story_ = world::story_of(daemon.world(), failed, history_.events());
     }
-    go_to(std::clamp(at_first, timeline_.begin(), timeline_.end()));
+    go_to(std::clamp(setup.at_first, timeline_.begin(), timeline_.end()));
   }
 
   Json timeline(const Json& message) {
@@ -76,6 +86,9 @@ class Travel {
               {"at_ns", daemon_.world().now().count()},
               {"marks", std::move(marks)}};
     Json reply{{"ok", true}, {"timeline", std::move(told)}};
+    if (!scenario_.empty()) reply["timeline"]["scenario"] = scenario_;
+    if (story_ && from == 0) reply["timeline"]["story"] = json_of(*story_);
+    if (altered_at()) reply["timeline"]["altered_at_ns"] = altered_at()->count();
     if (marks_left_out_ > 0) reply["timeline"]["marks_left_out"] = marks_left_out_;
     if (from + kMarksAtOnce < marks_.size()) reply["next"] = from + kMarksAtOnce;
     return reply;
@@ -84,6 +97,8 @@ class Travel {
   /// Handles {"do":"seek","to_ns":N} and {"do":"seek","by":"tick"|"frame"|"event","steps":-1}.
   Json seek(const Json& message) {
     require_keys(message, {"do", "to_ns", "by", "steps"});
+    if (altered_at())
+      throw MessageError("the recording is altered (what-if); expected `seek` after the way back");
     if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `seek` after that");
     if (message.contains("to_ns")) {
       go_to(SimTime{static_cast<std::int64_t>(require_count(message, "to_ns", INT64_MAX))});
@@ -92,6 +107,29 @@ class Travel {
     }
     return Json{{"ok", true}, {"simulated_time_ns", daemon_.world().now().count()}};
   }
+
+  Json curves(const Json& message) { return curves_message(message, timeline_, other_world()); }
+  Json spans(const Json& message) {
+    return spans_message(message, timeline_, other_world(), history_, story_ ? &*story_ : nullptr);
+  }
+
+  /// Handles {"do":"what-if"}, after which everything may act, and {"do":"what-if","off":true}, the way back
+  /// to the moment at which that began.
+  Json what_if(const Json& message) {
+    require_keys(message, {"do", "off"});
+    const bool is_off = message.contains("off") && message["off"] == true;
+    if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `what-if` after that");
+    if (!is_off && !altered_at()) altered_at() = daemon_.world().now();
+    if (is_off && altered_at()) {
+      const SimTime at = *std::exchange(altered_at(), std::nullopt);
+      daemon_.set_speed({.kind = Speed::Kind::manual});
+      go_to(at);
+    }
+    return Json{{"ok", true},
+                {"simulated_time_ns", daemon_.world().now().count()},
+                {"altered", altered_at().has_value()}};
+  }
+  bool is_altered() const { return daemon_.observers().altered_at.has_value(); }
 
  private:
   /// The last frames and events between two keyframes.
@@ -137,6 +175,7 @@ class Travel {
   /// Collects, at each keyframe of the first pass, when frames began, the events for the bar, and the last
   /// frames and events.
   void collect() {
+    history_.collect(daemon_.world(), daemon_.frames(), daemon_.observers().events);
     Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
     for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
       moments_.push_back(told.time);
@@ -173,6 +212,14 @@ class Travel {
     return all;
   }
 
+  std::optional<SimTime>& altered_at() { return daemon_.observers().altered_at; }
+
+  /// Returns a world of the same bench, on which stretches are played again while the daemon's stands.
+  world::World& other_world() {
+    if (!other_) other_ = std::make_unique<world::World>(setup_.bench, setup_.options, nullptr);
+    return *other_;
+  }
+
   void go_to(SimTime time) {
     timeline_.go_to(time, [this](const world::WorldState& state, std::size_t keyframe) {
       daemon_.restore(state);
@@ -181,6 +228,11 @@ class Travel {
   }
 
   Daemon& daemon_;
+  const TimelineSetup& setup_;
+  std::unique_ptr<world::World> other_;
+  world::History history_;
+  std::optional<world::Story> story_;
+  std::string scenario_;
   std::vector<Stretch> stretches_;  // one before each keyframe but the first, and one before the end
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
@@ -192,12 +244,12 @@ class Travel {
 
 }  // namespace
 
-DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
-                        const std::vector<world::RecordedEvent>& events, SimTime end, SimTime at_first) {
+DoorMaker timeline_door(const std::string& path, TimelineSetup given) {
   const auto travel = std::make_shared<std::unique_ptr<Travel>>();
+  const auto setup = std::make_shared<const TimelineSetup>(std::move(given));
   return [=](Daemon& daemon, const std::function<void(const std::string&)>&) -> std::unique_ptr<Door> {
     const auto travelled = [=, &daemon] {
-      if (!*travel) *travel = std::make_unique<Travel>(daemon, begin, events, end, at_first);
+      if (!*travel) *travel = std::make_unique<Travel>(daemon, *setup);
     };
     daemon.post(travelled);  // runs before any client is served
     const auto handle = [&daemon, travel, travelled](const std::string& line,
@@ -214,10 +266,14 @@ DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
                                    : std::string();
       if (word == "timeline") return answer(reply, [&] { return (*travel)->timeline(message); });
       if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
-      if (!word.empty() && !only_looks(message, word)) {
+      if (word == "curves") return answer(reply, [&] { return (*travel)->curves(message); });
+      if (word == "spans") return answer(reply, [&] { return (*travel)->spans(message); });
+      if (word == "what-if") return answer(reply, [&] { return (*travel)->what_if(message); });
+      if (!word.empty() && !only_looks(message, word) && !(*travel)->is_altered()) {
         return answer(reply, [&]() -> Json {
-          throw MessageError(
-              word + ": a recording cannot be changed; expected `seek`, or a command that only reads");
+          throw MessageError(word +
+                             ": a recording cannot be changed; expected `seek`, a command that only reads, "
+                             "or `what-if` first");
         });
       }
       handle_message(daemon, line, reply);

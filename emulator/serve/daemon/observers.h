@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/simulated_time.h"
@@ -28,6 +29,8 @@ struct Observers {
   world::EventLog events;
   std::uint64_t restores =
       0;  // how often the world was put into another state, which makes earlier reports invalid
+  /// Of a recording: the moment at which it was altered to see what would happen; nothing: it is not.
+  std::optional<SimTime> altered_at;
   world::LookedNames names;
   /// Which lines of programs have run since a moment; null: nobody counts them.
   std::unique_ptr<world::ProgramCoverage> coverage;

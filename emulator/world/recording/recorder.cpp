@@ -88,11 +88,11 @@ Recorder::~Recorder() {
   world_.remove_listener(*this);
 }
 
-void Recorder::finish(std::string failed) {
+void Recorder::finish(RecordedFailure failed) {
   if (!is_finished_) end_with(to_text(save(world_), kBenchOfRecording), std::move(failed));
 }
 
-void Recorder::end_with(std::string state, std::string failed) {
+void Recorder::end_with(std::string state, RecordedFailure failed) {
   if (is_finished_) return;
   take({.what = What::end, .text = std::move(state), .failed = std::move(failed)});
   is_finished_ = true;

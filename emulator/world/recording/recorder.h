@@ -22,11 +22,11 @@ class Recorder final : private OutsideListener {
 
   /// Writes, once, that the recording ends at this moment, with the state that a replay must also reach, and
   /// with the failure of a scenario if there was one. It must not be called from within World::advance_to().
-  void finish(std::string failed = {});
+  void finish(RecordedFailure failed = {});
 
  private:
   class LineRecorder;
-  void end_with(std::string state, std::string failed);
+  void end_with(std::string state, RecordedFailure failed);
   void take(RecordedEvent event);
 
   void on_input(std::size_t device, int terminal, std::int32_t level) override;

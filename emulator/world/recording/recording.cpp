@@ -154,6 +154,20 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
   return bytes;
 }
 
+/// Recordings of earlier versions only have the text.
+RecordedFailure failure_at(const Json& object, SimTime end) {
+  const auto text = [&](const char* key) {
+    return object.contains(key) ? text_at(object, key) : std::string();
+  };
+  RecordedFailure failed{.what = text_at(object, "failed"),
+                         .at = end,
+                         .scenario = text("scenario"),
+                         .place = text("place"),
+                         .step = text("step")};
+  if (object.contains("failed_ns")) failed.at = SimTime{number_at(object, "failed_ns", 0, end.count())};
+  return failed;
+}
+
 Fault fault_at(const Json& object, const KnownDevices& devices) {
   const Json& fault = require(object, "fault");
   if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
@@ -261,6 +275,14 @@ std::vector<std::uint8_t> bytes_of_words(const PreparedWrite& write) {
   return bytes;
 }
 
+void add_failure(EventLine& line, const RecordedFailure& failed) {
+  line.json("failed", Json(failed.what));
+  line.number("failed_ns", failed.at.count());
+  line.json("scenario", Json(failed.scenario));
+  line.json("place", Json(failed.place));
+  line.json("step", Json(failed.step));
+}
+
 }  // namespace
 
 std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
@@ -308,7 +330,7 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       break;
     case What::command: line.json("text", Json(event.text)); break;
     case What::end:
-      if (!event.failed.empty()) line.json("failed", Json(event.failed));
+      if (!event.failed.what.empty()) add_failure(line, event.failed);
       if (!event.text.empty()) line.json("state", Json(event.text));
       break;
     case What::opened:
@@ -369,7 +391,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::command: event.text = text_at(line, "text"); break;
     case What::end:
       if (line.contains("state")) event.text = text_at(line, "state");
-      if (line.contains("failed")) event.failed = text_at(line, "failed");
+      if (line.contains("failed")) event.failed = failure_at(line, event.at);
       break;
     case What::opened:
     case What::closed:

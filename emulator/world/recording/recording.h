@@ -27,6 +27,15 @@ struct RecordingHeader {
       snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; otherwise empty
 };
 
+/// The failure of a scenario that ends a recording.
+struct RecordedFailure {
+  std::string what{};  // "feeder.Cord_A is 31999; expected 32000"; empty: there was no failure
+  SimTime at{0};
+  std::string scenario{};  // its name, with that of its branch
+  std::string place{};     // of the step: "fail.yaml:8"
+  std::string step{};      // "expect: feeder.Cord_A = 32000"
+};
+
 struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
@@ -54,7 +63,7 @@ struct RecordedEvent {
   std::optional<pty::HostSettings> host{};
   std::vector<std::uint8_t> bytes{};
   std::string text{};
-  std::string failed{};  // for `end`: the failure of a scenario, if any
+  RecordedFailure failed{};  // for `end`
   double real = 0;
   Fault fault{};
   PreparedWrite write{};

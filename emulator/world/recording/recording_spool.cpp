@@ -66,7 +66,7 @@ void RecordingSpool::put_aside() {
   file_ = std::make_unique<GrowingFile>(path, ContentKind::recording, log_);
 }
 
-void RecordingSpool::finish(std::string failed) {
+void RecordingSpool::finish(RecordedFailure failed) {
   if (recorder_) recorder_->finish(std::move(failed));
 }
 

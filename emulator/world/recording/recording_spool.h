@@ -31,7 +31,7 @@ class RecordingSpool {
 
   /// Writes the end, the final state, and the failure of a scenario if there was one. Call it outside
   /// World::advance_to(); nothing is recorded afterwards.
-  void finish(std::string failed = {});
+  void finish(RecordedFailure failed = {});
 
   /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string close();

@@ -23,24 +23,24 @@ Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEv
   const SimTime apart = std::max(kApart, (end_ - world_.now()) / static_cast<std::int64_t>(kMaxKeyframes));
   std::size_t next = 0;
   for (SimTime at = world_.now() + apart; at < end_; at += apart) {
-    next = play(next, at);
+    next = play(world_, next, at);
     keyframes_.push_back({.at = at, .next_event = next, .state = save(world_)});
     on_way();
   }
-  play(next, end_);
+  play(world_, next, end_);
   on_way();
 }
 
 /// Plays the events up to `until`. Returns the first event that is later.
-std::size_t Timeline::play(std::size_t next_event, SimTime until) {
+std::size_t Timeline::play(World& world, std::size_t next_event, SimTime until) const {
   for (; next_event < events_.size() && events_[next_event].at <= until; ++next_event) {
-    world_.advance_to(events_[next_event].at);
-    apply(world_, events_[next_event]);
+    world.advance_to(events_[next_event].at);
+    apply(world, events_[next_event]);
   }
-  world_.advance_to(until);
+  world.advance_to(until);
   // Output that no host has read must not reach a host that opens the line now.
-  for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    world_.take_output(i, world_.line(i).line.output().size());
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    world.take_output(i, world.line(i).line.output().size());
   }
   return next_event;
 }
@@ -55,7 +55,24 @@ void Timeline::go_to(SimTime time,
   const Keyframe& from = *(later - (has_near ? 2 : 1));
   take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
   restore(world_, from.state);  // restores the hosts of that time as well, not the present ones
-  play(from.next_event, time);
+  play(world_, from.next_event, time);
+}
+
+void Timeline::play_again(World& other, SimTime from, SimTime to, SimTime apart,
+                          const std::function<void()>& look) const {
+  from = std::clamp(from, begin(), end_);
+  to = std::clamp(to, from, end_);
+  const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), from,
+                                      [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
+  const Keyframe& keyframe = *(later - 1);
+  restore(other, keyframe.state);
+  std::size_t next = play(other, keyframe.next_event, from);
+  look();
+  for (SimTime at = from; at < to;) {
+    at = std::min(to, at + apart);
+    next = play(other, next, at);
+    look();
+  }
 }
 
 }  // namespace understudy::emulator::world

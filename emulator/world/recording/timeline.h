@@ -35,13 +35,18 @@ class Timeline {
   /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls before it.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
 
+  /// Plays a stretch once more on another world, made from the same bench, and calls `look` at its beginning,
+  /// then every `apart`, and at its end.
+  void play_again(World& other, SimTime from, SimTime to, SimTime apart,
+                  const std::function<void()>& look) const;
+
  private:
   struct Keyframe {
     SimTime at{0};
     std::size_t next_event = 0;
     WorldState state;
   };
-  std::size_t play(std::size_t next_event, SimTime until);
+  std::size_t play(World& world, std::size_t next_event, SimTime until) const;
 
   World& world_;
   std::vector<RecordedEvent> events_;

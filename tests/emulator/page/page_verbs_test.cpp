@@ -76,7 +76,8 @@ TEST(ReadOnlyPages, PassOnWhatLooksAndNothingThatChanges) {
        {R"({"do":"status"})", R"({"do":"bench"})", R"({"do":"registers"})", R"({"do":"get","names":["a"]})",
         R"({"do":"eval"})", R"({"do":"list"})", R"({"do":"frames"})", R"({"do":"events"})",
         R"({"do":"where"})", R"({"do":"scope"})", R"({"do":"program","device":"a"})", R"({"do":"faults"})",
-        R"({"do":"choices"})", R"({"do":"snapshots"})", R"({"do":"timeline","from":500})"}) {
+        R"({"do":"choices"})", R"({"do":"snapshots"})", R"({"do":"timeline","from":500})",
+        R"({"do":"curves","names":["a"]})", R"({"do":"spans"})"}) {
     EXPECT_EQ(refusal_of(message, true), "") << message;
     EXPECT_EQ(refusal_of(message, false), "") << message;
   }
@@ -100,6 +101,8 @@ TEST(ReadOnlyPages, PassOnWhatLooksAndNothingThatChanges) {
                               R"({"do":"scope","off":true})",
                               R"({"do":"snapshots","drop":"a"})",
                               R"({"do":"seek","to_ns":5})",
+                              R"({"do":"what-if"})",
+                              R"({"do":"what-if","off":true})",
                               R"({"do":"command","device":"a","text":"MOVE"})"}) {
     EXPECT_NE(refusal_of(message, true), "") << message;
     EXPECT_EQ(refusal_of(message, false), "") << message;

@@ -14,7 +14,7 @@ from selenium.webdriver.common.by import By
 
 import firefox
 
-PANELS = ['Axes', 'Signals', 'Plot', 'Registers', 'Bus', 'Program', 'Faults']
+PANELS = ['Axes', 'Signals', 'Plot', 'Timeline', 'Registers', 'Bus', 'Program', 'Events', 'Faults']
 PATIENCE_S = 20
 
 
@@ -42,7 +42,7 @@ class Visit:
         self.driver = firefox.Firefox(width, height, dark) if in_firefox else browser(width, height, dark, self.folder.name)
         self.name = f"{'narrow' if width < 700 else 'wide'}_{'dark' if dark else 'light'}"
         self.driver.get(arguments.address)
-        self.until('the bench is there', lambda: self.texts('.axis h3'))
+        self.until('the bench is there', lambda: self.texts('.axis h3') or self.find('.travel'))
 
     def close(self):
         errors = [line['message'] for line in self.driver.get_log('browser') if line['level'] == 'SEVERE']

@@ -16,6 +16,7 @@ import time
 import tty
 import types
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -25,7 +26,7 @@ import doing
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
 # For a recording: only buttons that display something, or that belong to the browser.
-HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close')
+HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close|go to|zoom|earlier|later|whole|drags mark|list what')
 
 BENCH = """understudy: 1
 lines:
@@ -286,6 +287,47 @@ def recording(options):
         visit.close()
 
 
+def story(options):
+    """A recording opens at its failure, with what led there; a timeline; something else is tried, and given up; a moment is a link."""
+    with Stage(options) as stage:
+        (stage.folder / 'failing.yaml').write_text(FAILING, encoding='utf-8')
+        subprocess.run([options.understudy, 'run', 'failing.yaml', '--record', 'kept'], cwd=stage.folder, check=False,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        stage.start_recording(next(stage.folder.glob('kept/**/*.jsonl')))
+        visit = stage.visit()
+        clock = lambda: visit.texts('.clock')[0]
+        end = lambda: clock().startswith('3.0')
+        visit.until('it opens at the failure, which is told with its line', lambda: end() and 'failing.yaml:11' in visit.texts('.story strong')[0])
+        visit.until('and what led there', lambda: len(visit.texts('.story li')) == 2 and 'Aaxis_Move_INC = 1' in visit.texts('.story li')[1])
+        visit.until('beside the timeline', lambda: visit.find('.timeline canvas'))
+        visit.picture('story')
+        visit.find('.story li button')[1].click()
+        visit.until('a moment of it is a link', lambda: clock() < '0.1')
+        canvas = visit.find('.timeline canvas')[0]
+        ActionChains(visit.driver).move_to_element(canvas).click().perform()
+        visit.until('a click on the timeline goes there', lambda: '1.0' < clock() < '2.2')
+        here = clock()
+        canvas.send_keys('w')
+        visit.until('a key zooms, and the address says where one is', lambda: 'stretch=' in visit.driver.current_url and 't=' in visit.driver.current_url)
+        place = visit.driver.current_url
+        visit.show('Plot')
+        rows = lambda: doing.saved(visit, 'a CSV', 'save as CSV').decode().splitlines()
+        visit.until('the plot has the whole curve', lambda: len(rows()) > 1000 and rows()[-1].endswith(',32000'))
+        visit.driver.back()
+        visit.until('back goes to the panel before', lambda: visit.driver.find_element(By.ID, 'tab_Timeline').get_attribute('aria-selected') == 'true')
+        visit.driver.get('about:blank')
+        visit.driver.get(place)
+        visit.until('the address alone leads to that moment', lambda: visit.find('.timeline canvas') and clock() == here)
+        visit.show('Faults')
+        visit.press('try what would happen from here; the recording stays as it is')
+        visit.until('it is marked as altered', lambda: 'altered' in visit.texts('.time .badge')[0])
+        visit.press('power of feeder: off')
+        visit.until('and may be acted on', lambda: stage.value('feeder.power') == 0)
+        visit.press('back to the recording')
+        visit.until('until one goes back', lambda: stage.value('feeder.power') == 1 and clock() == here)
+        visit.close()
+
+
 def crowd(options):
     """Connects sixteen browsers, one of which never reads again, and then one more than allowed."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
@@ -339,7 +381,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():

@@ -1,0 +1,14 @@
+// What led to the failure of a scenario, from its recording: the same text that the live page shows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/device/model.h"
+
+namespace understudy::emulator::command_line {
+
+/// Returns a line for each event that led there, or none if the recording cannot be replayed.
+std::vector<std::string> what_led_to_it(ModelList models, const std::string& recording);
+
+}  // namespace understudy::emulator::command_line

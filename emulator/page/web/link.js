@@ -1,0 +1,83 @@
+// A moment by link: the panel, the time of a recording, the plotted names and the filters stand in the address, behind the
+// token. The browser's back button goes to the panel and the moment before.
+import { ask, complain, draw, store } from './store.js';
+import { keep, kept } from './kept.js';
+
+// What of a bench is in the address: the word there, and the name by which it is kept.
+const kKept = [['names', 'plotted'], ['lanes', 'find in the timeline'], ['stretch', 'stretch of the timeline'], ['signals', 'filter of signals'],
+               ['section', 'section'], ['register', 'find a register'], ['frame', 'filter of frames'], ['frames', 'which frames'],
+               ['event', 'filter of events']];
+const kLists = ['names', 'stretch'];
+const kPause_ms = 400;  // browsers do not like many new addresses
+
+const textOf = (word, value) => (kLists.includes(word) ? value?.join(',') : value) ?? '';
+const listOf = (word, text) => (word === 'stretch' ? text.split(',').map(Number) : text.split(',').filter(Boolean));
+
+let given = new URLSearchParams(location.hash.slice(1).split('&').slice(1).join('&'));
+let lastPanel = given.get('panel');
+let planned = 0;
+
+let panel = '';  // the one in view
+
+/// Where the page is now.
+function address() {
+  const words = new URLSearchParams();
+  words.set('panel', panel);
+  if (store.timeline && store.look) words.set('t', String(store.look.time_ns / 1e9));
+  for (const [word, name] of kKept) {
+    const text = textOf(word, kept(name, undefined));
+    if (text !== '' && !(word === 'frames' && text === 'all') && !(word === 'section' && text === '0')) words.set(word, text);
+  }
+  const token = location.hash.slice(1).split('&')[0];
+  return `#${token}&${words}`.replaceAll('%2C', ',').replace(/&$/, '');
+}
+
+/// The present place replaces the one before in the address, unless the panel is another: that is a step to go back from.
+function put() {
+  planned = 0;
+  if (!store.bench || panel === '') return;
+  const to = address();
+  if (to === location.hash) return;
+  history[lastPanel !== null && lastPanel !== panel ? 'pushState' : 'replaceState'](null, '', to);
+  lastPanel = panel;
+}
+/// Whenever the page was drawn: its place may be another.
+export function noteMoment(shown) {
+  panel = shown;
+  planned ||= setTimeout(put, kPause_ms);
+}
+
+/// Goes where the address says, once the bench is known.
+export function goThere() {
+  if (!given || !store.bench) return;
+  const words = given;
+  given = null;
+  if (words.get('panel')) keep('panel', words.get('panel'), { of: '' });
+  for (const [word, name] of kKept) {
+    const text = words.get(word);
+    if (text !== null) keep(name, kLists.includes(word) ? listOf(word, text) : text);
+  }
+  const time = Number(words.get('t'));
+  if (words.has('t') && store.timeline && Number.isFinite(time)) ask({ do: 'seek', to_ns: Math.round(time * 1e9) });
+}
+addEventListener('popstate', () => {
+  given = new URLSearchParams(location.hash.slice(1).split('&').slice(1).join('&'));
+  lastPanel = given.get('panel');
+  draw();
+});
+
+/// A step to go back from, before the moment changes by much.
+export function leaveMoment() {
+  put();
+  history.pushState(null, '', location.hash);
+}
+
+export async function copyMoment() {
+  put();
+  try {
+    await navigator.clipboard.writeText(location.href);
+    complain('The link to this moment is copied; it works while this page runs.');
+  } catch {
+    complain(`Copy this address: ${location.href}`);
+  }
+}

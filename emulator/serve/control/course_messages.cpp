@@ -1,0 +1,274 @@
+#include "emulator/serve/control/course_messages.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/world/events/event_log.h"
+#include "emulator/world/events/history.h"
+#include "emulator/world/events/story.h"
+#include "emulator/world/look/curves.h"
+#include "emulator/world/look/program_spans.h"
+#include "emulator/world/recording/timeline.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::size_t kMaxCurves = 256;
+constexpr std::uint64_t kMaxDots = 4'000;
+constexpr std::size_t kMaxPoints = 200'000;  // of all names
+constexpr std::size_t kMaxSpans = 2'000;     // in a reply
+/// Up to this much work every tick is looked at; beyond it, only some moments of each dot.
+constexpr Tick kMaxCurveWork = 4'000'000;  // ticks by names and devices
+constexpr Tick kMaxProgramWork = 100'000;  // ticks by devices
+constexpr std::uint64_t kLooksADot = 8;
+
+struct Stretch {
+  SimTime from{0};
+  SimTime to{0};
+  std::uint64_t dots = 0;
+};
+
+Stretch stretch_of(const Json& message, const world::Timeline& timeline) {
+  Stretch stretch{.from = timeline.begin(), .to = timeline.end(), .dots = 1'000};
+  const auto time = [&](const char* key, SimTime otherwise) {
+    return message.contains(key) ? SimTime{static_cast<std::int64_t>(require_count(message, key, INT64_MAX))}
+                                 : otherwise;
+  };
+  stretch.from = std::clamp(time("from_ns", stretch.from), timeline.begin(), timeline.end());
+  stretch.to = std::clamp(time("to_ns", stretch.to), timeline.begin(), timeline.end());
+  if (message.contains("dots")) stretch.dots = require_count(message, "dots", kMaxDots);
+  if (stretch.dots == 0) throw MessageError("dots: expected 1 to " + std::to_string(kMaxDots));
+  if (stretch.to <= stretch.from)
+    throw MessageError("to_ns: is not later than from_ns; expected a stretch of the recording");
+  return stretch;
+}
+
+/// Returns how far apart moments are looked at: the whole stretch if a watcher sees every tick of it.
+SimTime apart_of(const Stretch& stretch, bool is_exact) {
+  const SimTime length = stretch.to - stretch.from;
+  if (is_exact) return length;
+  return std::max(kTickLength, length / static_cast<std::int64_t>(stretch.dots * kLooksADot));
+}
+
+Json points_of(const std::vector<double>& values) {
+  Json points = Json::array();
+  for (const double value : values) points.push_back(json_of(value));
+  return points;
+}
+
+/// A span of the timeline. Those of a lane that lie within one dot are told as one.
+struct Span {
+  std::string lane;
+  SimTime begin{0};
+  SimTime end{0};
+  Json told;
+  bool is_bad = false;
+  std::uint64_t count = 1;
+};
+
+Json json_of_span(const Span& span) {
+  Json told{{"lane", span.lane}, {"begin_ns", span.begin.count()}, {"end_ns", span.end.count()}};
+  told.update(span.told);
+  if (span.is_bad) told["bad"] = true;
+  if (span.count > 1) told["count"] = span.count;
+  return told;
+}
+
+void add_exchanges(std::vector<Span>& spans, const world::History& history) {
+  for (const world::Exchange& exchange : history.exchanges()) {
+    Json told{{"kind", "frame"}};
+    const auto add = [&](const char* key, const std::string& text) {
+      if (!text.empty()) told[key] = text;
+    };
+    add("text", exchange.request);
+    add("reply", exchange.reply);
+    add("remark", exchange.remark);
+    if (exchange.latency) told["latency_ns"] = exchange.latency->count();
+    spans.push_back({.lane = exchange.line,
+                     .begin = exchange.begin,
+                     .end = exchange.end,
+                     .told = std::move(told),
+                     .is_bad = exchange.is_refusal || !exchange.remark.empty()});
+  }
+}
+
+/// Faults last from their beginning, and devices without power from power off, each to its end.
+void add_events(std::vector<Span>& spans, const world::History& history, SimTime end) {
+  std::map<std::string, std::size_t> under_way;  // by what ends it: the number of its span
+  const auto begin = [&](const std::string& key, const world::Event& event, const char* lane,
+                         const std::string& text) {
+    under_way[key] = spans.size();
+    spans.push_back({.lane = lane,
+                     .begin = event.time,
+                     .end = end,
+                     .told = Json{{"kind", lane}, {"text", text}},
+                     .is_bad = true});
+  };
+  const auto finish = [&](const std::string& key, SimTime at) {
+    const auto found = under_way.find(key);
+    if (found == under_way.end()) return;
+    spans[found->second].end = at;
+    under_way.erase(found);
+  };
+  for (const world::Event& event : history.events()) {
+    Json told{{"kind", "event"}, {"what", event.what}};
+    const auto add = [&](const char* key, const std::string& text) {
+      if (!text.empty()) told[key] = text;
+    };
+    add("by", event.by);
+    add("device", event.device);
+    add("name", event.name);
+    add("value", event.value);
+    add("text", event.text);
+    const std::string lane = event.by.empty() ? "events" : "events of " + event.by;
+    spans.push_back({.lane = lane,
+                     .begin = event.time,
+                     .end = event.time,
+                     .told = std::move(told),
+                     .is_bad = event.what == "exception" || event.what == "dropped"});
+    if (event.what == "power" && event.value == "0") {
+      begin("power " + event.device, event, "power", event.device + " has no power");
+    } else if (event.what == "power") {
+      finish("power " + event.device, event.time);
+    } else if (event.what == "fault" && event.text.ends_with(": begins")) {
+      begin("fault " + event.value, event, "fault", event.text.substr(0, event.text.rfind(':')));
+    } else if (event.what == "fault" || event.what == "clear") {
+      finish("fault " + event.value, event.time);
+    }
+  }
+}
+
+void add_programs(std::vector<Span>& spans, const Stretch& stretch, const world::Timeline& timeline,
+                  world::World& other) {
+  Tick programs = 0;
+  for (std::size_t i = 0; i < other.device_count(); ++i)
+    programs += other.device(i).user_program() != nullptr ? 1 : 0;
+  if (programs == 0) return;
+  const bool is_exact = (stretch.to - stretch.from) / kTickLength * programs <= kMaxProgramWork;
+  world::ProgramSpans found(other);
+  const auto look = [&] {
+    found.look();
+    if (is_exact) found.watch();
+  };
+  timeline.play_again(other, stretch.from, stretch.to, apart_of(stretch, is_exact), look);
+  for (world::ProgramSpans::Span& span : found.finish()) {
+    Json told{{"kind", "program"}, {"line", span.line}, {"text", span.text}};
+    if (!span.waits_for.empty()) told["waits_for"] = span.waits_for;
+    spans.push_back({.lane = span.program.empty() ? span.device : span.device + " " + span.program,
+                     .begin = span.begin,
+                     .end = span.end,
+                     .told = std::move(told),
+                     .is_bad = span.has_failed});
+  }
+}
+
+/// Keeps what lies in the stretch, ordered by its beginning; spans of a lane within one dot become one.
+std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
+  std::erase_if(spans, [&](const Span& span) { return span.end < stretch.from || span.begin > stretch.to; });
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const Span& one, const Span& other) { return one.begin < other.begin; });
+  const SimTime dot =
+      std::max(SimTime{1}, (stretch.to - stretch.from) / static_cast<std::int64_t>(stretch.dots));
+  std::map<std::string, std::size_t> last;  // by lane
+  std::vector<Span> some;
+  for (Span& span : spans) {
+    const auto found = last.find(span.lane);
+    if (found != last.end()) {
+      Span& before = some[found->second];
+      const bool is_one = span.end - before.begin < dot;
+      if (is_one) {
+        before.end = std::max(before.end, span.end);
+        if (span.is_bad && !before.is_bad) before.told = std::move(span.told);
+        before.is_bad = before.is_bad || span.is_bad;
+        before.count += span.count;
+        continue;
+      }
+    }
+    last[span.lane] = some.size();
+    some.push_back(std::move(span));
+  }
+  return some;
+}
+
+}  // namespace
+
+Json curves_message(const Json& message, const world::Timeline& timeline, world::World& other) {
+  require_keys(message, {"do", "names", "from_ns", "to_ns", "dots"});
+  const Stretch stretch = stretch_of(message, timeline);
+  const Json& given = require(message, "names");
+  if (!given.is_array() || given.empty() || given.size() > kMaxCurves)
+    throw is_not("names", given, "a list of 1 to " + std::to_string(kMaxCurves) + " names");
+  std::vector<std::string> names;
+  for (const Json& name : given) {
+    if (!name.is_string()) throw is_not("names", given, "a list of names");
+    names.push_back(name.get<std::string>());
+  }
+  if (names.size() * stretch.dots > kMaxPoints)
+    throw MessageError("dots: too many for so many names; expected at most " +
+                       std::to_string(kMaxPoints / names.size()));
+  world::Curves curves(other, names, stretch.from, stretch.to, stretch.dots);
+  const Tick ticks = (stretch.to - stretch.from) / kTickLength;
+  const auto weight = static_cast<Tick>(names.size() + 4 * other.device_count());
+  const bool is_exact = ticks * weight <= kMaxCurveWork;
+  const SimTime apart = apart_of(stretch, is_exact);
+  timeline.play_again(other, stretch.from, stretch.to, apart, [&] {
+    curves.look();
+    if (is_exact) curves.watch();
+  });
+  curves.finish();
+  Json told = Json::array();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    told.push_back(Json{{"least", points_of(curves.least(i))}, {"greatest", points_of(curves.greatest(i))}});
+  return Json{{"ok", true},
+              {"from_ns", stretch.from.count()},
+              {"to_ns", stretch.to.count()},
+              {"step_ns", is_exact ? kTickLength.count() : apart.count()},
+              {"curves", std::move(told)}};
+}
+
+Json spans_message(const Json& message, const world::Timeline& timeline, world::World& other,
+                   const world::History& history, const world::Story* story) {
+  require_keys(message, {"do", "from_ns", "to_ns", "dots", "from"});
+  const Stretch stretch = stretch_of(message, timeline);
+  const std::size_t first = message.contains("from") ? require_count(message, "from") : 0;
+  std::vector<Span> spans;
+  add_exchanges(spans, history);
+  add_events(spans, history, timeline.end());
+  if (story != nullptr) {
+    spans.push_back({.lane = "events",
+                     .begin = story->at,
+                     .end = story->at,
+                     .told = Json{{"kind", "failed"}, {"text", story->sentence}},
+                     .is_bad = true});
+  }
+  add_programs(spans, stretch, timeline, other);
+  const std::vector<Span> some = thinned(std::move(spans), stretch);
+  Json told = Json::array();
+  const std::size_t end = std::min(some.size(), first < some.size() ? first + kMaxSpans : first);
+  for (std::size_t i = first; i < end; ++i) told.push_back(json_of_span(some[i]));
+  Json reply{{"ok", true}, {"spans", std::move(told)}, {"of", some.size()}};
+  if (history.dropped() > 0) reply["left_out"] = history.dropped();
+  if (end < some.size()) reply["next"] = end;
+  return reply;
+}
+
+Json json_of(const world::Story& story) {
+  Json moments = Json::array();
+  for (const world::Story::Moment& moment : story.moments)
+    moments.push_back(Json{{"time_ns", moment.at.count()}, {"text", moment.text}});
+  return Json{{"time_ns", story.at.count()},
+              {"text", story.sentence},
+              {"names", story.names},
+              {"moments", std::move(moments)}};
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,83 @@
+#include "emulator/world/events/history.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "base/simulated_time.h"
+#include "emulator/world/events/event_log.h"
+#include "emulator/world/frames/frame_log.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+SimTime duration_of(const World& world, const FrameLog::Told& frame) {
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    if (world.line(i).line.name() != frame.line) continue;
+    return world.line(i).line.options().settings.duration_of(static_cast<std::int64_t>(frame.bytes.size()));
+  }
+  return SimTime{0};
+}
+
+}  // namespace
+
+void History::collect(const World& world, const FrameLog& frames, EventLog& events) {
+  for (const FrameLog::Told& frame : frames.since(next_frame_, SIZE_MAX)) {
+    next_frame_ = frame.number + 1;
+    take(world, frame);
+  }
+  for (Event& event : events.since(next_event_, SIZE_MAX)) {
+    next_event_ = event.number + 1;
+    // The world is put into the state in which the run begins, which is no part of it.
+    if (event.what == "restored") continue;
+    if (events_.size() == kMaxEvents) {
+      events_.pop_front();
+      ++dropped_;
+    }
+    events_.push_back(std::move(event));
+  }
+}
+
+/// Returns the exchange to which a frame of a station belongs, or null.
+Exchange* History::request_of(const FrameLog::Told& frame) {
+  const auto last = last_requests_.find(frame.line);
+  if (last == last_requests_.end() || last->second < dropped_exchanges_) return nullptr;
+  Exchange& exchange = exchanges_[last->second - dropped_exchanges_];
+  // What a fault has done to a reply has no bytes. A reply that comes twice stands alone.
+  const bool is_reply = frame.latency && exchange.reply.empty();
+  return is_reply || frame.bytes.empty() ? &exchange : nullptr;
+}
+
+void History::take(const World& world, const FrameLog::Told& frame) {
+  const bool is_request = frame.way == pty::Way::from_host;
+  const SimTime end = frame.time + duration_of(world, frame);
+  if (Exchange* const request = is_request ? nullptr : request_of(frame)) {
+    Exchange& exchange = *request;
+    exchange.end = std::max(exchange.end, end);
+    if (!frame.text.empty()) exchange.reply = frame.text;
+    if (!frame.remark.empty()) exchange.remark += (exchange.remark.empty() ? "" : "; ") + frame.remark;
+    if (frame.latency) exchange.latency = frame.latency;
+    exchange.is_refusal = exchange.is_refusal || frame.is_refusal;
+    return;
+  }
+  if (exchanges_.size() == kMaxExchanges) {
+    exchanges_.pop_front();
+    ++dropped_exchanges_;
+    ++dropped_;
+  }
+  exchanges_.push_back({.line = frame.line,
+                        .begin = frame.time,
+                        .end = end,
+                        .request = is_request ? frame.text : std::string(),
+                        .reply = is_request ? std::string() : frame.text,
+                        .remark = frame.remark,
+                        .is_refusal = frame.is_refusal});
+  if (is_request) last_requests_[frame.line] = dropped_exchanges_ + exchanges_.size() - 1;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,57 @@
+// Everything that has happened in a run: each request with its reply, and each event. For a recording, where
+// the logs of a daemon would keep only the last ones.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/simulated_time.h"
+#include "emulator/world/events/event_log.h"
+#include "emulator/world/frames/frame_log.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+/// A request with its reply, or a frame that belongs to no other.
+struct Exchange {
+  std::string line;
+  SimTime begin{0};
+  SimTime end{0};         // of its last frame
+  std::string request{};  // empty: a station has spoken unasked
+  std::string reply{};    // empty: there was none
+  std::string remark{};   // why a frame was dropped, and the like
+  std::optional<SimTime> latency{};
+  bool is_refusal = false;
+};
+
+class History {
+ public:
+  /// Beyond these the oldest are dropped.
+  static constexpr std::size_t kMaxExchanges = 200'000;
+  static constexpr std::size_t kMaxEvents = 100'000;
+
+  /// Takes what is new in the logs. Call it before they forget anything.
+  void collect(const World& world, const FrameLog& frames, EventLog& events);
+
+  const std::deque<Exchange>& exchanges() const { return exchanges_; }
+  const std::deque<Event>& events() const { return events_; }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  void take(const World& world, const FrameLog::Told& frame);
+  Exchange* request_of(const FrameLog::Told& frame);
+
+  std::deque<Exchange> exchanges_;
+  std::deque<Event> events_;
+  std::map<std::string, std::uint64_t> last_requests_;  // by line: its number, counted from the beginning
+  std::uint64_t next_frame_ = 1;
+  std::uint64_t next_event_ = 1;
+  std::uint64_t dropped_exchanges_ = 0;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,60 @@
+// The course of some names over a stretch of time, thinned to the least and the greatest value in each of
+// many equal parts ("dots"), so that nothing that was there is missing from a drawing of that width.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+class Curves final : private TickWatcher {
+ public:
+  /// `to` must be later than `from`. The world must outlive it. Throws NameError.
+  Curves(World& world, const std::vector<std::string>& names, SimTime from, SimTime to, std::size_t dots);
+  ~Curves() override { stop(); }
+  Curves(const Curves&) = delete;
+  Curves& operator=(const Curves&) = delete;
+
+  /// Takes the values of this moment.
+  void look();
+  /// Takes those of every tick from now on.
+  void watch();
+  void stop();
+  /// The stretch is over: the last values last until its end.
+  void finish();
+
+  /// By dot. A device without power reads as 0.
+  const std::vector<double>& least(std::size_t name) const { return rows_[name].least; }
+  const std::vector<double>& greatest(std::size_t name) const { return rows_[name].greatest; }
+
+ private:
+  struct Row {
+    std::int32_t handle = 0;
+    double last = 0;
+    std::vector<double> least;
+    std::vector<double> greatest;
+  };
+  void on_tick(Tick tick) override { take(time_of(tick)); }
+  Tick next_look(Tick done) const override;
+  void take(SimTime time);
+  std::size_t dot_of(SimTime time) const;
+  void last_until(std::size_t dot);
+
+  World& world_;
+  Probes probes_;
+  SimTime from_;
+  SimTime to_;
+  std::size_t dots_;
+  std::size_t dot_ = 0;  // the one that was reached
+  bool has_values_ = false;
+  bool is_watching_ = false;
+  std::vector<Row> rows_;
+};
+
+}  // namespace understudy::emulator::world
