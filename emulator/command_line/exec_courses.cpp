@@ -23,9 +23,9 @@ std::string time_in(std::string_view event) {
 }
 
 std::string shown(std::string_view event) {
-  constexpr std::size_t kMost = 100;
+  constexpr std::size_t kMax = 100;
   if (event.empty()) return "nothing";
-  return one_line(std::string(event.substr(0, kMost))) + (event.size() > kMost ? "..." : "");
+  return one_line(std::string(event.substr(0, kMax))) + (event.size() > kMax ? "..." : "");
 }
 
 /// Returns the line in which the place lies.
