@@ -14,6 +14,7 @@
 
 #include "base/choices.h"
 #include "base/files/file_claims.h"
+#include "base/files/file_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
@@ -173,6 +174,8 @@ struct RtuRules {
   pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
   std::span<const std::uint8_t> functions;  // function codes it knows
   std::span<const FunctionLimit> limits{};
+};  // for function 43/14, in ascending order
+  std::string_view server_id{};                // for function 17
 };
 
 /// The settings that one device of a model is made from.
@@ -237,6 +240,8 @@ class ModelFiles {
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
   /// Parses a text that is complete in itself. `name` stands for the file in messages.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
+  /// Returns what its files leave open, and how that was read.
+  virtual std::vector<FileError::Diagnostic> remarks_on(const Model& model) const = 0;
 };
 
 /// A model in a list of names. Its tables are made on first use, because that takes longer than most commands

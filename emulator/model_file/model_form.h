@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/form.h"
 
@@ -64,6 +66,20 @@ inline constexpr std::array kMapKeys{
     Key{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
         &kAloneOrWholeSchema},
     Key{"first_word", "The first word of 32 bits: high (default) or low.", &kHighOrLowSchema}};
+
+// --- the list --------------------------------------------------------------------------------------
+inline constexpr Schema kAddressesSchema = world::words_schema(kAddressReadings);
+inline constexpr std::array<std::string_view, 4> kTables{"holding", "input", "coil", "discrete"};
+inline constexpr Schema kTableSchema = world::words_schema(kTables);
+inline constexpr Schema kEncodingSchema = world::words_schema(kEncodings);
+inline constexpr std::array kListKeys{
+    Key{"columns", "The headings of its columns, by the column's name: { address: Reg, name: Tag }.",
+        &world::kTextByName},
+    Key{"addresses", "What its addresses count: wire (default), from_one or modicon (40001).",
+        &kAddressesSchema},
+    Key{"table", "The table of rows that do not say it: holding (default), input, coil or discrete.",
+        &kTableSchema},
+    Key{"encoding", "Its encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
 
 // --- axes --------------------------------------------------------------------------------------------
 inline constexpr std::array<std::string_view, 2> kWays{"minus", "plus"};
@@ -148,6 +164,7 @@ inline constexpr std::array kFollowKeys{
     Key{"rate", "The largest change per second, in counts.", &world::kText},
     Key{"every", "The interval of its updates (100ms).", &world::kDuration}};
 inline constexpr Schema kLineSchema = world::keys_schema(kLineKeys);
+inline constexpr Schema kListSchema = world::keys_schema(kListKeys);
 inline constexpr Schema kMapSchema = world::keys_schema(kMapKeys);
 inline constexpr Schema kAxisSchema = world::keys_schema(kAxisKeys);
 inline constexpr Schema kAxesSchema = world::names_schema(kAxisSchema);
@@ -158,7 +175,9 @@ inline constexpr std::array kModelKeys{
     Key{"understudy", "The version of the format.", &kVersionSchema, true},
     Key{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
     Key{"title", "A short description.", &world::kText},
+    Key{"firmware", "Its firmware versions, the oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
     Key{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText, true},
+    Key{"list", "How that list is to be read, if it is not as `import` has them.", &kListSchema},
     Key{"line", "Its settings on the serial line.", &kLineSchema},
     Key{"map", "How it answers requests that the list leaves open.", &kMapSchema},
     Key{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesSchema},

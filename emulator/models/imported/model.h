@@ -15,7 +15,7 @@
 namespace understudy::emulator::models::imported {
 
 /// Makes the rows of a list for a register map. They refer to the list. `fields` receives the named bits.
-std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
+std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, const MapPolicy& policy,
                                     std::vector<std::vector<BitField>>& fields);
 
 class ImportedModel {
