@@ -169,12 +169,18 @@ struct FunctionLimit {
   int most = 0;  // bits or registers
 };
 
+/// An object of the device identification (MODBUS Application Protocol, 6.21): 0 is the vendor's name.
+struct IdentityObject {
+  std::uint8_t id = 0;
+  std::string_view text;
+};
+
 /// The model's rules for receiving Modbus RTU frames.
 struct RtuRules {
   pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
   std::span<const std::uint8_t> functions;  // function codes it knows
   std::span<const FunctionLimit> limits{};
-};  // for function 43/14, in ascending order
+  std::span<const IdentityObject> identity{};  // for function 43/14, in ascending order
   std::string_view server_id{};                // for function 17
 };
 

@@ -31,6 +31,16 @@ inline constexpr Schema kMaxSchema = world::integer_schema(1, 2000);
 inline constexpr Schema kMaxByFunctionSchema = world::names_schema(kMaxSchema);
 inline constexpr std::array<std::string_view, 2> kObeysOrIgnores{"obeyed", "ignored"};
 inline constexpr Schema kBroadcastSchema = world::words_schema(kObeysOrIgnores);
+/// The names of the objects of function 43/14, from object 0 on.
+inline constexpr std::array kIdentityKeys{
+    Key{"vendor", "Object 0, the vendor's name.", &world::kText},
+    Key{"product", "Object 1, the product code.", &world::kText},
+    Key{"revision", "Object 2, the revision.", &world::kText},
+    Key{"url", "Object 3, the vendor's page.", &world::kText},
+    Key{"product_name", "Object 4.", &world::kText},
+    Key{"model_name", "Object 5.", &world::kText},
+    Key{"application", "Object 6, the user application.", &world::kText}};
+inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
 inline constexpr std::array kLineKeys{
     Key{"baud", "The speeds that it can be set to, the factory's first ([19200, 9600]).",
         &kBaudOrBaudsSchema},
@@ -40,8 +50,11 @@ inline constexpr std::array kLineKeys{
         &world::kDuration},
     Key{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsSchema},
     Key{"station_in", "The register that holds the station number.", &world::kText},
-    Key{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]).", &kFunctionsSchema},
+    Key{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
+        &kFunctionsSchema},
     Key{"most", "The most registers or bits in one request, by function: { 3: 32 }.", &kMaxByFunctionSchema},
+    Key{"identity", "The answers of function 43 (read device identification).", &kIdentitySchema},
+    Key{"server_id", "The answer of function 17 (the model's name).", &world::kText},
     Key{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastSchema}};
 
 // --- the map ---------------------------------------------------------------------------------------

@@ -168,6 +168,8 @@ class ModelReader {
     read("bits", [&](const YamlFields& field) {
       if (list_is_whole_) read_bits(field, made_, diagnostics_);
     });
+    made_.line.identity = {{0, "Understudy"}, {1, made_.name}, {2, "1.0"}};
+    made_.line.server_id = made_.name;
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
     if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
     // Only if everything is correct: an alias may be inside the node that it names.

@@ -219,6 +219,8 @@ struct Line {
   std::string station_in{};  // name of the register that holds the station number; empty: none
   std::vector<std::uint8_t> functions{1, 2, 3, 4, 5, 6, 15, 16};
   std::vector<FunctionLimit> limits{};
+  std::vector<std::pair<std::uint8_t, std::string>> identity{};  // objects of function 43/14, ascending
+  std::string server_id{};                                       // for function 17
   bool obeys_broadcasts = true;
 };
 

@@ -124,6 +124,7 @@ Model ImportedModel::made_model() {
                      .alarm_input = axis.alarm_input,
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
+  for (const auto& [id, text] : line.identity) identity_.push_back({.id = id, .text = text});
   // A register that is bound to something shows best what the controller does.
   for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
@@ -146,7 +147,9 @@ Model ImportedModel::made_model() {
                                                           .kept_in = line.station_in}},
                .rtu = RtuRules{.end_silence = line.silence.value_or(standard_silence(factory)),
                                .functions = line.functions,
-                               .limits = line.limits},
+                               .limits = line.limits,
+                               .identity = identity_,
+                               .server_id = line.server_id},
                .description = description_.text,
                .make = [this](const DeviceSettings& settings) -> std::unique_ptr<Device> {
                  return std::make_unique<ImportedDevice>(*this, settings);

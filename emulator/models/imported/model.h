@@ -49,6 +49,7 @@ class ImportedModel {
   std::vector<int> slots_;
   std::vector<bool> moving_outputs_;  // by terminal
   bool numbers_move_ = false;
+  std::vector<IdentityObject> identity_;
   std::vector<PortRow> ports_;
   std::vector<TerminalRow> terminals_;
   std::vector<AxisRow> axes_;
