@@ -64,9 +64,13 @@ std::size_t unread_in(int descriptor) {
   return ::ioctl(descriptor, FIONREAD, &count) == 0 && count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-bool waits_for_lines(int descriptor) {
+/// Returns how long to wait until the terminal has counted what was written to it. One that waits for whole
+/// lines counts no bytes, and one that takes some of them out (a `STOP` character) never counts those.
+std::chrono::milliseconds longest_count(int descriptor) {
   termios settings = {};
-  return ::tcgetattr(descriptor, &settings) != 0 || (settings.c_lflag & ICANON) != 0;
+  if (::tcgetattr(descriptor, &settings) != 0 || (settings.c_lflag & ICANON) != 0) return {};
+  const bool takes_some = (settings.c_lflag & ISIG) != 0 || (settings.c_iflag & (IGNCR | IXON)) != 0;
+  return std::chrono::milliseconds(takes_some ? 100 : 5'000);
 }
 
 /// Returns true if a host has claimed the line (TIOCEXCL); then only root can open it again.
@@ -154,14 +158,13 @@ std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
   return size < 0 ? 0 : static_cast<std::size_t>(size);
 }
 
-/// Waits until the host has so many bytes to read. A terminal that the host has made wait for whole lines
-/// does not count its bytes.
+/// Waits until the host has so many bytes to read. A kernel thread carries them; a busy machine lets it wait.
 void PseudoTerminal::settle(std::size_t expected) const {
-  constexpr auto kLongest = std::chrono::milliseconds(100);
-  const auto end = std::chrono::steady_clock::now() + kLongest;
-  while (slave_ && unread_in(slave_.get()) < expected) {
+  if (!slave_) return;
+  const auto end = std::chrono::steady_clock::now() + longest_count(slave_.get());
+  while (unread_in(slave_.get()) < expected) {
     is_readable(slave_.get());  // this alone is enough if nothing was unread
-    if (waits_for_lines(slave_.get()) || std::chrono::steady_clock::now() >= end) return;
+    if (std::chrono::steady_clock::now() >= end) return;
     if (unread_in(slave_.get()) < expected) sched_yield();
   }
 }

@@ -128,10 +128,11 @@ def asked(least, tenths, size, asks=True):
         time.sleep(0.1)
         termios.tcflush(port, termios.TCIFLUSH)
 asked(7, 0, 100)           # all of the reply
+asked(100, 5, 100)         # half a second after its last byte
 asked(0, 15, 100, False)   # nothing comes for a second and a half
 asked(0, 15, 100)          # the first byte
 )");
-  EXPECT_EQ(host.output, "7 0.0\n0 1.5\n1 0.0\n");
+  EXPECT_EQ(host.output, "7 0.0\n7 0.5\n0 1.5\n1 0.0\n");
 }
 
 TEST_F(HostTime, TakesTcdrainForAsLongAsTheWire) {
