@@ -40,6 +40,7 @@ constexpr LengthRule rule_of(std::uint8_t function) {
     case 0x16: return {.fixed = 10};
     case 0x17: return {.fixed = 13, .byte_count_at = 10};
     case 0x18: return {.fixed = 6};
+    case 0x2B: return {.fixed = 7, .may_be_longer = true};  // MEI type 14 has this length
     default: return {};
   }
 }

@@ -111,6 +111,7 @@ std::string described(ModelList models, const std::string& file, play::FileKind 
     case play::FileKind::model: {
       std::vector<FileClaim> files;
       const Model& model = described_model(models, file, files);
+      warnings.add(models.files->remarks_on(model), file);
       return "a model with " + counted(register_rows(model).size(), "register") + " and " +
              (model.axes.size() == 1 ? "1 axis" : std::to_string(model.axes.size()) + " axes");
     }

@@ -256,6 +256,11 @@ struct ImportArguments {
   std::string list;    // a file
   std::string output;  // the model file; empty: next to the list
   std::string name;    // the model's name; empty: as the list
+  // How the list is to be read; empty: guessed.
+  std::string columns;
+  std::string addresses;
+  std::string table;
+  std::string encoding;
 };
 /// Writes a model file and a bench made from a list of registers.
 int import_registers(ModelList models, const ImportArguments& arguments);

@@ -22,6 +22,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/completion.h"
 #include "emulator/command_line/ctl_words.h"
+#include "emulator/command_line/import_flags.h"
 #include "emulator/command_line/poll_flags.h"
 #include "emulator/command_line/replay_flags.h"
 #include "emulator/command_line/run_flags.h"
@@ -327,11 +328,7 @@ struct CommandLine {
   }
 
   void add_import(CLI::App& command) {
-    command.add_option("REGISTERS", import.list, "A register list (CSV): address, name, access, width, ...")
-        ->required();
-    command.add_option("-o,--output", import.output, "Model file to write [NAME.yaml next to the list]")
-        ->check(kNotEmpty);
-    command.add_option("--name", import.name, "Name of the model [that of the list]")->check(kNotEmpty);
+    add_import_flags(command, import);
     command.callback([this] { chosen = [this] { return import_registers(models, import); }; });
   }
 

@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/files/content_kind.h"
@@ -16,6 +18,10 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_fields.h"
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
+#include "emulator/model_file/register_list.h"
 #include "emulator/model_file/starter.h"
 #include "emulator/models/imported/description.h"
 
@@ -56,34 +62,40 @@ std::string counts_text(const std::vector<models::imported::ListedRegister>& reg
          ")";
 }
 
-/// Returns a remark if all addresses may be Modicon numbers. These count from 1, with a digit for the table
-/// in front: 40001 is the first holding register. A list may mean them, or addresses as on the wire, so
-/// import takes the numbers as printed and adds the remark.
-std::string remark_on_addresses(const std::vector<models::imported::ListedRegister>& registers) {
-  struct Block {
-    Table table;
-    int first;
+/// Returns what the flags say about the list.
+model_file::ListReading reading_of(const ImportArguments& arguments) {
+  model_file::ListReading reading{.guesses_addresses = true, .encoding = arguments.encoding};
+  const auto index_in = [](const auto& words, const std::string& flag, const std::string& word) {
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    std::string known;
+    for (const std::string_view one : words) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw UsageError(flag + ": " + quoted(word) + " is not possible; expected one of " + known);
   };
-  constexpr std::array kBlocks{Block{Table::holding, 40001}, Block{Table::input, 30001},
-                               Block{Table::discrete, 10001}};
-  constexpr int kSize = 9999;
-  bool begins_with_digit = false;
-  for (const auto& listed : registers) {
-    const auto* const block = std::find_if(kBlocks.begin(), kBlocks.end(),
-                                           [&](const Block& row) { return row.table == listed.table; });
-    if (block == kBlocks.end()) continue;  // Modicon numbers of coils have no digit
-    if (listed.address < block->first || listed.address >= block->first + kSize) return "";
-    begins_with_digit = true;
+  if (!arguments.columns.empty()) {
+    try {
+      model_file::parse_columns(arguments.columns, reading);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--columns: ") + error.what());
+    }
   }
-  if (!begins_with_digit) return "";
-  return "note: these addresses look like Modicon addresses (40001 for holding register 0); they are used on "
-         "the wire unchanged (docs/import.md)";
+  if (!arguments.addresses.empty()) {
+    reading.addresses = static_cast<model_file::AddressReading>(
+        index_in(model_file::kAddressReadings, "--addresses", arguments.addresses));
+  }
+  constexpr std::array kTables{Table::holding, Table::input, Table::coil, Table::discrete};
+  std::array<std::string_view, kTables.size()> tables;
+  std::transform(kTables.begin(), kTables.end(), tables.begin(), [](Table one) { return to_string(one); });
+  if (!arguments.table.empty()) reading.table = kTables.at(index_in(tables, "--table", arguments.table));
+  if (!reading.encoding.empty()) index_in(model_file::kEncodings, "--encoding", reading.encoding);
+  return reading;
 }
 
 }  // namespace
 
 int import_registers(ModelList models, const ImportArguments& arguments) {
   const std::string name = require_name(models, arguments);
+  const model_file::ListReading reading = reading_of(arguments);
   if (!arguments.output.empty() && !names_model_file(arguments.output))
     throw UsageError("--output: " + quoted(arguments.output) +
                      " does not end in .yaml; expected a model file");
@@ -93,7 +105,9 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   if (const std::string why = is_another_kind(*text, ContentKind::registers); !why.empty()) {
     throw FileError({arguments.list, 1, 1}, "registers: " + why);
   }
-  const auto registers = model_file::read_list_file(*text, arguments.list);
+  const model_file::RegisterList read = model_file::read_list_file(*text, arguments.list, reading);
+  for (const FileError::Diagnostic& remark : read.remarks.all())
+    std::fprintf(stderr, "%s\n", remark.text.c_str());
   const fs::path list(arguments.list);
   const fs::path output =
       arguments.output.empty() ? list.parent_path() / (name + ".yaml") : fs::path(arguments.output);
@@ -101,18 +115,16 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const fs::path from = output.has_parent_path() ? output.parent_path() : fs::path(".");
   const std::string list_from_there = fs::proximate(list, from).string();
   const std::vector<NewFile> files{
-      {output.string(), model_file::starter_model(registers, name, list_from_there)},
+      {output.string(), model_file::starter_model(read, reading, name, list_from_there)},
       {bench.string(), model_file::starter_bench(name, output.filename().string())}};
   require_new(files);
   write_all(files);
-  std::printf("%s: %s\n", arguments.list.c_str(), counts_text(registers).c_str());
+  std::printf("%s: %s\n", arguments.list.c_str(), counts_text(read.registers).c_str());
   for (const NewFile& file : files) std::printf("wrote %s\n", file.path.c_str());
-  if (const std::string remark = remark_on_addresses(registers); !remark.empty())
-    std::printf("%s\n", remark.c_str());
   const std::string port = (bench.parent_path() / (name + ".port")).string();
   std::printf("next: understudy serve %s\n", bench.string().c_str());
   std::printf("      understudy poll %s --model %s '%s'\n", port.c_str(), output.string().c_str(),
-              registers.front().name.c_str());
+              read.registers.front().name.c_str());
   std::printf("      then bind the axes to their registers in %s: docs/import.md\n", output.string().c_str());
   return kExitWell;
 }

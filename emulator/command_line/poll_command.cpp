@@ -28,6 +28,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/play/stages/free_executor.h"
 
 namespace understudy::emulator::command_line {
@@ -43,6 +44,7 @@ struct Item {
   int bit = -1;
   int bits = 1;  // number of bits from `bit` on
   bool low_word_first = true;
+  RegisterRow order{};     // of a register that has an order of its own
   bool is_a_half = false;  // half of a 32-bit register
   bool write = false;
   std::int64_t value = 0;
@@ -145,10 +147,10 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
       place.row->table == Table::holding && arguments.function == 4 && !model.registers->has(Table::input);
   item.table = is_input_by_function && text == what ? Table::input : place.row->table;
   item.low_word_first = low_word_first.value_or(model.registers->policy().low_word_first);
+  item.order = *place.row;
   item.type = place.part == Place::Part::whole ? place.row->type : Type::u16;
   item.is_a_half = place.part != Place::Part::whole;
-  const bool second =
-      place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;
+  const bool second = is_second_word(place, item.low_word_first);
   item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
   item.bit = found->bit;
   item.bits = found->width;
@@ -259,14 +261,12 @@ Context connect(const PollArguments& arguments) {
 }
 
 std::int64_t value_of(const Item& item, const std::uint16_t* words) {
-  std::int64_t value = words[0];
+  std::int64_t value = wire_word(item.order, words[0]);
   if (is_32_bit(item.type)) {
-    const std::uint32_t low = words[item.low_word_first ? 0 : 1];
-    const std::uint32_t high = words[item.low_word_first ? 1 : 0];
-    const std::uint32_t bits = high << 16 | low;
+    const std::uint32_t bits = bits_of_wire(item.order, words[0], words[1], item.low_word_first);
     value = item.type == Type::s32 ? std::int64_t{static_cast<std::int32_t>(bits)} : std::int64_t{bits};
   } else if (item.type == Type::s16) {
-    value = static_cast<std::int16_t>(words[0]);
+    value = static_cast<std::int16_t>(value);
   }
   return item.bit < 0 ? value : value >> item.bit & ((std::int64_t{1} << item.bits) - 1);
 }
@@ -312,11 +312,9 @@ bool write_item(modbus_t* context, const Item& item) {
   const auto bits = static_cast<std::uint32_t>(item.value);
   if (item.type == Type::bit) return modbus_write_bit(context, item.address, item.value != 0 ? 1 : 0) == 1;
   if (!is_32_bit(item.type))
-    return modbus_write_register(context, item.address, static_cast<std::uint16_t>(bits)) == 1;
-  const auto low = static_cast<std::uint16_t>(bits);
-  const auto high = static_cast<std::uint16_t>(bits >> 16);
-  const std::array<std::uint16_t, 2> words{item.low_word_first ? low : high,
-                                           item.low_word_first ? high : low};
+    return modbus_write_register(context, item.address,
+                                 wire_word(item.order, static_cast<std::uint16_t>(bits))) == 1;
+  const auto words = wire_words(item.order, bits, item.low_word_first);
   return modbus_write_registers(context, item.address, 2, words.data()) == 2;
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/choices.h"
 #include "base/files/file_claims.h"
+#include "base/files/file_error.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
@@ -169,11 +170,19 @@ struct FunctionLimit {
   int most = 0;  // bits or registers
 };
 
+/// An object of the device identification (MODBUS Application Protocol, 6.21): 0 is the vendor's name.
+struct IdentityObject {
+  std::uint8_t id = 0;
+  std::string_view text;
+};
+
 /// The model's rules for receiving Modbus RTU frames.
 struct RtuRules {
   pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
   std::span<const std::uint8_t> functions;  // function codes it knows
   std::span<const FunctionLimit> limits{};
+  std::span<const IdentityObject> identity{};  // for function 43/14, in ascending order
+  std::string_view server_id{};                // for function 17
 };
 
 /// The settings that one device of a model is made from.
@@ -238,6 +247,8 @@ class ModelFiles {
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
   /// Parses a text that is complete in itself. `name` stands for the file in messages.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
+  /// Returns what its files leave open, and how that was read.
+  virtual std::vector<FileError::Diagnostic> remarks_on(const Model& model) const = 0;
 };
 
 /// A model in a list of names. Its tables are made on first use, because that takes longer than most commands

@@ -1,5 +1,6 @@
 #include "emulator/model_file/csv.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -19,10 +20,20 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin));
 }
 
-/// Returns the first separator in the heading, whose words contain none.
-char separator_of(std::string_view heading) {
-  for (const char separator : {',', ';', '\t'}) {
-    if (heading.find(separator) != std::string_view::npos) return separator;
+/// Returns the separator that the first line with any has most of. Titles have none.
+char separator_of(std::string_view text) {
+  constexpr int kMaxTitles = 20;
+  for (int line = 0; line < kMaxTitles && !text.empty(); ++line) {
+    const std::string_view first = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(first.size() + 1, text.size()));
+    char most = '\0';
+    std::ptrdiff_t count = 0;
+    for (const char separator : {',', ';', '\t'}) {
+      const auto here = std::count(first.begin(), first.end(), separator);
+      if (here > count) most = separator;
+      count = std::max(count, here);
+    }
+    if (most != '\0') return most;
   }
   return ',';
 }
@@ -42,7 +53,7 @@ class CsvReader {
         skip_line(line);
         continue;
       }
-      if (separator_ == '\0') separator_ = separator_of(line);
+      if (separator_ == '\0') separator_ = separator_of(text_.substr(at_));
       rows.push_back(read_row());
     }
     return rows;

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
@@ -31,10 +31,24 @@ using world::YamlFields;
 
 namespace {
 
+/// A function that can be served, and the most registers or bits of one request.
+struct Served {
+  std::uint8_t code = 0;
+  int most = 1;
+};
+std::vector<Served> all_served() {
+  std::vector<Served> all;
+  for (const world::FunctionRow& row : world::kModbusFunctions) all.push_back({row.code, row.most});
+  for (const world::OtherFunctionRow& row : world::kOtherModbusFunctions)
+    all.push_back({static_cast<std::uint8_t>(row.code), row.most});
+  std::sort(all.begin(), all.end(), [](const Served& a, const Served& b) { return a.code < b.code; });
+  return all;
+}
+
 std::uint8_t read_function(const YamlFields& field) {
   const auto code = field.integer(kFunctionSchema);
   std::string known;
-  for (const world::FunctionRow& row : world::kModbusFunctions) {
+  for (const Served& row : all_served()) {
     if (row.code == code) return row.code;
     known += (known.empty() ? "" : ", ") + std::to_string(row.code);
   }
@@ -44,21 +58,37 @@ std::uint8_t read_function(const YamlFields& field) {
 /// Reads how many registers or bits a request may ask for, by its function.
 void read_limits(const YamlFields& field, Line& line) {
   field.require_map();
+  const std::vector<Served> all = all_served();
   for (const auto& [code, most] : field.entries()) {
     const auto number = parse_integer(code);
     const bool is_known =
         number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
     if (!is_known)
       most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
-    const world::FunctionRow& row =
-        *std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
-                      [&](const world::FunctionRow& one) { return one.code == *number; });
+    const Served& row =
+        *std::find_if(all.begin(), all.end(), [&](const Served& one) { return one.code == *number; });
     const auto count = most.integer(kMaxSchema);
     if (count > row.most) {
       most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
                 std::to_string(row.most) + " or fewer");
     }
     line.limits.push_back({.code = row.code, .most = static_cast<int>(count)});
+  }
+}
+
+/// Reads the objects of the device identification. Those that every device has are there in any case.
+void read_identity(const YamlFields& field, Line& line) {
+  field.require_keys(kIdentityKeys);
+  line.identity.clear();
+  constexpr std::size_t kBasic = 3;
+  constexpr std::size_t kMostLetters = 240;
+  for (std::size_t id = 0; id < kIdentityKeys.size(); ++id) {
+    const auto given = field.find(kIdentityKeys[id].key);
+    if (!given && id >= kBasic) continue;
+    std::string text = given ? given->text() : "";
+    if (text.size() > kMostLetters)
+      given->fail("is too long; expected " + std::to_string(kMostLetters) + " letters or fewer");
+    line.identity.emplace_back(static_cast<std::uint8_t>(id), std::move(text));
   }
 }
 
@@ -119,6 +149,12 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
     line.functions = functions;
   });
   read("most", [&](const YamlFields& field) { read_limits(field, line); });
+  read("identity", [&](const YamlFields& field) { read_identity(field, line); });
+  read("server_id", [&](const YamlFields& field) {
+    line.server_id = field.text();
+    constexpr std::size_t kMostLetters = 200;
+    if (line.server_id.size() > kMostLetters) field.fail("is too long; expected 200 letters or fewer");
+  });
   read("broadcast",
        [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastSchema) == 0; });
 }

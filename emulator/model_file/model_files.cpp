@@ -38,6 +38,12 @@ const Model& DescribedModels::parse(const std::string& text, const std::string& 
   return read(text, name, false, none);
 }
 
+std::vector<FileError::Diagnostic> DescribedModels::remarks_on(const Model& model) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = models_.find(std::string(model.description));
+  return found == models_.end() ? std::vector<FileError::Diagnostic>() : found->second->description().remarks;
+}
+
 const Model& DescribedModels::read(const std::string& text, const std::string& name, bool may_read,
                                    std::vector<FileClaim>& files) {
   models::imported::Description described = read_model(text, name, may_read, files);

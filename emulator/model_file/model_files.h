@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/file_error.h"
 #include "emulator/device/model.h"
 
 namespace understudy::emulator::models::imported {
@@ -23,13 +24,14 @@ class DescribedModels final : public ModelFiles {
 
   const Model& load(const std::string& path, std::vector<FileClaim>& files) override;
   const Model& parse(const std::string& text, const std::string& name) override;
+  std::vector<FileError::Diagnostic> remarks_on(const Model& model) const override;
 
  private:
   const Model& read(const std::string& text, const std::string& name, bool may_read,
                     std::vector<FileClaim>& files);
 
   const ModelList house_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, std::unique_ptr<models::imported::ImportedModel>> models_;  // by their whole text
 };
 

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/form.h"
 
@@ -29,6 +31,16 @@ inline constexpr Schema kMaxSchema = world::integer_schema(1, 2000);
 inline constexpr Schema kMaxByFunctionSchema = world::names_schema(kMaxSchema);
 inline constexpr std::array<std::string_view, 2> kObeysOrIgnores{"obeyed", "ignored"};
 inline constexpr Schema kBroadcastSchema = world::words_schema(kObeysOrIgnores);
+/// The names of the objects of function 43/14, from object 0 on.
+inline constexpr std::array kIdentityKeys{
+    Key{"vendor", "Object 0, the vendor's name.", &world::kText},
+    Key{"product", "Object 1, the product code.", &world::kText},
+    Key{"revision", "Object 2, the revision.", &world::kText},
+    Key{"url", "Object 3, the vendor's page.", &world::kText},
+    Key{"product_name", "Object 4.", &world::kText},
+    Key{"model_name", "Object 5.", &world::kText},
+    Key{"application", "Object 6, the user application.", &world::kText}};
+inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
 inline constexpr std::array kLineKeys{
     Key{"baud", "The speeds that it can be set to, the factory's first ([19200, 9600]).",
         &kBaudOrBaudsSchema},
@@ -38,8 +50,11 @@ inline constexpr std::array kLineKeys{
         &world::kDuration},
     Key{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsSchema},
     Key{"station_in", "The register that holds the station number.", &world::kText},
-    Key{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]).", &kFunctionsSchema},
+    Key{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
+        &kFunctionsSchema},
     Key{"most", "The most registers or bits in one request, by function: { 3: 32 }.", &kMaxByFunctionSchema},
+    Key{"identity", "The answers of function 43 (read device identification).", &kIdentitySchema},
+    Key{"server_id", "The answer of function 17 (the model's name).", &world::kText},
     Key{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastSchema}};
 
 // --- the map ---------------------------------------------------------------------------------------
@@ -64,6 +79,20 @@ inline constexpr std::array kMapKeys{
     Key{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
         &kAloneOrWholeSchema},
     Key{"first_word", "The first word of 32 bits: high (default) or low.", &kHighOrLowSchema}};
+
+// --- the list --------------------------------------------------------------------------------------
+inline constexpr Schema kAddressesSchema = world::words_schema(kAddressReadings);
+inline constexpr std::array<std::string_view, 4> kTables{"holding", "input", "coil", "discrete"};
+inline constexpr Schema kTableSchema = world::words_schema(kTables);
+inline constexpr Schema kEncodingSchema = world::words_schema(kEncodings);
+inline constexpr std::array kListKeys{
+    Key{"columns", "The headings of its columns, by the column's name: { address: Reg, name: Tag }.",
+        &world::kTextByName},
+    Key{"addresses", "What its addresses count: wire (default), from_one or modicon (40001).",
+        &kAddressesSchema},
+    Key{"table", "The table of rows that do not say it: holding (default), input, coil or discrete.",
+        &kTableSchema},
+    Key{"encoding", "Its encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
 
 // --- axes --------------------------------------------------------------------------------------------
 inline constexpr std::array<std::string_view, 2> kWays{"minus", "plus"};
@@ -148,6 +177,7 @@ inline constexpr std::array kFollowKeys{
     Key{"rate", "The largest change per second, in counts.", &world::kText},
     Key{"every", "The interval of its updates (100ms).", &world::kDuration}};
 inline constexpr Schema kLineSchema = world::keys_schema(kLineKeys);
+inline constexpr Schema kListSchema = world::keys_schema(kListKeys);
 inline constexpr Schema kMapSchema = world::keys_schema(kMapKeys);
 inline constexpr Schema kAxisSchema = world::keys_schema(kAxisKeys);
 inline constexpr Schema kAxesSchema = world::names_schema(kAxisSchema);
@@ -158,7 +188,9 @@ inline constexpr std::array kModelKeys{
     Key{"understudy", "The version of the format.", &kVersionSchema, true},
     Key{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
     Key{"title", "A short description.", &world::kText},
+    Key{"firmware", "Its firmware versions, the oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
     Key{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText, true},
+    Key{"list", "How that list is to be read, if it is not as `import` has them.", &kListSchema},
     Key{"line", "Its settings on the serial line.", &kLineSchema},
     Key{"map", "How it answers requests that the list leaves open.", &kMapSchema},
     Key{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesSchema},

@@ -16,11 +16,15 @@
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/axis_fields.h"
 #include "emulator/model_file/binder.h"
 #include "emulator/model_file/line_fields.h"
+#include "emulator/model_file/list_fields.h"
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
 #include "emulator/model_file/model_form.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/model_file/value_fields.h"
@@ -47,7 +51,8 @@ struct ReadList {
   ListPlace place;
 };
 
-ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim>& files) {
+ReadList read_list(const YamlFields& field, bool may_read, const std::string& encoding,
+                   std::vector<FileClaim>& files, Remarks& remarks) {
   if (field.text().find('\n') != std::string::npos)  // its first line is below that of the key
     return {field.text(), {.file = field.file(), .lines_before = field.line()}};
   if (!may_read) field.fail("is a path; expected the list itself, since a recording contains everything");
@@ -57,7 +62,7 @@ ReadList read_list(const YamlFields& field, bool may_read, std::vector<FileClaim
   if (const std::string why = is_another_kind(*text, ContentKind::registers); !why.empty())
     field.fail(path + " " + why + " (CSV)");
   files.push_back({path, "the list of registers of " + understudy::quoted(field.file())});
-  return {*std::move(text), {.file = path}};
+  return {decode_list(*text, encoding, {.file = path}, remarks), {.file = path}};
 }
 
 /// Returns the description as JSON, which is also YAML, with the list in place of its path.
@@ -114,13 +119,27 @@ void read_bits(const YamlFields& field, Description& made, Diagnostics& diagnost
 std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
                                        const YamlFields& list) {
   try {
-    auto map =
-        std::make_unique<RegisterMap>(models::imported::plain_rows(made.registers, fields), made.policy);
+    auto map = std::make_unique<RegisterMap>(
+        models::imported::plain_rows(made.registers, made.policy, fields), made.policy);
     map->require_distinct_names();
     return map;
   } catch (const std::logic_error& error) {
     list.fail(std::string(error.what()) + "; expected a list that makes a valid map");
   }
+}
+
+void read_firmwares(const YamlFields& field, std::vector<Firmware>& firmwares) {
+  std::vector<Firmware> all;
+  for (const YamlFields& one : field.elements()) {
+    const Firmware version = parse_firmware(one.text());
+    if (version == 0)
+      one.fail(understudy::quoted(one.text()) + " is not a version; expected one such as 1.52");
+    if (!all.empty() && version <= all.back())
+      one.fail(understudy::quoted(one.text()) + " is not above the one before it; expected the oldest first");
+    all.push_back(version);
+  }
+  if (all.empty()) field.fail("is empty; expected at least one version");
+  firmwares = std::move(all);
 }
 
 class ModelReader {
@@ -131,22 +150,31 @@ class ModelReader {
     diagnostics_.attempt([&] { root_.require_keys(kModelKeys); });
     diagnostics_.attempt([&] { root_.at("understudy").integer(kVersionSchema); });
     diagnostics_.attempt([&] { read_names(); });
+    ListReading reading;
+    read("firmware", [&](const YamlFields& field) { read_firmwares(field, made_.firmwares); });
+    reading.firmwares = made_.firmwares;
+    read("list", [&](const YamlFields& field) { read_list_fields(field, reading, diagnostics_); });
     diagnostics_.attempt([&] {
       const YamlFields field = root_.at("registers");
-      const ReadList list = read_list(field, may_read, files);
+      const ReadList list = read_list(field, may_read, reading.encoding, files, remarks_);
       list_ = list.text;
       const std::size_t before = diagnostics_.count();
-      made_.registers = read_register_list(list.text, list.place, diagnostics_);
+      RegisterList read = read_register_list(list.text, list.place, reading, diagnostics_);
+      made_.registers = std::move(read.registers);
+      remarks_.add(read.remarks);
       list_is_whole_ = diagnostics_.count() == before;
     });
     read("map", [&](const YamlFields& field) { read_policy(field, made_.policy, diagnostics_); });
     read("bits", [&](const YamlFields& field) {
       if (list_is_whole_) read_bits(field, made_, diagnostics_);
     });
+    made_.line.identity = {{0, "Understudy"}, {1, made_.name}, {2, "1.0"}};
+    made_.line.server_id = made_.name;
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
     if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
     // Only if everything is correct: an alias may be inside the node that it names.
     if (diagnostics_.count() == 0) made_.text = whole_text(root_, list_);
+    made_.remarks = remarks_.all();
     return std::move(made_);
   }
 
@@ -197,6 +225,7 @@ class ModelReader {
   const YamlFields& root_;
   Diagnostics& diagnostics_;
   Description made_;
+  Remarks remarks_;
   std::string list_;
   bool list_is_whole_ = false;
 };

@@ -1,10 +1,10 @@
 #include "emulator/model_file/register_list.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,12 +14,17 @@
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
-#include "base/text/suggestion.h"
 #include "base/text/utf8.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/csv.h"
+#include "emulator/model_file/list_addresses.h"
+#include "emulator/model_file/list_columns.h"
+#include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/list_row.h"
+#include "emulator/model_file/list_words.h"
+#include "emulator/model_file/row_registers.h"
+#include "emulator/model_file/taken_places.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/diagnostics.h"
 
@@ -31,74 +36,6 @@ using models::imported::ListedRegister;
 namespace {
 
 constexpr std::size_t kMaxRegisters = 20'000;
-
-/// The names and addresses that are taken, and the lines that took them.
-class Taken {
- public:
-  void require_free(const ListRow& row, const ListedRegister& listed) const {
-    for (int word = 0; word < (is_32_bit(listed.type) ? 2 : 1); ++word) {
-      const auto found = words_.find({listed.table, listed.address + word});
-      if (found == words_.end()) continue;
-      row.fail(Column::address, quoted(row.text(Column::address)) + " is taken by " + found->second.first +
-                                    " in line " + std::to_string(found->second.second) +
-                                    "; expected a free one in the table " +
-                                    std::string(to_string(listed.table)) +
-                                    (is_32_bit(listed.type) ? " (32 bits take two addresses)" : ""));
-    }
-    for (const std::string& name : names_of(listed)) {
-      const auto found = names_.find({listed.table, name});
-      if (found == names_.end()) continue;
-      row.fail(Column::name, quoted(name) + " is a name of line " + std::to_string(found->second) +
-                                 " already; expected another one in the table " +
-                                 std::string(to_string(listed.table)));
-    }
-  }
-  void take(const ListRow& row, const ListedRegister& listed) {
-    for (int word = 0; word < (is_32_bit(listed.type) ? 2 : 1); ++word)
-      words_[{listed.table, listed.address + word}] = {listed.name, row.line()};
-    for (const std::string& name : names_of(listed)) names_[{listed.table, name}] = row.line();
-  }
-
- private:
-  static std::vector<std::string> names_of(const ListedRegister& listed) {
-    if (!is_32_bit(listed.type)) return {listed.name};
-    return {listed.name, listed.name + "_L", listed.name + "_H"};  // the halves have names as well
-  }
-  std::map<std::pair<Table, int>, std::pair<std::string, int>> words_;
-  std::map<std::pair<Table, std::string>, int> names_;
-};
-
-std::vector<Column> read_headings(const CsvRow& row, const ListPlace& place,
-                                  world::Diagnostics& diagnostics) {
-  std::vector<Column> columns;
-  std::vector<std::string> known;
-  for (const auto& [word, column] : kHeadings) known.emplace_back(word);
-  std::array<bool, kColumns> seen{};
-  for (const CsvCell& cell : row.cells) {
-    const auto fail = [&](const std::string& what) {
-      throw FileError({place.file, row.line + place.lines_before, cell.column}, "columns: " + what);
-    };
-    columns.push_back(Column::left_out);
-    diagnostics.attempt([&] {
-      if (cell.text.empty()) return;
-      const auto column = column_called(cell.text);
-      if (!column) fail(quoted(cell.text) + " is not a column" + suggestion(cell.text, known));
-      if (*column == Column::left_out) return;
-      if (std::exchange(seen[static_cast<std::size_t>(*column)], true))
-        fail(quoted(cell.text) + " appears twice; expected it once");
-      columns.back() = *column;
-    });
-  }
-  diagnostics.attempt([&] {
-    for (const Column needed : {Column::address, Column::name}) {
-      if (seen[static_cast<std::size_t>(needed)]) continue;
-      throw FileError({place.file, row.line + place.lines_before, 1},
-                      std::string("columns: there is no ") + (needed == Column::name ? "name" : "address") +
-                          "; expected a first line such as address,name,access,width,unit,min,max,default");
-    }
-  });
-  return columns;
-}
 
 void require_text(const std::string& text, const ListPlace& place) {
   const auto wrong = first_not_utf8(text);
@@ -156,39 +93,174 @@ void require_apart(const std::vector<BitName>& all) {
   }
 }
 
-std::vector<ListedRegister> read_register_list(const std::string& text, const ListPlace& place,
-                                               world::Diagnostics& diagnostics) {
-  std::vector<ListedRegister> all;
+namespace {
+
+class ListReader {
+ public:
+  ListReader(const std::vector<CsvRow>& rows, const ListPlace& place, const ListReading& reading,
+             world::Diagnostics& diagnostics, RegisterList& list)
+      : rows_(rows), place_(place), reading_(reading), diagnostics_(diagnostics), list_(list) {}
+
+  void read() {
+    const std::size_t before = diagnostics_.count();
+    plan_ = plan_columns(rows_, reading_, place_, diagnostics_, list_.remarks);
+    if (diagnostics_.count() != before) return;  // what columns mean is not known
+    for (std::size_t i = plan_.heading_row + 1; i < rows_.size(); ++i) {
+      const bool is_empty = std::all_of(rows_[i].cells.begin(), rows_[i].cells.end(),
+                                        [](const CsvCell& cell) { return cell.text.empty(); });
+      if (is_empty) continue;
+      cells_.push_back(&rows_[i]);
+      read_rows_.emplace_back(rows_[i], context_);
+    }
+    read_addresses();
+    if (!decide_addresses()) return;
+    context_.addresses = list_.addresses;
+    for (std::size_t i = 0; i < read_rows_.size(); ++i)
+      diagnostics_.attempt([&] { read_row(*cells_[i], read_rows_[i], printed_[i]); });
+  }
+
+ private:
+  void read_addresses() {
+    const bool is_hexadecimal = plan_.has_hexadecimal_addresses ||
+                                std::any_of(read_rows_.begin(), read_rows_.end(), [](const ListRow& row) {
+                                  return has_hexadecimal_letters(row.text(Column::address));
+                                });
+    for (const ListRow& row : read_rows_) {
+      printed_.push_back(parse_address(row.text(Column::address), is_hexadecimal));
+      if (!printed_.back()) continue;
+      const auto table = table_in_cells(row);
+      const auto& type = row.type();
+      const bool holds_words = type && !(type->kind == TypeMeaning::Kind::number && type->type == Type::bit);
+      evidence_.add(*printed_.back(), table ? table : printed_.back()->table, holds_words);
+    }
+    if (is_hexadecimal && !read_rows_.empty()) {
+      read_rows_.front().remark("hexadecimal", Column::address,
+                                "all are read as hexadecimal numbers, because the list has some");
+    }
+  }
+
+  /// Returns false if it is not clear what the addresses count.
+  bool decide_addresses() {
+    const auto guessed = reading_.guesses_addresses ? evidence_.likely() : evidence_.certain();
+    if (reading_.addresses) {
+      list_.addresses = *reading_.addresses;
+      return true;
+    }
+    list_.addresses = guessed.value_or(AddressReading::wire);
+    if (read_rows_.empty()) return true;
+    const ListRow& row = read_rows_.front();
+    const PrintedAddress first = printed_.front().value_or(PrintedAddress{});
+    const auto as_modicon = wire_address(first, AddressReading::modicon);
+    if (!guessed && reading_.guesses_addresses) {
+      return diagnostics_.attempt([&] {
+        row.fail(Column::address, "the addresses can be Modicon's numbers or those on the wire: " +
+                                      quoted(row.text(Column::address)) + " is " +
+                                      std::string(to_string(as_modicon->table.value_or(Table::holding))) +
+                                      " register " + std::to_string(as_modicon->address) + ", or register " +
+                                      std::to_string(first.number) +
+                                      "; expected --addresses modicon, or --addresses wire");
+      });
+    }
+    if (list_.addresses == AddressReading::modicon && as_modicon) {
+      row.remark("addresses", Column::address,
+                 "read as Modicon's numbers: " + quoted(row.text(Column::address)) + " is " +
+                     std::to_string(as_modicon->address) + " on the wire (--addresses wire: as they are)");
+    } else if (!guessed) {
+      row.remark(
+          "addresses", Column::address,
+          "read as on the wire, although all may be Modicon's numbers (`list: { addresses: modicon }`)");
+    } else if (evidence_.lowest == 1 && reading_.guesses_addresses) {
+      row.remark("addresses", Column::address,
+                 "read as on the wire: 1 is the second register (--addresses from_one: the first)");
+    }
+    return true;
+  }
+
+  void read_row(const CsvRow& cells, const ListRow& row, const std::optional<PrintedAddress>& printed) {
+    require_width(cells);
+    RowRegisters made = registers_of(row, printed, diagnostics_);
+    if (made.registers.empty()) return;
+    if (made.part) {
+      const ListedRegister& only = made.registers.front();
+      const std::size_t number = taken_.at(only.table, only.address);
+      if (number != 0) return add_part(row, list_.registers[number - 1], *made.part);
+      if (printed->bit >= 0) {
+        made.registers.front() = {.table = only.table,
+                                  .address = only.address,
+                                  .name = "Register_" + std::to_string(only.address),
+                                  .access = only.access,
+                                  .bits = {*made.part}};
+      }
+    }
+    taken_.place(row, made.registers);
+    taken_.take(row, made.registers, list_.registers.size());
+    list_.registers.insert(list_.registers.end(), std::make_move_iterator(made.registers.begin()),
+                           std::make_move_iterator(made.registers.end()));
+  }
+
+  static void add_part(const ListRow& row, ListedRegister& whole, const BitName& part) {
+    if (whole.type == Type::f32)
+      row.fail(Column::address,
+               quoted(whole.name) + " is there, a real number; expected a register with bits");
+    try {
+      auto all = whole.bits;
+      all.push_back(part);
+      require_apart(all);
+      whole.bits = std::move(all);
+    } catch (const std::invalid_argument& error) {
+      row.fail(Column::address, error.what());
+    }
+  }
+
+  void require_width(const CsvRow& cells) const {
+    const std::size_t width = plan_.columns.size();
+    if (cells.cells.size() <= width) return;
+    const bool are_empty =
+        std::all_of(cells.cells.begin() + static_cast<std::ptrdiff_t>(width), cells.cells.end(),
+                    [](const CsvCell& cell) { return cell.text.empty(); });
+    if (are_empty) return;
+    throw FileError({place_.file, cells.line + place_.lines_before, cells.cells[width].column},
+                    "columns: the row has " + std::to_string(cells.cells.size()) + " cells; expected " +
+                        std::to_string(width) + ", and quotes around a cell with a separator in it");
+  }
+
+  const std::vector<CsvRow>& rows_;
+  const ListPlace& place_;
+  const ListReading& reading_;
+  world::Diagnostics& diagnostics_;
+  RegisterList& list_;
+  ColumnPlan plan_;
+  KnownTypes types_;
+  ListContext context_{reading_, plan_, place_, AddressReading::wire, list_.remarks, types_};
+  std::vector<const CsvRow*> cells_;  // of the rows with something in them
+  std::vector<ListRow> read_rows_;    // those rows
+  std::vector<std::optional<PrintedAddress>> printed_;
+  AddressEvidence evidence_;
+  TakenPlaces taken_;
+};
+
+}  // namespace
+
+RegisterList read_register_list(const std::string& text, const ListPlace& place, const ListReading& reading,
+                                world::Diagnostics& diagnostics) {
+  RegisterList list;
   diagnostics.attempt([&] {
     require_text(text, place);
     const std::vector<CsvRow> rows = parse_csv(text, place.file);
     const auto fail = [&](const std::string& what) {
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
     };
+    const std::size_t before = diagnostics.count();
     if (rows.size() < 2) fail("there is none; expected a line of columns, and one for each register");
     if (rows.size() > kMaxRegisters)
       fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
-    const std::size_t before = diagnostics.count();
-    const std::vector<Column> columns = read_headings(rows.front(), place, diagnostics);
-    if (diagnostics.count() != before) return;  // the meaning of the columns is not known
-    Taken taken;
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-      diagnostics.attempt([&] {
-        const ListRow row(rows[i], columns, place.file, place.lines_before);
-        if (rows[i].cells.size() > columns.size()) {
-          throw FileError({place.file, row.line(), rows[i].cells[columns.size()].column},
-                          "columns: the row has " + std::to_string(rows[i].cells.size()) +
-                              " cells; expected " + std::to_string(columns.size()) +
-                              ", and quotes around a cell with a separator in it");
-        }
-        ListedRegister listed = register_of(row);
-        taken.require_free(row, listed);
-        taken.take(row, listed);
-        all.push_back(std::move(listed));
-      });
-    }
+    ListReader(rows, place, reading, diagnostics, list).read();
+    if (list.registers.empty() && diagnostics.count() == before)
+      fail("there is none; expected a line for each register below the columns");
+    if (list.registers.size() > kMaxRegisters)
+      fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
   });
-  return all;
+  return list;
 }
 
 }  // namespace understudy::emulator::model_file

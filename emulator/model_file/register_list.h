@@ -5,23 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "emulator/model_file/list_columns.h"
+#include "emulator/model_file/list_reading.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/diagnostics.h"
 
 namespace understudy::emulator::model_file {
 
-/// The place of a list: a file of its own, or another file, in which it follows line `lines_before`.
-struct ListPlace {
-  std::string file;
-  int lines_before = 0;
+struct RegisterList {
+  std::vector<models::imported::ListedRegister> registers{};
+  AddressReading addresses = AddressReading::wire;  // how they were read
+  Remarks remarks{};
 };
 
-/// Returns the registers of a list, in its order. They are fit for a register map: no two share an address
-/// or a name, and values suit their types. Keeps all errors with line and column; the rows concerned are
-/// left out.
-std::vector<models::imported::ListedRegister> read_register_list(const std::string& text,
-                                                                 const ListPlace& place,
-                                                                 world::Diagnostics& diagnostics);
+/// Returns the registers of a list (UTF-8), in its order. They are fit for a register map: no two share an
+/// address or a name, and values suit their types. Keeps all errors with line and column; the rows concerned
+/// are left out.
+RegisterList read_register_list(const std::string& text, const ListPlace& place, const ListReading& reading,
+                                world::Diagnostics& diagnostics);
 
 /// Parses named bits of a list: "READY, 4-7 STATE". Throws std::invalid_argument with what is wrong and what
 /// was expected.

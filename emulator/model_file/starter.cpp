@@ -4,11 +4,17 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_fields.h"
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
+#include "emulator/model_file/list_words.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/diagnostics.h"
@@ -54,11 +60,6 @@ constexpr std::array<Guess, 9> kGuesses{
       "ACTUAL_SPEED",
       "shows how fast it is"}}};
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 const ListedRegister* find_likely(const std::vector<ListedRegister>& registers, const Guess& guess) {
   for (const std::string_view word : guess.words) {
     if (word.empty()) continue;
@@ -81,28 +82,37 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-/// Returns any text as a scalar of YAML.
-std::string quoted_yaml(const std::string& text) {
-  const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
-  }) && text.front() != '-';
-  if (is_plain) return text;
-  std::string made = "'";
-  for (const char c : text) made += c == '\'' ? "''" : std::string(1, c);
-  return made + "'";
+/// Returns the key `firmware` if rows begin with later ones.
+std::string firmwares_of(const std::vector<ListedRegister>& registers) {
+  std::set<Firmware> all;
+  for (const ListedRegister& listed : registers) all.insert(listed.since);
+  all.erase(0);
+  if (all.empty()) return "";
+  constexpr Firmware kOldest = 100;
+  std::string text = "firmware: [";
+  if (*all.begin() > kOldest) text += " '" + version_text(kOldest) + "',";
+  for (const Firmware version : all) text += " '" + version_text(version) + "',";
+  text.back() = ' ';
+  return text + "]  # the oldest first\n";
 }
 
 }  // namespace
 
-std::vector<ListedRegister> read_list_file(const std::string& text, const std::string& path) {
+RegisterList read_list_file(const std::string& bytes, const std::string& path, const ListReading& reading) {
   world::Diagnostics diagnostics;
-  std::vector<ListedRegister> registers;
-  diagnostics.require([&] { registers = read_register_list(text, {.file = path}, diagnostics); });
-  return registers;
+  RegisterList list;
+  diagnostics.require([&] {
+    Remarks remarks;
+    const std::string text = decode_list(bytes, reading.encoding, {.file = path}, remarks);
+    list = read_register_list(text, {.file = path}, reading, diagnostics);
+    list.remarks.add(remarks);
+  });
+  return list;
 }
 
-std::string starter_model(const std::vector<ListedRegister>& registers, const std::string& name,
+std::string starter_model(const RegisterList& list, const ListReading& reading, const std::string& name,
                           const std::string& list_path) {
+  const std::vector<ListedRegister>& registers = list.registers;
   const bool has_pairs = std::any_of(registers.begin(), registers.end(),
                                      [](const auto& listed) { return is_32_bit(listed.type); });
   std::string text =
@@ -112,8 +122,7 @@ std::string starter_model(const std::vector<ListedRegister>& registers, const st
       "\n"
       "title: a controller of your own\n"
       "registers: " +
-      quoted_yaml(list_path) +
-      "\n"
+      quoted_yaml(list_path) + "\n" + firmwares_of(registers) + list_section(reading, list.addresses) +
       "line:\n"
       "  baud: [19200, 9600]  # the factory's first\n"
       "  parity: none\n"

@@ -3,20 +3,19 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "emulator/models/imported/description.h"
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/register_list.h"
 
 namespace understudy::emulator::model_file {
 
 /// Returns the registers of a list in a file of its own. Throws FileError with all mistakes.
-std::vector<models::imported::ListedRegister> read_list_file(const std::string& text,
-                                                             const std::string& path);
+RegisterList read_list_file(const std::string& bytes, const std::string& path, const ListReading& reading);
 
 /// Returns a model file: the path of the list, usual settings of line and map, and an axis in comments, with
 /// registers of the list whose names suggest their meaning.
-std::string starter_model(const std::vector<models::imported::ListedRegister>& registers,
-                          const std::string& name, const std::string& list_path);
+std::string starter_model(const RegisterList& list, const ListReading& reading, const std::string& name,
+                          const std::string& list_path);
 /// Returns a bench with one device of that model. Its port is NAME.port.
 std::string starter_bench(const std::string& name, const std::string& model_path);
 

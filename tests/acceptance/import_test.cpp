@@ -45,7 +45,7 @@ TEST(ImportPage, CanBePasted) {
     ASSERT_EQ(pasted.exit_code, 0) << block << pasted.output << pasted.errors;
     output += pasted.output;
   }
-  EXPECT_EQ(blocks, 5);
+  EXPECT_EQ(blocks, 6);
   EXPECT_NE(output.find("feeder.csv: 6 registers (6 holding)"), std::string::npos) << output;
   EXPECT_NE(output.find("RAMP 300"), std::string::npos) << output;
   EXPECT_NE(output.find("feeder.yaml: a model with 6 registers and 1 axis"), std::string::npos) << output;
@@ -191,6 +191,26 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
   EXPECT_NE(contents(folder / "models/p.yaml").find("registers: '../a pump.csv'"), std::string::npos);
 }
 
+TEST(ImportCommand, TakesWhatItIsTold) {
+  const PrivateFolder folder;
+  const std::string list = folder.write("p.csv", "Where,What,Role\n40069,X,1\n");
+  const Finished unclear = understudy({"import", list, "--columns", "address=Where,name=B"});
+  EXPECT_EQ(unclear.exit_code, 2);
+  EXPECT_NE(unclear.errors.find("expected --addresses modicon, or --addresses wire"), std::string::npos)
+      << unclear.errors;
+  const Finished told =
+      understudy({"import", list, "--columns", "address=Where,name=B", "--addresses", "modicon"});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_NE(told.errors.find(":1:12: columns: passed over: Role; "), std::string::npos) << told.errors;
+  const Finished checked = understudy({"check", folder / "p.yaml"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_NE((checked.output + checked.errors).find("warning: columns: passed over: Role"), std::string::npos)
+      << checked.output << checked.errors;
+  const std::string registers = understudy({"describe", folder / "p.yaml", "registers"}).output;
+  EXPECT_NE(registers.find("0x0044"), std::string::npos) << registers;
+  EXPECT_NE(registers.find("40069"), std::string::npos) << registers;
+}
+
 TEST(ImportCommand, RefusesWhatCannotBeOne) {
   const PrivateFolder folder;
   const std::string list = folder.write("p.csv", "address,name\n0,X\n");
@@ -207,6 +227,15 @@ TEST(ImportCommand, RefusesWhatCannotBeOne) {
             "understudy: --name: 'a b' is not a name; expected letters, digits, _ and -\n");
   EXPECT_EQ(diagnostic({"import", list, "--name", "slim"}),
             "understudy: --name: 'slim' is the name of an existing model; expected another name\n");
+  EXPECT_EQ(diagnostic({"import", list, "--columns", "adress=A"}),
+            "understudy: --columns: 'adress' is not a column; the nearest is 'address'\n");
+  EXPECT_EQ(diagnostic({"import", list, "--addresses", "modbus"}),
+            "understudy: --addresses: 'modbus' is not possible; expected one of wire, from_one, modicon\n");
+  EXPECT_EQ(diagnostic({"import", list, "--table", "coils"}),
+            "understudy: --table: 'coils' is not possible; expected one of holding, input, coil, discrete\n");
+  EXPECT_EQ(diagnostic({"import", list, "--encoding", "ebcdic"}),
+            "understudy: --encoding: 'ebcdic' is not possible; expected one of utf-8, utf-16, latin-1, big5, "
+            "gbk\n");
   EXPECT_EQ(diagnostic({"import", list, "-o", "p.txt"}),
             "understudy: --output: 'p.txt' does not end in .yaml; expected a model file\n");
   EXPECT_EQ(diagnostic({"serve", "--model", folder / "none.yaml"}),

@@ -1,6 +1,8 @@
-// Any text as a model file, including its list of registers, is refused with errors of one line each, or it
-// is a model: then its description gives the same model, and a device of it accepts any write to its
+// Any bytes as a list of registers for `import` are refused with errors, or they are registers that make a
+// map. Any text as a model file, including its list, is refused with errors of one line each, or it is a
+// model: then its description gives the same model, and a device of it accepts any write to its
 // registers, with the same result by single ticks and after a restore.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +11,12 @@
 #include "base/files/file_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/model_file/list_fields.h"
+#include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/model_files.h"
+#include "emulator/model_file/starter.h"
+#include "emulator/models/imported/model.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
@@ -69,10 +76,32 @@ void run(const Model& model) {
   require(world::hash(world) == world::hash(restored), "a state that is saved is one that goes on alike");
 }
 
+/// Reads bytes as `import` does, with the first byte choosing how.
+void import_list(const std::string& bytes) {
+  constexpr std::array kReadings{model_file::AddressReading::wire, model_file::AddressReading::from_one,
+                                 model_file::AddressReading::modicon};
+  model_file::ListReading reading{.guesses_addresses = true};
+  const auto choice = bytes.empty() ? std::size_t{0} : static_cast<unsigned char>(bytes.front()) % 8U;
+  if (choice < kReadings.size()) reading.addresses = kReadings[choice];
+  if (choice == 4) reading.table = Table::coil;
+  if (choice == 5) reading.encoding = "gbk";
+  if (choice == 6) model_file::parse_columns("address=A,name=B", reading);
+  try {
+    const model_file::RegisterList list = model_file::read_list_file(bytes, "list.csv", reading);
+    std::vector<std::vector<BitField>> fields;
+    const RegisterMap map(models::imported::plain_rows(list.registers, {}, fields), {});
+    map.require_distinct_names();
+    require(!list.registers.empty(), "a list has a register");
+  } catch (const FileError& error) {
+    require(error.what()[0] != '\0', "an error says something");
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > kLongest) return 0;
+  import_list(std::string(fuzzing::text_of(data, size)));
   model_file::DescribedModels files({});
   const Model* model = nullptr;
   try {

@@ -73,6 +73,19 @@ std::string section_for_people(const Model& model, std::string_view section) {
 
 std::string width_of(const RegisterRow& row) { return std::to_string(emulator::width_of(row.type)); }
 
+/// Returns the number that many manuals and tools have for a register: 40001 is holding register 0, and
+/// 410001 is holding register 10000.
+std::string modicon_number(Table table, int address) {
+  constexpr int kMaxOfFiveDigits = 9998;
+  const int digits = address > kMaxOfFiveDigits ? 6 : 5;
+  const std::string number = std::to_string(address + 1);
+  const std::string_view first = table == Table::holding    ? "4"
+                                 : table == Table::input    ? "3"
+                                 : table == Table::discrete ? "1"
+                                                            : "0";
+  return std::string(first) + std::string(static_cast<std::size_t>(digits) - 1 - number.size(), '0') + number;
+}
+
 /// Returns "0 READY, 4-7 STATE".
 std::string fields_of(const RegisterRow& row) {
   std::string text;
@@ -82,6 +95,13 @@ std::string fields_of(const RegisterRow& row) {
     text += " " + std::string(field.name);
   }
   return text;
+}
+
+/// Returns the order of a register's bytes on the line: "abcd" has the high word first.
+std::string_view order_text(const RegisterRow& row, const MapPolicy& policy) {
+  const bool low_first = row.swaps_words != policy.low_word_first;
+  if (row.swaps_bytes) return low_first ? "dcba" : "badc";
+  return low_first ? "cdab" : "abcd";
 }
 
 /// Returns "1" if the register is persistent, else "0". For people, it is "at once" if storing takes no time.
@@ -102,7 +122,8 @@ Sheet registers(const Model& model, SheetFormat format) {
                           "persistent", "default"},
               .rows = {}};
   if (for_people) {
-    for (const char* column : {"since", "section", "not modelled"}) sheet.columns.emplace_back(column);
+    for (const char* column : {"Modicon", "since", "section", "not modelled"})
+      sheet.columns.emplace_back(column);
   }
   // Only some models need these columns.
   const bool has_reals = any_row(model, [](const RegisterRow& row) { return row.type == Type::f32; });
@@ -110,7 +131,10 @@ Sheet registers(const Model& model, SheetFormat format) {
   const bool has_fields =
       may_have_fields && any_row(model, [](const RegisterRow& row) { return !row.fields.empty(); });
   if (has_reals) sheet.columns.emplace_back("real");
+  const bool has_orders =
+      any_row(model, [](const RegisterRow& row) { return row.swaps_words || row.swaps_bytes; });
   if (has_fields) sheet.columns.emplace_back("bits");
+  if (has_orders) sheet.columns.emplace_back("order");
   for (const RegisterRow& row : register_rows(model)) {
     for (int index = 0; index < row.count; ++index) {
       sheet.rows.push_back(
@@ -120,12 +144,14 @@ Sheet registers(const Model& model, SheetFormat format) {
            std::string(row.unit), kept_text(row, for_people), value_text(row.factory, row.type)});
       auto& cells = sheet.rows.back();
       if (for_people) {
+        cells.push_back(modicon_number(row.table, address_of(row, index)));
         cells.push_back(row.since == 0 ? "" : version_text(row.since));
         cells.push_back(section_for_people(model, row.section));
         cells.emplace_back(row.not_implemented);
       }
       if (has_reals) cells.emplace_back(row.type == Type::f32 ? "1" : "0");
       if (has_fields) cells.push_back(fields_of(row));
+      if (has_orders) cells.emplace_back(order_text(row, model.registers->policy()));
     }
   }
   return sheet;

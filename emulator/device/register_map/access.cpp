@@ -17,6 +17,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 
 namespace understudy::emulator {
 
@@ -138,7 +139,7 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
     const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.is_same_register(place);
     if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(bank, place)};
     Change& change = changes.all[changes.count - 1];
-    change.bits = with_word(change.bits, place.part, words[i]);
+    change.bits = with_word(change.bits, place.part, wire_word(*place.row, words[i]));
     if (place.part == Place::Part::low) change.low = true;
     if (place.part == Place::Part::high) change.high = true;
   }
@@ -266,15 +267,13 @@ Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value wante
   if (!value) return Refusal::bad_value;
 
   const auto bits = static_cast<std::uint32_t>(*value);
-  const auto low = static_cast<std::uint16_t>(bits);
-  const auto high = static_cast<std::uint16_t>(bits >> 16);
   const bool low_first = bank.low_word_first();
   if (whole_32) {
-    out = {row.table, place.address(), {low_first ? low : high, low_first ? high : low}, 2};
+    out = {row.table, place.address(), wire_words(row, bits, low_first), 2};
   } else {
-    const bool second_word =
-        place.part != Place::Part::whole && (place.part == Place::Part::high) == low_first;
-    out = {row.table, static_cast<std::uint16_t>(place.address() + (second_word ? 1 : 0)), {low, 0}, 1};
+    const bool second_word = is_second_word(place, low_first);
+    const std::uint16_t word = wire_word(row, static_cast<std::uint16_t>(bits));
+    out = {row.table, static_cast<std::uint16_t>(place.address() + (second_word ? 1 : 0)), {word, 0}, 1};
   }
   return Refusal::none;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/wire_words.h"
 
 namespace understudy::emulator {
 
@@ -72,7 +73,7 @@ inline bool swallows_writes_to_nothing(const RegisterBank& bank) {
 /// Returns true if a request that begins or ends with this word cuts its register in half.
 inline bool is_cut(const Place& place, bool is_first, bool is_last, bool low_word_first) {
   if (place.part == Place::Part::whole) return false;
-  return place.is_second_word(low_word_first) ? is_first : is_last;
+  return is_second_word(place, low_word_first) ? is_first : is_last;
 }
 
 }  // namespace understudy::emulator

@@ -10,6 +10,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 
 namespace understudy::emulator {
 
@@ -43,7 +44,8 @@ Objection readable(const RegisterBank& bank, Table table, std::size_t address, P
 /// Returns how many registers from a place on belong to one row and read exactly what the image holds.
 std::size_t stored_neighbours(const Place& place) {
   const RegisterRow& row = *place.row;
-  if (row.is_view || row.reader != nullptr || !row.fields.empty() || place.part != Place::Part::whole)
+  if (row.is_view || row.swaps_bytes || row.reader != nullptr || !row.fields.empty() ||
+      place.part != Place::Part::whole)
     return 0;
   return static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
 }
@@ -55,7 +57,7 @@ void put_pair(std::span<std::uint16_t> words, std::uint32_t bits, bool low_first
 
 /// Returns true if the place is the first word of a 32-bit register and the request brings both words.
 bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
-  return place.part != Place::Part::whole && !place.is_second_word(low_first) && words_left >= 2;
+  return place.part != Place::Part::whole && !is_second_word(place, low_first) && words_left >= 2;
 }
 
 /// Packs the lowest bit of each word, from bit number `at` on, in whole bytes at once.
@@ -98,7 +100,9 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
     }
     mention_if_missed(bank, place);
     if (is_whole_pair(place, low_first, words.size() - i)) {
-      put_pair(words.subspan(i++, 2), present_bits(bank, place), low_first);
+      const auto pair = wire_words(*place.row, present_bits(bank, place), low_first);
+      words[i] = pair[0];
+      words[++i] = pair[1];
       continue;
     }
     const std::size_t rest = stored_neighbours(place);
@@ -110,7 +114,7 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       i += count - 1;
       continue;
     }
-    words[i] = word_of(present_bits(bank, place), place.part);
+    words[i] = wire_word(*place.row, word_of(present_bits(bank, place), place.part));
   }
   return admission(bank, {.table = table, .first = first, .count = words.size()}, Checked::everything);
 }

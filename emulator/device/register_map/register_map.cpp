@@ -20,6 +20,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/row_sense.h"
+#include "emulator/device/register_map/wire_words.h"
 
 namespace understudy::emulator {
 
@@ -139,7 +140,9 @@ void RegisterMap::find_stored_pairs(TableIndex& table) const {
     const Entry entry = table.entries[address];
     if (entry.row_number == 0 || entry.index_and_part % 2 != 0) continue;
     const RegisterRow& row = rows_[entry.row_number - 1U];
-    if (!is_32_bit(row.type) || row.is_view || row.reader != nullptr || !reads_plainly(row)) continue;
+    if (!is_32_bit(row.type) || row.swaps_words || row.swaps_bytes || row.is_view || row.reader != nullptr ||
+        !reads_plainly(row))
+      continue;
     table.pairs.resize(address + 1, Place::kNoSlot);
     table.pairs[address] = first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
   }
@@ -159,7 +162,7 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
               .slot = row.is_view ? Place::kNoSlot : first_slots_[row_number] + index_in_row};
   if (is_32_bit(row.type)) {
     const bool second_word = entry.index_and_part % 2 != 0;
-    place.part = second_word == low_word_first ? Place::Part::high : Place::Part::low;
+    place.part = second_word == has_low_first(row, low_word_first) ? Place::Part::high : Place::Part::low;
   }
   return place;
 }

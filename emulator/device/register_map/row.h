@@ -179,6 +179,8 @@ struct RegisterRow {
   int first_axis = 0;                          // the axis of the first of them
   std::string_view low_half = "_L";            // the manual's endings for the halves of a 32-bit register
   std::string_view high_half = "_H";
+  bool swaps_words = false;  // its words have the other order than the model's
+  bool swaps_bytes = false;  // the low byte of each word comes first
 
   Firmware since = 0;
   std::string_view section;  // of the manual
@@ -253,6 +255,12 @@ struct RegisterRow {
   constexpr RegisterRow& halves(std::string_view low, std::string_view high) {
     low_half = low;
     high_half = high;
+    return *this;
+  }
+  /// The register's words, or the bytes in them, come in another order than the model's.
+  constexpr RegisterRow& ordered(bool other_words, bool other_bytes) {
+    swaps_words = other_words;
+    swaps_bytes = other_bytes;
     return *this;
   }
   constexpr RegisterRow& since_firmware(Firmware version) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/complete_table.h"
+#include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
@@ -26,11 +27,20 @@ struct BitName {
   int width = 1;
 };
 
+/// How the words of one quantity, and the bytes of each word, follow each other on the line.
+struct WordOrder {
+  enum class Words : std::uint8_t { as_the_model, high_first, low_first } words = Words::as_the_model;
+  bool low_byte_first = false;
+  bool operator==(const WordOrder&) const = default;
+};
+
 struct ListedRegister {
   Table table = Table::holding;
   std::uint16_t address = 0;
   std::string name{};
+  std::string printed{};  // the name in the manual, if `name` cannot be that
   Type type = Type::u16;
+  WordOrder order{};
   Access access = Access::read_write;
   bool ranged = false;
   Value least = 0;
@@ -39,6 +49,7 @@ struct ListedRegister {
   bool persistent = false;
   Value factory = 0;
   std::vector<BitName> bits{};
+  Firmware since = 0;  // 0: in every firmware
 };
 
 /// Names a register, by its number in the list, or some of its bits.
@@ -208,6 +219,8 @@ struct Line {
   std::string station_in{};  // name of the register that holds the station number; empty: none
   std::vector<std::uint8_t> functions{1, 2, 3, 4, 5, 6, 15, 16};
   std::vector<FunctionLimit> limits{};
+  std::vector<std::pair<std::uint8_t, std::string>> identity{};  // objects of function 43/14, ascending
+  std::string server_id{};                                       // for function 17
   bool obeys_broadcasts = true;
 };
 
@@ -220,7 +233,9 @@ inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
 struct Description {
   std::string name{};
   std::string title{};
-  std::string text{};  // the text of the whole controller (Model::description)
+  std::string text{};                            // the text of the whole controller (Model::description)
+  std::vector<FileError::Diagnostic> remarks{};  // what its files leave open, and how that was read
+  std::vector<Firmware> firmwares{100};          // ascending; the last is the default
   std::vector<ListedRegister> registers{};
   MapPolicy policy{.low_word_first = false};
   Line line{};

@@ -285,7 +285,8 @@ std::optional<std::uint16_t> written_word(const RegisterRequest& request, const 
   if (request.table != listed.table || listed.address < request.first) return std::nullopt;
   const std::size_t index = static_cast<std::size_t>(listed.address - request.first);
   if (index >= request.words.size()) return std::nullopt;
-  return request.words[index];
+  const std::uint16_t word = request.words[index];
+  return listed.order.low_byte_first ? static_cast<std::uint16_t>(word >> 8 | word << 8) : word;
 }
 
 }  // namespace

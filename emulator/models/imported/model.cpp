@@ -24,8 +24,6 @@ namespace understudy::emulator::models::imported {
 
 namespace {
 
-constexpr std::array<Firmware, 1> kFirmwares{100};
-
 constexpr std::array<std::string_view, 1> kGaps{
     "It is what a file describes: registers that nothing is bound to only store what is written.",
 };
@@ -34,7 +32,7 @@ constexpr std::size_t kMaxStateRegisters = 12;
 
 }  // namespace
 
-std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
+std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, const MapPolicy& policy,
                                     std::vector<std::vector<BitField>>& fields) {
   std::vector<RegisterRow> rows;
   rows.reserve(registers.size());
@@ -44,6 +42,11 @@ std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
     RegisterRow row = reg(listed.table, listed.address, listed.name, listed.type, listed.access);
     if (listed.ranged) row.range(listed.least, listed.most);
     row.in(listed.unit).from_factory(listed.factory);
+    row.section = listed.printed;
+    row.since_firmware(listed.since);
+    const bool low_first = listed.order.words == WordOrder::Words::low_first;
+    const bool is_own_order = listed.order.words != WordOrder::Words::as_the_model;
+    row.ordered(is_own_order && low_first != policy.low_word_first, listed.order.low_byte_first);
     if (listed.persistent) row.kept_at_once();
     for (const BitName& name : listed.bits) fields[i].push_back(bits(name.bit, name.name, name.width));
     row.with_bits(fields[i]);
@@ -53,7 +56,7 @@ std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
 }
 
 std::vector<RegisterRow> ImportedModel::bound_rows() {
-  std::vector<RegisterRow> rows = plain_rows(description_.registers, fields_);
+  std::vector<RegisterRow> rows = plain_rows(description_.registers, description_.policy, fields_);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     RegisterRow& row = rows[i];
     row.argument = static_cast<int>(i);
@@ -74,7 +77,8 @@ ImportedModel::ImportedModel(Description description)
       model_(made_model()) {
   for (const RegisterRow& row : map_.rows()) {
     slots_.push_back(
-        map_.at(row.table, row.address, kFirmwares.back(), description_.policy.low_word_first).slot);
+        map_.at(row.table, row.address, description_.firmwares.back(), description_.policy.low_word_first)
+            .slot);
   }
   find_what_moves();
 }
@@ -120,6 +124,7 @@ Model ImportedModel::made_model() {
                      .alarm_input = axis.alarm_input,
                      .pulses_per_revolution = axis.pulses_per_revolution});
   }
+  for (const auto& [id, text] : line.identity) identity_.push_back({.id = id, .text = text});
   // A register that is bound to something shows best what the controller does.
   for (std::size_t i = 0; i < shown_.size() && state_names_.size() < kMaxStateRegisters; ++i) {
     const RegisterRow& row = map_.rows()[i];
@@ -128,7 +133,7 @@ Model ImportedModel::made_model() {
   state_registers_.assign(state_names_.begin(), state_names_.end());
   return Model{.name = description_.name,
                .title = description_.title,
-               .firmwares = kFirmwares,
+               .firmwares = description_.firmwares,
                .registers = &map_,
                .choices = {},
                .terminals = terminals_,
@@ -142,7 +147,9 @@ Model ImportedModel::made_model() {
                                                           .kept_in = line.station_in}},
                .rtu = RtuRules{.end_silence = line.silence.value_or(standard_silence(factory)),
                                .functions = line.functions,
-                               .limits = line.limits},
+                               .limits = line.limits,
+                               .identity = identity_,
+                               .server_id = line.server_id},
                .description = description_.text,
                .make = [this](const DeviceSettings& settings) -> std::unique_ptr<Device> {
                  return std::make_unique<ImportedDevice>(*this, settings);

@@ -15,7 +15,7 @@
 namespace understudy::emulator::models::imported {
 
 /// Makes the rows of a list for a register map. They refer to the list. `fields` receives the named bits.
-std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers,
+std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, const MapPolicy& policy,
                                     std::vector<std::vector<BitField>>& fields);
 
 class ImportedModel {
@@ -49,6 +49,7 @@ class ImportedModel {
   std::vector<int> slots_;
   std::vector<bool> moving_outputs_;  // by terminal
   bool numbers_move_ = false;
+  std::vector<IdentityObject> identity_;
   std::vector<PortRow> ports_;
   std::vector<TerminalRow> terminals_;
   std::vector<AxisRow> axes_;

@@ -12,6 +12,7 @@
 
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/names/names.h"
@@ -26,11 +27,11 @@ bool is_whole_32(const Target& target) {
          target.place->place.part == Place::Part::whole;
 }
 
-std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first) {
-  if (words.size() == 1) return words[0];
-  const std::uint32_t first = words[0];
-  const std::uint32_t second = words[1];
-  return low_word_first ? first | second << 16 : second | first << 16;
+std::uint32_t bits_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first) {
+  const RegisterRow kPlain;
+  const RegisterRow& row = target.place ? *target.place->place.row : kPlain;
+  if (words.size() == 1) return wire_word(row, words[0]);
+  return bits_of_wire(row, words[0], words[1], low_word_first);
 }
 
 using FunctionKind = world::FunctionRow::Kind;
@@ -65,8 +66,7 @@ Words words_of(const Target& target, bool low_word_first) {
   if (!target.place) return {target.device, table, target.address, 1};
   const Place& place = target.place->place;
   if (is_whole_32(target)) return {target.device, table, place.address(), 2};
-  const bool is_second =
-      place.part != Place::Part::whole && (place.part == Place::Part::high) == low_word_first;
+  const bool is_second = is_second_word(place, low_word_first);
   return {target.device, table, static_cast<std::uint16_t>(place.address() + (is_second ? 1 : 0)), 1};
 }
 
@@ -128,7 +128,7 @@ std::optional<Value> value_for(const Target& target, world::Number number) {
 }
 
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first) {
-  const std::uint32_t bits = bits_in(words, low_word_first);
+  const std::uint32_t bits = bits_in(target, words, low_word_first);
   if (!target.place) return bits;
   if (target.place->bit >= 0) return Value{bits} >> target.place->bit & limits_of(target).high;
   if (target.place->place.part != Place::Part::whole) return bits;
@@ -145,13 +145,15 @@ std::vector<std::uint16_t> words_with(const Target& target, Value value, bool lo
   auto bits = static_cast<std::uint32_t>(value);
   if (target.place && target.place->bit >= 0) {
     const auto mask = static_cast<std::uint32_t>(limits.high << target.place->bit);
-    bits = (bits_in(present, low_word_first) & ~mask) | static_cast<std::uint32_t>(value)
-                                                            << target.place->bit;
+    bits = (bits_in(target, present, low_word_first) & ~mask) | static_cast<std::uint32_t>(value)
+                                                                    << target.place->bit;
   }
   const auto low = static_cast<std::uint16_t>(bits);
-  const auto high = static_cast<std::uint16_t>(bits >> 16);
-  if (!is_whole_32(target)) return {low};
-  return low_word_first ? std::vector{low, high} : std::vector{high, low};
+  if (!target.place) return {low};
+  const RegisterRow& row = *target.place->place.row;
+  if (!is_whole_32(target)) return {wire_word(row, low)};
+  const auto words = wire_words(row, bits, low_word_first);
+  return {words.begin(), words.end()};
 }
 
 }  // namespace understudy::emulator::play

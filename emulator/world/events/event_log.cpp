@@ -17,6 +17,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/frames/frame_log.h"
@@ -48,15 +49,14 @@ std::vector<WrittenRegister> written_registers(const Device& device, Table table
     const bool completes = before && before->is_same_register(place);
     before = place;
     if (completes) {
-      const bool low_first = bank->low_word_first();
-      const std::uint32_t bits = (low_first ? std::uint32_t{words[i]} << 16U | words[i - 1]
-                                            : std::uint32_t{words[i - 1]} << 16U | words[i]);
+      const std::uint32_t bits = bits_of_wire(*place.row, words[i - 1], words[i], bank->low_word_first());
       written.back() = {name, value_text(value_of(bits, place.row->type), place.row->type)};
       continue;
     }
     const bool is_half = place.part != Place::Part::whole;
-    written.push_back({name, is_half ? std::to_string(words[i])
-                                     : value_text(value_of(words[i], place.row->type), place.row->type)});
+    const std::uint16_t word = wire_word(*place.row, words[i]);
+    written.push_back({name, is_half ? std::to_string(word)
+                                     : value_text(value_of(word, place.row->type), place.row->type)});
   }
   return written;
 }

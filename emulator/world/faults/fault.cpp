@@ -14,6 +14,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/world/faults/field_values.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/faults/trigger_text.h"
@@ -180,7 +181,7 @@ void set_address(const KnownDevices& devices, const std::string& name, Fault& fa
   fault.trigger.last_address = place.address() + (is_wide ? 1 : 0);
   if (place.part == Part::whole) return;
   const KnownDevice& device = devices[fault.on_line ? found.device : fault.device];
-  const bool is_first = (place.part == Part::low) == device.model->registers->policy().low_word_first;
+  const bool is_first = !is_second_word(place, device.model->registers->policy().low_word_first);
   (is_first ? fault.trigger.last_address : fault.trigger.first_address) =
       place.address() + (is_first ? 0 : 1);
 }

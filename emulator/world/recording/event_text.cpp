@@ -11,6 +11,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/world.h"
@@ -26,9 +27,9 @@ namespace {
 std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {
   const bool low_word_first = bank.low_word_first();
   const Place place = bank.at(write.table, write.first);
-  std::uint32_t bits = write.words[0];
-  if (write.count == 2) {
-    bits = low_word_first ? bits | std::uint32_t{write.words[1]} << 16 : bits << 16 | write.words[1];
+  std::uint32_t bits = place ? wire_word(*place.row, write.words[0]) : write.words[0];
+  if (write.count == 2 && place) {
+    bits = bits_of_wire(*place.row, write.words[0], write.words[1], low_word_first);
   }
   if (place && (write.count == 2 || place.part == Place::Part::whole)) {
     return bank.map().unique_name(*place.row, place.index) + "=" +

@@ -14,6 +14,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
@@ -84,16 +85,16 @@ class WordsText {
     if (is_32_bit(row.type) && is_first_word && word + 1 < count_) {
       ++i;
       if (!has_values()) return name;
-      const auto first = static_cast<std::uint32_t>(value_at(word));
-      const auto second = static_cast<std::uint32_t>(value_at(word + 1));
-      const std::uint32_t bits = bank->low_word_first() ? first | second << 16 : second | first << 16;
+      const auto first = static_cast<std::uint16_t>(value_at(word));
+      const auto second = static_cast<std::uint16_t>(value_at(word + 1));
+      const std::uint32_t bits = bits_of_wire(row, first, second, bank->low_word_first());
       return name + " = " + value_text(value_of(bits, row.type), row.type);
     }
     if (place.part != Place::Part::whole) {
       name += place.part == Place::Part::low ? row.low_half : row.high_half;
     }
     if (!has_values()) return name;
-    const auto bits = static_cast<std::uint32_t>(value_at(word));
+    const std::uint32_t bits = wire_word(row, static_cast<std::uint16_t>(value_at(word)));
     const Value value = place.part == Place::Part::whole ? value_of(bits, row.type) : Value{bits};
     return name + " = " + std::to_string(value);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
@@ -165,6 +166,157 @@ Service service_of(const FunctionRow& row, const RtuRules& rules, const Register
   return service;
 }
 
+// --- functions that are more than one access to one table ---------------------------------------------
+
+ModbusReply return_query(Pdu pdu) {
+  if (pdu.size() < 3) return exception(pdu, nullptr, bad_value(Cause::bad_length));
+  if (pdu_word(pdu, 1) != 0) return exception(pdu, nullptr, bad_value(Cause::unknown_function));
+  ModbusReply reply;
+  std::copy(pdu.begin(), pdu.end(), reply.pdu.begin());
+  reply.size = pdu.size();
+  return reply;
+}
+
+ModbusReply report_server_id(const RtuRules& rules, Pdu pdu) {
+  if (pdu.size() != 1) return exception(pdu, nullptr, bad_value(Cause::bad_length));
+  constexpr std::size_t kMost = 200;
+  constexpr std::uint8_t kRuns = 0xFF;
+  const std::string_view id = rules.server_id.substr(0, kMost);
+  ModbusReply reply;
+  reply.pdu[0] = pdu[0];
+  reply.pdu[1] = static_cast<std::uint8_t>(id.size() + 1);
+  std::copy(id.begin(), id.end(), reply.pdu.begin() + 2);
+  reply.size = 2 + id.size();
+  reply.pdu[reply.size++] = kRuns;
+  return reply;
+}
+
+/// Sets and clears some bits of a holding register: (present AND and-mask) OR (or-mask AND NOT and-mask).
+ModbusReply mask_write(RegisterBank& bank, Pdu pdu) {
+  constexpr std::size_t kSize = 7;
+  const FunctionRow& writing = *function_for(Table::holding, FunctionRow::Kind::write_one);
+  if (pdu.size() != kSize) return exception(pdu, &writing, bad_value(Cause::bad_length));
+  const std::uint16_t address = pdu_word(pdu, 1);
+  const std::uint16_t kept = pdu_word(pdu, 3);
+  std::uint16_t word = 0;
+  Objection refused = read_request(bank, Table::holding, address, std::span(&word, 1));
+  word = static_cast<std::uint16_t>((word & kept) | (pdu_word(pdu, 5) & ~kept));
+  if (!refused) refused = write_request(bank, Table::holding, address, std::span(&word, 1), true);
+  if (refused) return exception(pdu, &writing, refused);
+  ModbusReply reply;
+  std::copy(pdu.begin(), pdu.end(), reply.pdu.begin());
+  reply.size = kSize;
+  return reply;
+}
+
+/// Writes registers, then reads registers, in one request. It is refused before anything is written if its
+/// reading part cannot be served.
+ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
+  constexpr std::size_t kBeforeData = 10;
+  constexpr std::size_t kMostWritten = 121;
+  const FunctionRow& reading = *function_for(Table::holding, FunctionRow::Kind::read);
+  const auto refuse = [&](const Objection& objection, std::size_t part) {
+    ModbusReply reply = exception(pdu, &reading, objection);
+    if (pdu.size() >= part + 4) {
+      reply.refused.first = pdu_word(pdu, part);
+      reply.refused.count = pdu_word(pdu, part + 2);
+    }
+    return reply;
+  };
+  if (pdu.size() < kBeforeData) return refuse(bad_value(Cause::bad_length), 1);
+  const std::size_t count = pdu_word(pdu, 3);
+  const std::size_t written = pdu_word(pdu, 7);
+  std::size_t most = kMaxWordsRead;
+  for (const FunctionLimit& limit : rules.limits) {
+    if (limit.code == pdu[0]) most = static_cast<std::size_t>(limit.most);
+  }
+  if (count < 1 || count > most) return refuse(bad_value(Cause::bad_count), 1);
+  if (written < 1 || written > std::min(most, kMostWritten)) return refuse(bad_value(Cause::bad_count), 5);
+  if (pdu[9] != 2 * written || pdu.size() != kBeforeData + 2 * written)
+    return refuse(bad_value(Cause::bad_length), 5);
+  std::array<std::uint16_t, kMaxWordsRead> words;
+  const auto read_words = std::span(words).first(count);
+  const std::uint16_t first = pdu_word(pdu, 1);
+  if (const Objection refused = read_request(bank, Table::holding, first, read_words))
+    return refuse(refused, 1);
+  std::array<std::uint16_t, kMostWritten> values;
+  for (std::size_t i = 0; i < written; ++i) values[i] = pdu_word(pdu, kBeforeData + 2 * i);
+  const Objection refused =
+      write_request(bank, Table::holding, pdu_word(pdu, 5), std::span(values).first(written));
+  if (refused) return refuse(refused, 5);
+  if (const Objection late = read_request(bank, Table::holding, first, read_words)) return refuse(late, 1);
+  ModbusReply reply;
+  reply.pdu[0] = pdu[0];
+  reply.pdu[1] = static_cast<std::uint8_t>(2 * count);
+  reply.size = 2;
+  for (const std::uint16_t word : read_words) put_word(reply, word);
+  bank.read_answered({.table = Table::holding, .first = first, .count = count});
+  return reply;
+}
+
+/// Reads the objects of the device identification: a stream of them, or one.
+ModbusReply identify(const RtuRules& rules, Pdu pdu) {
+  constexpr std::uint8_t kMeiType = 14;
+  constexpr std::uint8_t kOne = 4;
+  constexpr std::array<int, 4> kEnds{0, 0x02, 0x7F, 0xFF};  // the last objects: basic, regular, extended
+  if (pdu.size() < 2 || pdu[1] != kMeiType)
+    return exception(pdu, nullptr, bad_value(Cause::unknown_function));
+  if (pdu.size() != 4) return exception(pdu, nullptr, bad_value(Cause::bad_length));
+  const std::uint8_t category = pdu[2];
+  if (category < 1 || category > kOne) return exception(pdu, nullptr, bad_value(Cause::bad_count));
+  const auto has = [&](int id) {
+    return std::any_of(rules.identity.begin(), rules.identity.end(),
+                       [&](const IdentityObject& object) { return object.id == id; });
+  };
+  const int last_of_all = rules.identity.empty() ? 0 : rules.identity.back().id;
+  const int level = last_of_all > kEnds[2] ? 3 : last_of_all > kEnds[1] ? 2 : 1;
+  if (category == kOne && !has(pdu[3]))
+    return exception(pdu, nullptr, {Refusal::no_register, Cause::no_register, pdu[3]});
+  const int first = category == kOne || has(pdu[3]) ? pdu[3] : 0;
+  const int last = category == kOne ? first : kEnds[category];
+  ModbusReply reply;
+  const std::array<std::uint8_t, 7> head{pdu[0], kMeiType, category, static_cast<std::uint8_t>(0x80 | level),
+                                         0,      0,        0};
+  std::copy(head.begin(), head.end(), reply.pdu.begin());
+  reply.size = head.size();
+  for (const IdentityObject& object : rules.identity) {
+    if (object.id < first || object.id > last) continue;
+    if (reply.size + 2 + object.text.size() > reply.pdu.size()) {
+      reply.pdu[4] = 0xFF;  // more follows
+      reply.pdu[5] = object.id;
+      break;
+    }
+    reply.pdu[reply.size++] = object.id;
+    reply.pdu[reply.size++] = static_cast<std::uint8_t>(object.text.size());
+    std::copy(object.text.begin(), object.text.end(),
+              reply.pdu.begin() + static_cast<std::ptrdiff_t>(reply.size));
+    reply.size += object.text.size();
+    ++reply.pdu[6];
+  }
+  return reply;
+}
+
+ModbusReply serve_other(RegisterBank& bank, const RtuRules& rules, OtherFunction function, Pdu pdu) {
+  switch (function) {
+    case OtherFunction::diagnostics: return return_query(pdu);
+    case OtherFunction::server_id: return report_server_id(rules, pdu);
+    case OtherFunction::mask_write: return mask_write(bank, pdu);
+    case OtherFunction::read_and_write: return read_and_write(bank, rules, pdu);
+    case OtherFunction::identification: return identify(rules, pdu);
+  }
+  return exception(pdu, nullptr, bad_value(Cause::unknown_function));
+}
+
+/// Returns null if the model does not know such a function.
+const OtherFunctionRow* find_other(const RtuRules& rules, std::uint8_t code) {
+  if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
+    return nullptr;
+  for (const OtherFunctionRow& row : kOtherModbusFunctions) {
+    if (static_cast<std::uint8_t>(row.code) == code) return &row;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
@@ -172,6 +324,9 @@ ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
   const RtuRules& rules = *device.model().rtu;
   const FunctionRow* const row = find_function(rules, code);
   const ModbusStation* const station = device.modbus();
+  const OtherFunctionRow* const other = find_other(rules, code);
+  if (other != nullptr && (station == nullptr || station->knows(code)))
+    return serve_other(*device.register_bank(), rules, other->code, pdu);
   const bool is_known = row != nullptr && (station == nullptr || station->knows(code));
   if (!is_known) return exception(pdu, nullptr, bad_value(Cause::unknown_function));
   RegisterBank& bank = *device.register_bank();

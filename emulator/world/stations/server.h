@@ -41,6 +41,24 @@ inline constexpr FunctionRow kModbusFunctions[] = {
     {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
+/// Functions that are more than one access to one table. Only models that list them know them.
+enum class OtherFunction : std::uint8_t {
+  diagnostics = 0x08,  // sub-function 0: returns the request
+  server_id = 0x11,
+  mask_write = 0x16,
+  read_and_write = 0x17,  // writes first
+  identification = 0x2B,  // MEI type 14
+};
+struct OtherFunctionRow {
+  OtherFunction code;
+  int most = 1;  // in registers to read; to write, the standard allows 121
+};
+inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::diagnostics},
+                                                             {OtherFunction::server_id},
+                                                             {OtherFunction::mask_write},
+                                                             {OtherFunction::read_and_write, 125},
+                                                             {OtherFunction::identification}};
+
 /// Returns the function that reads or writes a table, or null if there is none: inputs cannot be written.
 constexpr const FunctionRow* function_for(Table table, FunctionRow::Kind kind) {
   for (const FunctionRow& row : kModbusFunctions) {

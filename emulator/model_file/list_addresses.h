@@ -1,0 +1,57 @@
+// Addresses as manuals print them: 0x2000, 2000H, 40001, 4x0001, pairs such as 10-11, and bits such as 10.3.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_reading.h"
+
+namespace understudy::emulator::model_file {
+
+/// An address before it is known what the list counts.
+struct PrintedAddress {
+  std::int64_t number = 0;
+  std::int64_t last = 0;         // of a pair or a range; otherwise `number`
+  bool is_hexadecimal = false;   // by its form
+  std::optional<Table> table{};  // "4x0001", "HR100"
+  bool counts_from_one = false;  // "4x0001" always does
+  int bit = -1;                  // "10.3"
+
+  int words() const { return static_cast<int>(last - number) + 1; }
+};
+
+/// Returns nothing for a text that is not an address. `is_hexadecimal`: plain digits are hexadecimal as well.
+std::optional<PrintedAddress> parse_address(std::string_view text, bool is_hexadecimal);
+/// Returns true for letters that only hexadecimal numbers have, without another sign: "10A0".
+bool has_hexadecimal_letters(std::string_view text);
+
+/// An address on the wire, and the table that its form gives.
+struct WireAddress {
+  std::uint16_t address = 0;
+  std::optional<Table> table{};
+};
+/// Returns nothing if the number does not suit the reading.
+std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressReading reading);
+
+/// What all addresses of a list together say.
+struct AddressEvidence {
+  /// `table`: that of the row's own cell, if it has one. `holds_words`: the row's type is not a bit.
+  void add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);
+
+  /// Returns the only possible reading, if there is one.
+  std::optional<AddressReading> certain() const;
+  /// Returns the reading that is likely: nothing if two are.
+  std::optional<AddressReading> likely() const;
+
+  bool all_are_modicon = true;   // they lie in the blocks of their tables, 40001 to 49999 and so on
+  bool any_has_a_block = false;  // beyond those of coils, which are plain numbers
+  bool beyond_the_wire = false;  // 400001
+  bool begins_a_block = false;   // one of the first ten: 40001 to 40010, for example
+  std::int64_t lowest = INT64_MAX;
+};
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,33 @@
+// Finds out what the columns of a list of registers mean.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "emulator/model_file/csv.h"
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_words.h"
+#include "emulator/world/bench_file/diagnostics.h"
+
+namespace understudy::emulator::model_file {
+
+/// The place of a list: a file of its own, or another file, in which it follows line `lines_before`.
+struct ListPlace {
+  std::string file;
+  int lines_before = 0;
+};
+
+struct ColumnPlan {
+  std::size_t heading_row = 0;       // rows before it are titles
+  std::vector<Column> columns{};     // by cell
+  std::vector<std::size_t> names{};  // the cells of names, the best first
+  bool has_hexadecimal_addresses = false;
+  bool operator==(const ColumnPlan&) const = default;
+};
+
+/// Keeps all errors. The plan is worth nothing if there were any.
+ColumnPlan plan_columns(const std::vector<CsvRow>& rows, const ListReading& reading, const ListPlace& place,
+                        world::Diagnostics& diagnostics, Remarks& remarks);
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,24 @@
+#include "emulator/model_file/list_reading.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/files/file_error.h"
+
+namespace understudy::emulator::model_file {
+
+std::vector<FileError::Diagnostic> Remarks::all() const {
+  std::vector<FileError::Diagnostic> made;
+  for (const auto& [kind, told] : all_) {
+    const FilePlace& place = told.first.place;
+    const std::string behind = told.more == 0 ? "" : " (and " + std::to_string(told.more) + " more)";
+    made.push_back({place, place.file + ":" + std::to_string(place.line) + ":" +
+                               std::to_string(place.column) + ": " + told.first.text + behind});
+  }
+  std::stable_sort(made.begin(), made.end(),
+                   [](const auto& one, const auto& other) { return one.place.line < other.place.line; });
+  return made;
+}
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,55 @@
+// How a list of registers is to be read, and what its reader had to guess.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_words.h"
+
+namespace understudy::emulator::model_file {
+
+/// What the addresses of a list count: registers on the wire (from 0), registers from 1, or Modicon's numbers
+/// (40001 is holding register 0).
+enum class AddressReading : std::uint8_t { wire, from_one, modicon };
+inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_one", "modicon"};
+
+/// What a user says about a list: flags of `import`, or `list` in a model file.
+struct ListReading {
+  std::vector<std::pair<Column, std::string>> columns{};  // and their headings
+  std::optional<AddressReading> addresses{};              // none: wire, unless they cannot be that
+  bool guesses_addresses = false;                         // refuses those that are uncertain
+  Table table = Table::holding;                           // of rows that do not say it
+  std::string encoding{};                                 // empty: guessed
+  std::vector<Firmware> firmwares{};                      // that rows may begin with; empty: any
+};
+
+/// Collects what a reader had to guess or pass over. Of each kind of remark it keeps the first, and counts
+/// the rest.
+class Remarks {
+ public:
+  void add(const std::string& kind, const FilePlace& place, const std::string& text) {
+    auto& [first, more] = all_.try_emplace(kind, Told{{place, text}, 0}).first->second;
+    if (first.text != text || first.place.line != place.line || first.place.column != place.column) ++more;
+  }
+  void add(const Remarks& others) { all_.insert(others.all_.begin(), others.all_.end()); }
+  /// Returns them in the order of the list.
+  std::vector<FileError::Diagnostic> all() const;
+
+ private:
+  struct Told {
+    FileError::Diagnostic first;
+    std::size_t more = 0;
+  };
+  std::map<std::string, Told> all_;
+};
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,101 @@
+#include "emulator/model_file/list_text.h"
+
+#include <iconv.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/files/file_error.h"
+#include "base/text/one_line.h"
+#include "base/text/utf8.h"
+#include "emulator/model_file/list_columns.h"
+#include "emulator/model_file/list_reading.h"
+
+namespace understudy::emulator::model_file {
+
+namespace {
+
+/// The system's names of encodings. Spreadsheets write Windows-1252 where they say Latin-1.
+constexpr std::array<std::pair<std::string_view, const char*>, 4> kSystemNames{
+    {{"utf-16", "UTF-16"}, {"latin-1", "WINDOWS-1252"}, {"big5", "BIG5-HKSCS"}, {"gbk", "GBK"}}};
+
+/// Returns nothing if the bytes are not in this encoding.
+std::optional<std::string> converted(const std::string& bytes, const char* encoding) {
+  iconv_t const converter = iconv_open("UTF-8", encoding);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: as POSIX has it
+  std::string made;
+  std::string input = bytes;
+  char* from = input.data();
+  std::size_t left = input.size();
+  bool is_right = true;
+  while (left > 0 && is_right) {
+    std::array<char, 4096> part{};
+    char* to = part.data();
+    std::size_t room = part.size();
+    const bool is_full = iconv(converter, &from, &left, &to, &room) == static_cast<std::size_t>(-1);
+    made.append(part.data(), part.size() - room);
+    if (is_full && room == part.size()) is_right = false;
+  }
+  iconv_close(converter);
+  return is_right ? std::optional(std::move(made)) : std::nullopt;
+}
+
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+
+/// Returns true if letters beyond ASCII stand alone, as in European languages. Chinese ones take two bytes.
+bool stand_alone(const std::string& bytes) {
+  std::size_t alone = 0;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (is_ascii(bytes[i])) continue;
+    const bool is_pair = i + 1 < bytes.size() && !is_ascii(bytes[i + 1]);
+    ++(is_pair ? pairs : alone);
+    if (is_pair) ++i;
+  }
+  return alone >= pairs;
+}
+
+/// Returns the encoding of a text that is not UTF-8, or nothing if it may be one of several.
+std::optional<std::string_view> guess(const std::string& bytes) {
+  const bool has_mark = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  if (has_mark) return "utf-16";
+  if (stand_alone(bytes)) return "latin-1";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string decode_list(const std::string& bytes, const std::string& encoding, const ListPlace& place,
+                        Remarks& remarks) {
+  std::string known = encoding;
+  const auto wrong = first_not_utf8(bytes);
+  const auto line =
+      1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(wrong.value_or(0)), '\n');
+  const FilePlace where{place.file, static_cast<int>(line) + place.lines_before, 1};
+  if (known.empty()) {
+    if (!wrong) return bytes;
+    const auto guessed = guess(bytes);
+    if (!guessed)
+      throw FileError(where, "registers: the line is not UTF-8; expected --encoding big5, gbk, or another");
+    known = *guessed;
+    remarks.add("encoding", where,
+                "registers: the line is not UTF-8; the list is read as " + known + " (--encoding)");
+  }
+  if (known == "utf-8") {
+    if (!wrong) return bytes;
+    throw FileError(where, "registers: the line is not UTF-8; expected the list saved as CSV in UTF-8");
+  }
+  const auto* const system = std::find_if(kSystemNames.begin(), kSystemNames.end(),
+                                          [&](const auto& entry) { return entry.first == known; });
+  if (auto text = converted(bytes, system->second)) return *std::move(text);
+  throw FileError({place.file, 1 + place.lines_before, 1},
+                  "registers: the list cannot be read as " + quoted(known) + "; expected another encoding");
+}
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,51 @@
+// Numbers of a list as people print them: in counts, or in the unit with decimals; ranges and enumerations.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace understudy::emulator::model_file {
+
+/// A decimal number, exactly: digits * 10^-places.
+struct Decimal {
+  std::int64_t digits = 0;
+  int places = 0;
+};
+/// Parses "50.00", "-0,5" and "7", and such a number with a unit behind it if `may_have_unit`.
+std::optional<Decimal> parse_decimal(std::string_view text, bool may_have_unit);
+/// Returns true if a text is a number with decimals: "50.0".
+bool has_decimals(std::string_view text);
+
+/// The value of one count: counts * step + offset.
+struct Step {
+  Decimal step{1, 0};
+  Decimal offset{};
+  std::string text{};  // as it is written; empty: the list has none
+};
+/// Returns nothing if no whole number of counts has this value.
+std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step);
+/// Returns the step that a unit such as "0.01Hz" begins with.
+std::optional<Step> step_of_unit(std::string_view unit);
+/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 is taken as N counts for one.
+std::optional<Step> step_of_scale(std::string_view scale);
+
+/// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.
+std::optional<std::pair<std::string, std::string>> ends_of(const std::string& range);
+
+/// A value, and what it stands for: "0: off".
+struct NamedValue {
+  std::int64_t value = 0;
+  bool is_bit = false;  // "b0: off"
+  std::string name;
+};
+/// Returns nothing if the text is not an enumeration such as "0: off, 1: on".
+std::optional<std::vector<NamedValue>> parse_enumeration(std::string_view text);
+
+/// Returns digits as binary-coded decimals, or nothing if they do not fit.
+std::optional<std::int64_t> as_bcd(std::int64_t number, int words);
+
+}  // namespace understudy::emulator::model_file

@@ -1,0 +1,99 @@
+// The words of lists of registers, as tables of data: headings of columns, types, kinds of access, tables and
+// orders of bytes, in the languages of manuals.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/imported/description.h"
+
+namespace understudy::emulator::model_file {
+
+/// The columns of a list; `left_out` is only for people.
+enum class Column : std::uint8_t {
+  table,
+  function,
+  address,
+  name,
+  access,
+  writable,
+  type,
+  width,
+  words,
+  order,
+  is_signed,
+  least,
+  most,
+  range,
+  values,
+  unit,
+  scale,
+  decimals,
+  offset,
+  persistent,
+  factory,
+  real,
+  bits,
+  since,
+  left_out,
+};
+inline constexpr std::size_t kColumns = static_cast<std::size_t>(Column::left_out);
+
+/// A heading and one of its meanings, in the form of heading_key(). Lower ranks win; those of rank 0 are the
+/// names of the columns.
+struct Heading {
+  std::string_view key;
+  Column column;
+  int rank;
+};
+std::span<const Heading> headings();
+/// Returns the name of a column in messages, in `--columns` and in model files.
+std::string_view name_of(Column column);
+/// Returns the column of that name.
+std::optional<Column> column_called(std::string_view name);
+/// Returns a heading in small letters, without what stands in parentheses, with single blanks for signs.
+std::string heading_key(std::string_view heading);
+/// Returns true if a heading says that its numbers are hexadecimal: "Address (hex)".
+bool says_hexadecimal(std::string_view heading);
+
+using models::imported::WordOrder;
+/// Returns nothing for an unknown word.
+std::optional<WordOrder> order_called(std::string_view word);
+
+/// What a word for a type stands for. A type without a Type, or with more than two words, only holds its
+/// words.
+struct TypeMeaning {
+  enum class Kind : std::uint8_t {
+    number,   // one of Type
+    decimal,  // BCD: four digits a word
+    text,
+    only_words,
+    part,  // some bits of a word
+  } kind = Kind::number;
+  Type type = Type::u16;
+  int words = 1;  // 0: the list says how many
+  int bits = 0;   // of a part
+  WordOrder order{};
+};
+/// Returns nothing for an unknown word.
+std::optional<TypeMeaning> type_called(std::string_view word);
+
+std::optional<Access> access_called(std::string_view word);
+/// Like table_called(), with the words of lists.
+std::optional<Table> listed_table_called(std::string_view word);
+/// Returns the table of a function: "3", "0x03", "FC04", or of the first of several: "3/6/16".
+std::optional<Table> table_of_function(std::string_view text);
+/// Returns nothing for a text that is neither yes nor no.
+std::optional<bool> yes_or_no_called(std::string_view word);
+/// Returns true for the name of an address that the maker keeps for himself: "Reserved".
+bool is_reserved(std::string_view name);
+
+/// Returns a text in small letters.
+std::string lower(std::string_view text);
+
+}  // namespace understudy::emulator::model_file

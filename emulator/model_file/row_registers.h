@@ -1,0 +1,28 @@
+// The registers that one row of a list describes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "emulator/model_file/list_addresses.h"
+#include "emulator/model_file/list_row.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/diagnostics.h"
+
+namespace understudy::emulator::model_file {
+
+/// Several registers if the row is text, has 64 bits, or names a range of addresses.
+struct RowRegisters {
+  std::vector<models::imported::ListedRegister> registers{};
+  /// Set if the row describes only some bits of its register, which another row may describe as well.
+  std::optional<models::imported::BitName> part{};
+};
+
+/// Keeps all errors; the result is empty if there was one. `printed`: the row's address, or nothing if it is
+/// not one.
+RowRegisters registers_of(const ListRow& row, const std::optional<PrintedAddress>& printed,
+                          world::Diagnostics& diagnostics);
+/// Returns the table that the row's own cells give.
+std::optional<Table> table_in_cells(const ListRow& row);
+
+}  // namespace understudy::emulator::model_file

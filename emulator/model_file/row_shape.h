@@ -1,0 +1,27 @@
+// The type of a row: how many words it takes, and what they hold.
+#pragma once
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_row.h"
+#include "emulator/model_file/list_words.h"
+
+namespace understudy::emulator::model_file {
+
+struct RowShape {
+  TypeMeaning::Kind kind = TypeMeaning::Kind::number;
+  Type type = Type::u16;  // of each register; for `only_words` f32 tells a real number of 64 bits
+  int words = 1;          // of one quantity
+  int count = 1;          // quantities, one behind the other
+  int bits = 0;           // of a part
+  WordOrder order{};
+  bool is_flag = false;  // 0 or 1 in a whole word
+
+  bool holds_only_words() const {
+    return kind == TypeMeaning::Kind::text || kind == TypeMeaning::Kind::only_words;
+  }
+};
+
+/// `printed_words`: how many addresses the row names, as in 10-11. Throws FileError for the first mistake.
+RowShape shape_of(const ListRow& row, Table table, int printed_words);
+
+}  // namespace understudy::emulator::model_file

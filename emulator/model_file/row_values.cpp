@@ -1,0 +1,282 @@
+#include "emulator/model_file/row_values.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/parse_real.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/model_file/list_row.h"
+#include "emulator/model_file/list_values.h"
+#include "emulator/model_file/list_words.h"
+#include "emulator/model_file/register_list.h"
+#include "emulator/model_file/row_shape.h"
+#include "emulator/models/imported/description.h"
+
+namespace understudy::emulator::model_file {
+
+using models::imported::BitName;
+using models::imported::ListedRegister;
+
+namespace {
+
+using TypeKind = TypeMeaning::Kind;
+
+bool is_before(Value a, Value b, Type type) { return type == Type::f32 ? real_of(a) < real_of(b) : a < b; }
+
+/// Returns the step of a row's counts: that of its scale, of its decimals, or of its unit.
+std::optional<Step> step_of(const ListRow& row) {
+  std::optional<Step> step;
+  if (row.has(Column::scale)) step = step_of_scale(row.text(Column::scale));
+  if (!step && row.has(Column::decimals)) {
+    const auto places = parse_integer(row.text(Column::decimals));
+    if (places && *places >= 0 && *places <= 9)
+      step = Step{.step = {1, static_cast<int>(*places)}, .text = row.text(Column::decimals) + " decimals"};
+  }
+  const auto of_unit = step_of_unit(row.text(Column::unit));
+  if (of_unit && (!step || (step->step.digits == 1 && step->step.places == 0))) step = of_unit;
+  if (!step) return std::nullopt;
+  if (const auto offset = parse_decimal(row.text(Column::offset), false)) step->offset = *offset;
+  return step;
+}
+
+/// Reads numbers of one row. They are counts, unless one of them has decimals: then all are in the unit.
+class RowNumbers {
+ public:
+  RowNumbers(const ListRow& row, const RowShape& shape, const std::string& least, const std::string& most)
+      : row_(row), shape_(shape) {
+    const bool are_whole = shape.kind == TypeKind::number || shape.kind == TypeKind::decimal;
+    in_units_ = are_whole && shape.type != Type::f32 &&
+                (has_decimals(least) || has_decimals(most) || has_decimals(row.text(Column::factory)));
+  }
+
+  Value value(Column column, const std::string& word) const {
+    if (shape_.type == Type::f32) return real(column, word);
+    const auto number = in_units_ ? counts(column, word) : whole(word);
+    const auto coded = number && shape_.kind == TypeKind::decimal ? as_bcd(*number, shape_.words) : number;
+    const TypeLimits limits = shape_.kind == TypeKind::decimal
+                                  ? TypeLimits{0, shape_.words == 2 ? 99'999'999 : 9999}
+                                  : limits_of(shape_.type);
+    const bool is_possible = number && coded && *number >= limits.lowest && *number <= limits.highest;
+    if (!is_possible) {
+      row_.fail(column, quoted(word) + " is not possible; expected a whole number from " +
+                            std::to_string(limits.lowest) + " to " + std::to_string(limits.highest));
+    }
+    return *coded;
+  }
+
+ private:
+  Value real(Column column, std::string word) const {
+    std::replace(word.begin(), word.end(), ',', '.');
+    const auto real = parse_real(word);
+    const auto single = static_cast<float>(real.value_or(0));
+    if (!real || single - single != 0) row_.fail(column, quoted(word) + " is not a number; expected one");
+    return value_of_real(single);
+  }
+
+  /// Parses a whole number, which may have its unit behind it.
+  static std::optional<std::int64_t> whole(const std::string& word) {
+    if (const auto number = parse_integer(word)) return number;
+    const auto number = parse_decimal(word, true);
+    if (!number || number->places != 0) return std::nullopt;
+    const std::string behind = word.substr(word.find_last_of("0123456789") + 1);
+    const bool is_unit =
+        !behind.empty() && word.find_first_not_of("-+0123456789") + behind.size() == word.size();
+    return is_unit ? std::optional(number->digits) : std::nullopt;
+  }
+
+  std::optional<std::int64_t> counts(Column column, const std::string& word) const {
+    const auto number = parse_decimal(word, true);
+    if (!number) return std::nullopt;
+    const auto step = step_of(row_);
+    if (!step) {
+      row_.fail(column, quoted(word) +
+                            " is in the unit, and the row has no step; expected counts, or a unit "
+                            "such as 0.01Hz");
+    }
+    const auto counts = counts_of(*number, *step);
+    if (!counts)
+      row_.fail(column, quoted(word) + " is not a multiple of " + quoted(step->text) + "; expected one");
+    return counts;
+  }
+
+  const ListRow& row_;
+  const RowShape& shape_;
+  bool in_units_ = false;
+};
+
+/// The two ends of a range, as they are written, and their columns.
+struct Ends {
+  std::string least;
+  std::string most;
+  Column first = Column::least;
+  Column last = Column::most;
+};
+
+Ends written_ends(const ListRow& row) {
+  Ends ends{.least = row.text(Column::least), .most = row.text(Column::most)};
+  if (row.has(Column::range)) {
+    if (!ends.least.empty() || !ends.most.empty())
+      row.fail(Column::range, "cannot be combined with min and max; expected one of the two");
+    ends.first = ends.last = Column::range;
+    const auto found = ends_of(row.text(Column::range));
+    if (!found)
+      row.fail(Column::range, quoted(row.text(Column::range)) + " is not a range; expected 0..3000");
+    std::tie(ends.least, ends.most) = *found;
+  }
+  return ends;
+}
+
+void take_range(const ListRow& row, const RowShape& shape, const Ends& ends, ListedRegister& listed) {
+  const RowNumbers numbers(row, shape, ends.least, ends.most);
+  const Value least = numbers.value(ends.first, ends.least);
+  const Value most = numbers.value(ends.last, ends.most);
+  if (is_before(most, least, listed.type)) {
+    row.fail(ends.last, quoted(ends.most) + " is below " + ends.least +
+                            "; expected a maximum that is not below the minimum");
+  }
+  listed.least = least;
+  listed.most = most;
+  listed.ranged = true;
+}
+
+void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape, ListedRegister& listed) {
+  if (shape.kind != TypeKind::number || listed.type == Type::f32) return;
+  const auto [least, most] = std::minmax_element(
+      all.begin(), all.end(), [](const auto& one, const auto& other) { return one.value < other.value; });
+  if (all.front().is_bit) {
+    for (const NamedValue& bit : all) {
+      try {
+        auto bits = listed.bits;
+        bits.push_back(bits_called(as_word(bit.name), std::to_string(bit.value), listed.type));
+        require_apart(bits);
+        listed.bits = std::move(bits);
+      } catch (const std::invalid_argument&) {  // reserved bits share a name, for example
+        continue;
+      }
+    }
+    return;
+  }
+  const TypeLimits limits = limits_of(listed.type);
+  if (least->value < limits.lowest || most->value > limits.highest) return;
+  listed.least = least->value;
+  listed.most = most->value;
+  listed.ranged = true;
+}
+
+/// Takes from a text for people what it says about values: a range, or an enumeration. It may say neither.
+void read_values(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
+  const std::string& text = row.text(Column::values);
+  if (const auto all = parse_enumeration(text)) return take_enumeration(*all, shape, listed);
+  ListedRegister tried = listed;
+  try {
+    const auto ends = ends_of(text);
+    if (!ends) throw FileError("");
+    take_range(row, shape, {ends->first, ends->second, Column::values, Column::values}, tried);
+    listed = std::move(tried);
+  } catch (const FileError&) {
+    row.remark("values", Column::values,
+               quoted(text) + " is neither a range nor an enumeration; it is passed over");
+  }
+}
+
+}  // namespace
+
+void read_range(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
+  if (shape.holds_only_words()) return;
+  if (shape.is_flag) {
+    listed.least = 0;
+    listed.most = 1;
+    listed.ranged = true;
+  }
+  const Ends ends = written_ends(row);
+  if (ends.least.empty() && ends.most.empty()) {
+    if (row.has(Column::values)) read_values(row, shape, listed);
+    return;
+  }
+  if (ends.least.empty() || ends.most.empty())
+    row.fail(ends.least.empty() ? ends.last : ends.first,
+             "is given alone; expected both min and max, or neither");
+  take_range(row, shape, ends, listed);
+}
+
+void read_factory(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
+  if (shape.holds_only_words()) return;
+  const auto is_out = [&](Value value) {
+    return listed.ranged &&
+           (is_before(value, listed.least, listed.type) || is_before(listed.most, value, listed.type));
+  };
+  if (!row.has(Column::factory)) {
+    listed.factory = is_out(0) ? listed.least : 0;
+    return;
+  }
+  Ends ends;
+  if (row.has(Column::least) || row.has(Column::range)) ends = written_ends(row);
+  listed.factory =
+      RowNumbers(row, shape, ends.least, ends.most).value(Column::factory, row.text(Column::factory));
+}
+
+std::string unit_of(const ListRow& row) {
+  const std::string& unit = row.text(Column::unit);
+  if (unit.empty() || !row.has(Column::scale) || step_of_unit(unit)) return unit;
+  const auto step = step_of_scale(row.text(Column::scale));
+  const auto number = parse_decimal(row.text(Column::scale), false);
+  const bool is_plain = step && number && number->places > 0;  // "10" may be 10 or 0.1
+  if (!is_plain) return unit;
+  std::string text = row.text(Column::scale);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return text + unit;
+}
+
+std::vector<std::uint16_t> factory_words(const ListRow& row, const RowShape& shape) {
+  std::vector<std::uint16_t> words(static_cast<std::size_t>(shape.words));
+  const std::string& text = row.text(Column::factory);
+  if (text.empty()) return words;
+  if (shape.kind == TypeKind::text) {
+    for (std::size_t i = 0; i < text.size() && i / 2 < words.size(); ++i)
+      words[i / 2] |= static_cast<std::uint16_t>(static_cast<unsigned char>(text[i]) << (i % 2 == 0 ? 8 : 0));
+  } else {
+    const auto real = parse_real(text);
+    const auto number = parse_integer(text);
+    if (shape.type == Type::f32 ? !real.has_value() : !number.has_value())
+      row.fail(Column::factory, quoted(text) + " is not a number; expected one");
+    const auto bits =
+        shape.type == Type::f32 ? std::bit_cast<std::uint64_t>(*real) : static_cast<std::uint64_t>(*number);
+    const std::size_t last = words.size() - 1;
+    for (std::size_t i = 0; i < std::min<std::size_t>(words.size(), 4); ++i)
+      words[last - i] = static_cast<std::uint16_t>(bits >> 16 * i);
+    if (shape.order.words == WordOrder::Words::low_first) std::reverse(words.begin(), words.end());
+  }
+  if (shape.order.low_byte_first) {
+    for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(word >> 8 | word << 8);
+  }
+  return words;
+}
+
+std::string as_word(const std::string& text) {
+  std::string made;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 || std::isalnum(byte) != 0) {
+      made += c;
+    } else if (!made.ends_with('_')) {
+      made += '_';
+    }
+  }
+  while (made.ends_with('_')) made.pop_back();
+  const bool begins_with_digit = !made.empty() && made.front() >= '0' && made.front() <= '9';
+  return (begins_with_digit ? "_" : "") + made;
+}
+
+}  // namespace understudy::emulator::model_file
