@@ -18,7 +18,7 @@ function plotNames(names) {
 
 export function Story() {
   const { story, scenario } = store.timeline ?? {};
-  const [isOpen, open] = useKept('what led to the failure', true);
+  const [isOpen, open] = useKept('what led to the failure', innerWidth > 700);
   if (!story) return null;
   const isThere = store.look?.time_ns === story.time_ns;
   return html`<section class="story" aria-label="the failure">
