@@ -205,7 +205,7 @@ TEST(ProgramLines, AreOfAFileWithItsPartsInAnyOrder) {
   EXPECT_EQ(lines.source(), "macros.mac");
   EXPECT_EQ(lines.text(), file);
   EXPECT_EQ(lines.lines(), (std::vector<int>{2, 5}));
-  world.load_program(0, "MP 41\n  RSM_MACRO_TIMER 5\nEND\n");
+  world.load_program(0, "MP 41\n  RSM_MACRO_TIMER 9\nEND\n");
   EXPECT_EQ(ProgramLines(world.device(0)).source(), "") << "it has another program";
 }
 
