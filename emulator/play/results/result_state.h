@@ -45,9 +45,9 @@ template <>
 struct understudy::StateOf<understudy::emulator::play::Failure> {
   using Failure = emulator::play::Failure;
   static constexpr auto fields =
-      FieldList{field<&Failure::at>(),   field<&Failure::what>(),    field<&Failure::expected>(),
-                field<&Failure::came>(), field<&Failure::details>(), field<&Failure::frames>(),
-                field<&Failure::state>()};
+      FieldList{field<&Failure::at>(),    field<&Failure::what>(),    field<&Failure::expected>(),
+                field<&Failure::came>(),  field<&Failure::details>(), field<&Failure::frames>(),
+                field<&Failure::state>(), field<&Failure::led_to>()};
 };
 
 template <>

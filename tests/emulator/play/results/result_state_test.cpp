@@ -21,6 +21,7 @@ ScenarioResult failed_result() {
                            .expected = "expected",
                            .came = "came",
                            .details = {"a", "b"},
+                           .led_to = {"event"},
                            .frames = {"frame"},
                            .state = {"state"}};
   result.simulated = SimTime{7};
@@ -59,9 +60,11 @@ TEST(ResultState, KeepsEveryField) {
   EXPECT_TRUE(result.steps[1].has_failed);
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(std::tie(result.failure->at, result.failure->what, result.failure->expected, result.failure->came,
-                     result.failure->details, result.failure->frames, result.failure->state),
+                     result.failure->details, result.failure->frames, result.failure->state,
+                     result.failure->led_to),
             std::tie(wanted.failure->at, wanted.failure->what, wanted.failure->expected, wanted.failure->came,
-                     wanted.failure->details, wanted.failure->frames, wanted.failure->state));
+                     wanted.failure->details, wanted.failure->frames, wanted.failure->state,
+                     wanted.failure->led_to));
   EXPECT_EQ(std::tie(result.simulated, result.outcome_hash, result.lint_findings, result.seed,
                      result.is_unreadable),
             std::tie(wanted.simulated, wanted.outcome_hash, wanted.lint_findings, wanted.seed,
