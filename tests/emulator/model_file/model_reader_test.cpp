@@ -373,7 +373,8 @@ TEST(ModelFiles, InsideABenchAreToldAtTheirLines) {
            "axs: 1\n"),
       "bench.yaml:9:7: devices.d.model: registers: there is none; expected a line of columns, and one for "
       "each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
-      "understudy, model, title, registers, line, map, bits, inputs, outputs, axes, follows, shows, "
+      "understudy, model, title, firmware, registers, list, line, map, bits, inputs, outputs, axes, follows, "
+      "shows, "
       "momentary (the nearest is 'axes')");
   EXPECT_EQ(told("./list.csv\n"),
             "bench.yaml:5:12: devices.d.model: './list.csv' is a path; expected that of a model file, "

@@ -75,7 +75,7 @@ TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
   }
   std::size_t bytes = 0;
   for (const EmbeddedFile& file : embedded_files()) bytes += file.bytes.size();
-  EXPECT_LT(bytes, 200'000U);
+  EXPECT_LT(bytes, 300'000U);
 }
 
 TEST(PageFiles, HoldNoOtherFileAndNoSecret) {

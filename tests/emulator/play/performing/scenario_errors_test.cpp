@@ -47,7 +47,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
       {"understudy: 1\nbench: feeder.yaml\nsteps: {}\n", "3: steps: expected a list, as in `[ a, b ]`"},
       {with("stepps: 1"),
        "3: stepps: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, "
-       "parameters, "
+       "parameters, environment, "
        "cases, choice, vary, steps, plays (the nearest is 'steps')"},
       {with("seed: 1\nseed: 2"), "4: seed: is given twice; expected it once"},
       {with("seed: -1"),
