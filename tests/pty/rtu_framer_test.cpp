@@ -149,7 +149,7 @@ TEST(RtuFramer, TakesTheLongestFrameAndNoLonger) {
 }
 
 TEST(RtuFramer, EndsUnknownFunctionsByPatience) {
-  for (const auto* text : {"01 2B 0E 01 00", "01 41", "01 08 00 00 12 34 56 78", "01 83 02", "01 00 07"}) {
+  for (const auto* text : {"01 2D 0E 01 00", "01 41", "01 08 00 00 12 34 56 78", "01 83 02", "01 00 07"}) {
     Wire wire;
     const Bytes frame = with_crc(text);
     wire.send(frame);
@@ -160,6 +160,15 @@ TEST(RtuFramer, EndsUnknownFunctionsByPatience) {
     EXPECT_EQ(bytes_of(*taken), frame) << text;
     EXPECT_EQ(taken->end, wire.now);
   }
+}
+
+TEST(RtuFramer, EndsARequestForTheIdentityBySilence) {
+  Wire wire;
+  const Bytes frame = with_crc("01 2B 0E 01 00");
+  wire.send(frame);
+  ASSERT_EQ(wire.framer.due(), wire.now + kSilence);
+  wire.wait(kSilence + 1ns);
+  EXPECT_EQ(wire.frames, Frames{frame});
 }
 
 TEST(RtuFramer, SurvivesAHostThatStallsInsideAFrame) {
