@@ -7,7 +7,8 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-constexpr std::array kAllHeadings{
+// A plain std::array of so many would be more than clang deduces.
+constexpr auto kAllHeadings = std::to_array<Heading>({
     Heading{"table", Column::table, 0},
     Heading{"register type", Column::table, 2},
     Heading{"reg type", Column::table, 2},
@@ -345,7 +346,7 @@ constexpr std::array kAllHeadings{
     Heading{"notes", Column::left_out, 0},
     Heading{"remarks", Column::left_out, 0},
     Heading{"section", Column::left_out, 0},
-};
+});
 
 }  // namespace
 
