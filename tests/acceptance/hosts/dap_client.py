@@ -79,12 +79,11 @@ class Client:
         return answer["message"]
 
     def event(self, name):
-        """Waits for the next event of that name; drops those before it."""
+        """Waits for the next event of that name. Others are kept."""
         while True:
-            while self.events:
-                event = self.events.pop(0)
+            for place, event in enumerate(self.events):
                 if event["event"] == name:
-                    return event.get("body", {})
+                    return self.events.pop(place).get("body", {})
             message = self.receive()
             assert message is not None, "the adapter has ended before the event " + name
             self.events.append(message)
@@ -352,6 +351,7 @@ def case_bad():
         assert "unknown" in adapter.refused("fly")
         adapter.ask("configurationDone")
         adapter.event("stopped")
+        assert adapter.event("output")["output"].startswith("line "), "it says where hosts find the line"
         for text in (b"{", b"[]", b"7", b'{"type":"request"}', b'{"seq":"x","type":"request","command":"threads"}',
                      b'{"seq":1,"arguments":' + b"[" * 100000, b'{"seq":1,"a":' + b"[" * 500 + b"]" * 500 + b"}"):
             adapter.raw(b"Content-Length: %d\r\n\r\n" % len(text) + text)
