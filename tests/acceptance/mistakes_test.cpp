@@ -307,7 +307,7 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
   for (const List& list : std::vector<List>{{"address,name\n40001,A\n40002,B\n", true},
                                             {"address,name,table\n40001,A,holding\n30001,B,input\n", true},
                                             {"address,name,table\n40001,A,holding\n1,B,coil\n", true},
-                                            {"address,name\n40001,A\n2,B\n", false},
+                                            {"address,name\n40001,A\n2,B\n", true},
                                             {"address,name\n40000,A\n40001,B\n", false},
                                             {"address,name,table\n30001,A,holding\n", false},
                                             {"address,name,table\n1,A,coil\n", false}}) {
@@ -315,10 +315,10 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
     folder_.write(name + ".csv", list.text);
     const Finished finished = understudy({"import", at(name + ".csv")});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-    EXPECT_EQ(
-        finished.output.find("\nnote: these addresses look like Modicon addresses") != std::string::npos,
-        list.is_remarked)
-        << list.text << finished.output;
+    const std::string said = finished.errors + finished.output;
+    EXPECT_EQ(said.find("read as Modicon's numbers: '40001' is 0 on the wire") != std::string::npos,
+              list.is_remarked)
+        << list.text << said;
   }
 }
 
