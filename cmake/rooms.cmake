@@ -39,9 +39,18 @@ endfunction()
 
 # For rooms without hot code: optimizing them would take longer than it would ever save.
 function(compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  compile_cold(${target} -O1)
+endfunction()
+
+# The same, for much code of which little runs: the portable archive has at most 5 MB.
+function(compile_small target)
+  compile_cold(${target} -Os)
+endfunction()
+
+function(compile_cold target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # At this level, g++ 12 thinks that std::string's operator+ exceeds bounds (GCC bug 105651).
+    # At these levels, g++ 12 thinks that std::string's operator+ exceeds bounds (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
   endif()
 endfunction()
