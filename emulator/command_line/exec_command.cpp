@@ -96,7 +96,7 @@ int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
                  command.c_str());
     return kExitNoHostTime;
   }
-  return end.exit_code;
+  return end.was_stopped ? static_cast<int>(kExitWell) : end.exit_code;
 }
 
 /// Serves the bench until both the command and the scenario alongside it end.

@@ -101,9 +101,14 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string rerun_of(const play::Scenario& scenario, const HostArguments& host) {
+/// Returns the words that run this case alone, with all that decides what it does.
+std::string rerun_of(const play::Scenario& scenario, const RunArguments& arguments) {
+  const HostArguments& host = arguments.host;
   std::string text = "exec " + shell_word(scenario.file);
   if (host.host_time) text += " --host-time";
+  if (host.tty_shim) text += " --tty-shim";
+  if (!arguments.timeout.empty()) text += " --timeout " + shell_word(arguments.timeout);
+  if (arguments.seed) text += " --seed " + std::to_string(*arguments.seed);
   if (scenario.which.is_varied) text += " --filter " + play::identity_text(play::identity_of(scenario.which));
   text += " --";
   for (const std::string& word : host.command) text += " " + shell_word(word);
@@ -156,7 +161,7 @@ std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, 
   }
   play::ScenarioResult& result = end.results.front();
   result.recording = recording;
-  result.rerun = rerun_of(scenario, arguments.host);
+  result.rerun = rerun_of(scenario, arguments);
   const std::string why = why_failed(end, scenario, arguments.timeout);
   if (!result.failure && !why.empty()) {
     result.verdict = play::ScenarioResult::Verdict::failed;

@@ -129,7 +129,10 @@ class Course final : public play::HostCommand {
   std::optional<int> exit_code() const override {
     return is_command_over_ ? std::optional(child_->exit_code()) : std::nullopt;
   }
-  void stop() override { end_command(SIGTERM); }
+  void stop() override {
+    end_.was_stopped = true;
+    end_command(SIGTERM);
+  }
 
  private:
   void start_command() {
@@ -153,7 +156,7 @@ class Course final : public play::HostCommand {
 
   void on_command_over() {
     is_command_over_ = true;
-    const bool is_of_scenario = setup_.output >= 0 && !end_.has_timed_out;
+    const bool is_of_scenario = (setup_.output >= 0 || end_.was_stopped) && !end_.has_timed_out;
     // No client is left that could advance the time. In host time the scenario itself does.
     if ((child_->was_ended() && !is_of_scenario) || (daemon_.pacer().standing() && !host_time_))
       give_up_scenario();
@@ -166,7 +169,7 @@ class Course final : public play::HostCommand {
     const bool has_failed =
         side_scenario_ && !side_scenario_->was_given_up() &&
         side_scenario_->results().front().verdict == play::ScenarioResult::Verdict::failed;
-    if (setup_.output >= 0 && has_failed) stop();
+    if (setup_.output >= 0 && has_failed) end_command(SIGTERM);
     stop_if_over();
   }
 

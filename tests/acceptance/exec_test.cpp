@@ -328,6 +328,16 @@ TEST_F(ExecWith, IsGivenUpWithTheCommand) {
   EXPECT_EQ(with(long_wait, "true", {"--speed", "manual"}).exit_code, 1);
 }
 
+TEST_F(ExecWith, StopsTheCommandAndGoesOn) {
+  const std::string stop = "- host: stop\n- advance: 10ms\n";
+  const Finished passed = with(stop + "- assert: feeder.STATUS.4 == 0\n", "exec sleep 60");
+  EXPECT_EQ(passed.exit_code, 0) << passed.errors;
+  EXPECT_NE(passed.errors.find("ok "), std::string::npos) << passed.errors;
+  const Finished failed = with(stop + "- assert: feeder.STATUS.4 == 1\n", "exec sleep 60");
+  EXPECT_EQ(failed.exit_code, 1) << failed.errors;
+  EXPECT_NE(failed.errors.find("'feeder.STATUS.4 == 1' does not hold"), std::string::npos) << failed.errors;
+}
+
 TEST_F(ExecWith, RefusesStepsThatAreTheCommands) {
   for (const char* step :
        {"- write: { feeder.Aaxis_SVON: 1 }", "- expect: { feeder.Cord_A: 0 }", "- send: { bytes: 01 03 }",

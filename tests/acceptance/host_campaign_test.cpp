@@ -94,7 +94,8 @@ constexpr const char* kLostReplies =
 
 TEST_F(HostCampaign, FindsAMoveThatIsMadeTwice) {
   // The fourth request starts the move. If its answer is lost, the host sends it again.
-  const Finished naive = exec(kLostReplies, host("naive"), {"--host-time", "--failures", folder() / "found"});
+  const Finished naive =
+      exec(kLostReplies, host("naive"), {"--host-time", "--seed", "3", "--failures", folder() / "found"});
   EXPECT_EQ(naive.exit_code, 1) << naive.errors;
   EXPECT_TRUE(has(naive.output, "(pulses=3200, nth=4)")) << naive.output;
   EXPECT_TRUE(has(naive.output, "feeder.A.pulses is ")) << naive.output;
@@ -102,6 +103,7 @@ TEST_F(HostCampaign, FindsAMoveThatIsMadeTwice) {
   EXPECT_TRUE(has(naive.output, "2 failed in the same way")) << naive.output;
   EXPECT_TRUE(has(naive.output, "8 passed, 2 failed")) << naive.output;
   EXPECT_TRUE(has(naive.output, "to run this case alone: understudy exec ")) << naive.output;
+  EXPECT_TRUE(has(naive.output, " --host-time --seed 3 --filter ")) << naive.output;
   EXPECT_TRUE(has(naive.output, " naive '${pulses}'\n")) << naive.output;
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder() / "found"), {}), 1);
   EXPECT_EQ(exec(kLostReplies, host("careful")).exit_code, 0);
