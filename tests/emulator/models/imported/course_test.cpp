@@ -7,6 +7,7 @@
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/imported/one_described.h"
 #include "tests/emulator/world/same_world.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::models::imported {
 namespace course_test {
@@ -72,7 +73,7 @@ void act_on(OneDescribed& one, const Course::Act& act) {
 
 TEST(DescribedCourses, AreTheSameBySingleTicksAndAfterARestore) {
   std::uint64_t crossed = 0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < fewer_if_sanitized(60U, 4U); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Course course(seed);
     const std::string model = course.model();
@@ -103,7 +104,7 @@ TEST(DescribedCourses, AreTheSameBySingleTicksAndAfterARestore) {
     crossed += plain.world.ticks_skipped();
     EXPECT_EQ(twin.world.ticks_skipped(), 0U);
   }
-  EXPECT_GT(crossed, 500'000U);
+  EXPECT_GT(crossed, fewer_if_sanitized(500'000U, 4U));
 }
 
 TEST(DescribedMemory, KeepsWhatTheListCallsPersistent) {

@@ -10,6 +10,7 @@
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/super_40nc/listings.h"
 #include "tests/emulator/world/same_world.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::models::super_40nc {
 namespace crossing_test {
@@ -106,7 +107,8 @@ std::uint64_t number_from(const char* name, std::uint64_t usual) {
 TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
   const std::uint64_t first = number_from("UNDERSTUDY_SEED", 1);
   std::uint64_t ticks_skipped = 0;
-  for (std::uint64_t seed = first; seed < first + number_from("UNDERSTUDY_COURSES", 60); ++seed) {
+  for (std::uint64_t seed = first;
+       seed < first + number_from("UNDERSTUDY_COURSES", fewer_if_sanitized(60U, 4U)); ++seed) {
     std::mt19937_64 random(seed);
     const Given given = drawn(seed);
     OneSuper40nc single(given);

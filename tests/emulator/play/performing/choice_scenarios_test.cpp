@@ -14,6 +14,7 @@
 #include "emulator/device/model.h"
 #include "emulator/models/models.h"
 #include "tests/emulator/play/performing/choice_check.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::play {
 namespace choice_scenarios_test {
@@ -37,6 +38,7 @@ Proofs proofs_of(const Model& model) {
 }
 
 TEST(ChoiceScenarios, TellTheOptionsOfEveryRowApart) {
+  std::size_t rows = 0;
   for (const Model* const model : models::all_models()) {
     Proofs proofs = proofs_of(*model);
     for (const ChoiceRow& row : model->choices) {
@@ -50,6 +52,7 @@ TEST(ChoiceScenarios, TellTheOptionsOfEveryRowApart) {
                       << (file.empty() ? "no row of kProofs has its section" : file + " has no play of it");
         continue;
       }
+      if (++rows % (is_sanitized() ? 4 : 1) != 0) continue;
       for (const std::string& diagnostic : diagnostics_of_proof(row, *proof)) ADD_FAILURE() << diagnostic;
     }
   }

@@ -8,6 +8,7 @@
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "tests/emulator/world/view/same_inventory.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::play {
 namespace shipped_inventory_test {
@@ -26,8 +27,7 @@ TEST(ShippedInventory, IsThatOfTheWorldMadeOfTheBench) {
         ++benches;
       } else if (kind == FileKind::scenario) {
         for (const Scenario& scenario : load_scenarios(models::all_models(), path)) {
-          world::expect_same_inventory(scenario.bench);
-          ++scenarios;
+          if (++scenarios % (is_sanitized() ? 5 : 1) == 0) world::expect_same_inventory(scenario.bench);
         }
       }
     }

@@ -5,6 +5,7 @@
 
 #include "emulator/world/expression/tolerance.h"
 #include "tests/emulator/world/expression/bench_of_names.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::world {
 namespace mutated_expressions_test {
@@ -79,7 +80,7 @@ TEST(MutatedExpressions, AreAcceptedOrRefusedInOneLine) {
   std::mt19937_64 random(5);
   int taken = 0;
   int ranges = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < fewer_if_sanitized(100'000, 5); ++i) {
     const std::string text = drawn(random);
     try {
       const Expression expression = parse_expression(text, bench);
@@ -109,8 +110,8 @@ TEST(MutatedExpressions, AreAcceptedOrRefusedInOneLine) {
       }
     }
   }
-  EXPECT_GT(taken, 2'000);
-  EXPECT_GT(ranges, 1'000);
+  EXPECT_GT(taken, fewer_if_sanitized(2'000, 5));
+  EXPECT_GT(ranges, fewer_if_sanitized(1'000, 5));
   RecordProperty("taken", taken);
   RecordProperty("ranges", ranges);
 }

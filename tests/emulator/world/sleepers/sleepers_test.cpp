@@ -19,6 +19,7 @@
 #include "tests/emulator/world/sleepers/life.h"
 
 #include "tests/emulator/world/stepping.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::world::sleepers {
 namespace sleepers_test {
@@ -206,17 +207,14 @@ class Pair {
   Stepping step_ = [](World& world, SimTime to) { world.advance_to(to); };
 };
 
-#ifdef UNDERSTUDY_SANITIZED
-constexpr std::uint64_t kCourses = 15;
-#else
 constexpr std::uint64_t kCourses = 100;  // of each model; 10,000 have been tried
-#endif
 
 class Sleepers : public testing::TestWithParam<const char*> {};
 
 TEST_P(Sleepers, AreWokenByAllThatMattersToThem) {
   const std::uint64_t first = number_from("UNDERSTUDY_SEED", 3'200'000);
-  const std::uint64_t courses = number_from("UNDERSTUDY_COURSES", kCourses);
+  const std::uint64_t courses =
+      number_from("UNDERSTUDY_COURSES", fewer_if_sanitized<std::uint64_t>(kCourses, 6));
   std::uint64_t crossed = 0;
   std::uint64_t run = 0;
   int differ = 0;
