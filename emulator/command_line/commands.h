@@ -136,6 +136,7 @@ struct ReplayArguments {
   std::string capture;
   std::string report;
   std::optional<int> page;  // the port of the recording's live page; 0: any
+  bool serve = false;       // the whole recording, without a page
   std::string version;      // the version of this program
 };
 int replay_recording(ModelList models, const ReplayArguments& arguments);

@@ -92,7 +92,9 @@ void add_step_words(const ControlArguments& arguments, Json& message) {
   message["what"] = words[0];
   for (std::size_t i = 1; i < words.size(); ++i) {
     const auto pair = keyed(words[i]);
-    if (!pair) {
+    if (words[i] == "back") {
+      message["back"] = true;
+    } else if (!pair) {
       message["device"] = words[i];
     } else if (pair->key == "program" || pair->key == "within") {
       message[pair->key] = pair->value;
@@ -273,9 +275,12 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
     add_break_words(arguments, message);
   } else if (verb == "continue") {
     if (arguments.operands.size() > 1) throw extra_word(arguments);
-    if (!arguments.operands.empty()) {
+    if (!arguments.operands.empty() && arguments.operands[0] == "back") {
+      message["back"] = true;
+    } else if (!arguments.operands.empty()) {
       const auto pair = keyed(arguments.operands[0]);
-      if (!pair || pair->key != "within") throw stray_word(arguments, arguments.operands[0], "within=10s");
+      if (!pair || pair->key != "within")
+        throw stray_word(arguments, arguments.operands[0], "within=10s or back");
       message["within"] = pair->value;
     }
   } else if (verb == "speed") {

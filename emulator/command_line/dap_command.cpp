@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,24 +52,37 @@ dap::Launched attach(const dap::Json& arguments) {
   return {.socket = choose_daemon(which)};
 }
 
-dap::Launched launch(const dap::Json& arguments) {
+/// Returns the words that serve what is to be debugged. A scenario has been recorded.
+std::vector<std::string> words_to_serve(const dap::Json& arguments, std::string recording) {
   const std::string bench = text_in(arguments, "bench");
   const std::string model = text_in(arguments, "model");
-  if (bench.empty() == model.empty()) throw dap::RequestError("expected one of bench and model");
+  if (recording.empty()) recording = text_in(arguments, "recording");
+  if (!recording.empty()) return {"replay", recording, "--serve"};
   std::vector<std::string> words{"serve", "--speed", "manual"};
   if (model.empty()) {
     words.push_back(bench);
   } else {
     words.insert(words.end(), {"--model", model});
   }
-  if (arguments.contains("args")) {
-    for (const dap::Json& word : dap::require_list(arguments, "args")) {
-      if (!word.is_string()) throw dap::RequestError("args: expected a list of texts");
-      words.push_back(word.get<std::string>());
-    }
+  if (!arguments.contains("args")) return words;
+  for (const dap::Json& word : dap::require_list(arguments, "args")) {
+    if (!word.is_string()) throw dap::RequestError("args: expected a list of texts");
+    words.push_back(word.get<std::string>());
   }
+  return words;
+}
+
+dap::Launched launch(const dap::Json& arguments) {
+  int given = 0;
+  for (const char* what : {"bench", "model", "recording", "scenario"})
+    given += text_in(arguments, what).empty() ? 0 : 1;
+  if (given != 1) throw dap::RequestError("expected one of bench, model, recording and scenario");
+  std::optional<RecordedScenario> recorded;
+  if (const std::string scenario = text_in(arguments, "scenario"); !scenario.empty())
+    recorded.emplace(scenario);
   const std::string socket = serve::own_control_path();
-  const auto started = std::make_shared<DebuggedBench>(std::move(words), socket);
+  const auto started = std::make_shared<DebuggedBench>(
+      words_to_serve(arguments, recorded ? recorded->recording() : std::string()), socket);
   return {
       .socket = socket, .end = [started] { started->end(); }, .news = [started] { return started->news(); }};
 }

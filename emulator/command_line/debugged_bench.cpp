@@ -11,8 +11,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -40,30 +44,16 @@ std::string last_line(std::string text) {
   return one_line(text);
 }
 
-}  // namespace
-
-DebuggedBench::DebuggedBench(std::vector<std::string> words, const std::string& socket)
-    : said_(memfd_create("understudy-dap", MFD_CLOEXEC)) {
-  words.insert(words.begin(), "understudy");
+std::vector<std::string> with_socket(std::vector<std::string> words, const std::string& socket) {
   words.insert(words.end(), {"--control", socket});
-  start(words);
-  const auto end_of_patience = std::chrono::steady_clock::now() + kStarting;
-  while (!serve::is_answered(socket)) {
-    int status = 0;
-    if (waitpid(pid_, &status, WNOHANG) == pid_) {
-      pid_ = -1;
-      const std::string why = last_line(news());
-      throw dap::RequestError(why.empty() ? "the bench has ended before it was served" : why);
-    }
-    if (is_interrupted() || std::chrono::steady_clock::now() > end_of_patience) {
-      end();
-      throw dap::RequestError("the bench has not started within 60 s");
-    }
-    std::this_thread::sleep_for(kAgain);
-  }
+  return words;
 }
 
-void DebuggedBench::start(std::vector<std::string>& words) {
+}  // namespace
+
+QuietProgram::QuietProgram(std::vector<std::string> words)
+    : said_(memfd_create("understudy-dap", MFD_CLOEXEC)) {
+  words.insert(words.begin(), "understudy");
   const pid_t parent = getpid();
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -81,14 +71,21 @@ void DebuggedBench::start(std::vector<std::string>& words) {
   _exit(kExitNoResource);
 }
 
-void DebuggedBench::end() {
+void QuietProgram::end() {
   if (pid_ < 0) return;
   kill(pid_, SIGTERM);
   waitpid(pid_, nullptr, 0);
   pid_ = -1;
 }
 
-std::string DebuggedBench::news() {
+std::optional<int> QuietProgram::ended() {
+  int status = 0;
+  if (waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+  pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kExitInternal;
+}
+
+std::string QuietProgram::news() {
   std::array<char, 4096> some{};
   std::string text;
   for (ssize_t got = 0; (got = pread(said_.get(), some.data(), some.size(), told_)) > 0; told_ += got)
@@ -97,6 +94,57 @@ std::string DebuggedBench::news() {
   told_ -= static_cast<off_t>(text.size() - whole);
   text.resize(whole);
   return text;
+}
+
+DebuggedBench::DebuggedBench(std::vector<std::string> words, const std::string& socket)
+    : program_(with_socket(std::move(words), socket)) {
+  const auto end_of_patience = std::chrono::steady_clock::now() + kStarting;
+  while (!serve::is_answered(socket)) {
+    if (program_.ended()) {
+      const std::string why = last_line(program_.news());
+      throw dap::RequestError(why.empty() ? "the bench has ended before it was served" : why);
+    }
+    if (is_interrupted() || std::chrono::steady_clock::now() > end_of_patience)
+      throw dap::RequestError("the bench has not started within 60 s");
+    std::this_thread::sleep_for(kAgain);
+  }
+}
+
+RecordedScenario::RecordedScenario(const std::string& scenario)
+    : folder_((std::filesystem::temp_directory_path() / "understudy-dap-XXXXXX").string()) {
+  if (mkdtemp(folder_.data()) == nullptr)
+    throw dap::RequestError(folder_ + ": cannot be made; expected a folder for recordings");
+  try {
+    QuietProgram run({"run", scenario, "--record", folder_});
+    std::optional<int> code;
+    while (!(code = run.ended())) {
+      if (is_interrupted()) throw dap::RequestError("scenario: interrupted");
+      std::this_thread::sleep_for(kAgain);
+    }
+    if (*code != kExitWell && *code != kExitFailed) throw dap::RequestError(last_line(run.news()));
+    find_recording();
+  } catch (...) {
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
+    throw;
+  }
+}
+
+RecordedScenario::~RecordedScenario() {
+  std::error_code error;
+  std::filesystem::remove_all(folder_, error);
+}
+
+void RecordedScenario::find_recording() {
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".jsonl") continue;
+    if (!recording_.empty())
+      throw dap::RequestError(
+          "scenario: there are several; expected a file of one, or `run --record` and then "
+          "one of its recordings");
+    recording_ = entry.path().string();
+  }
+  if (recording_.empty()) throw dap::RequestError("scenario: it has left no recording; expected one");
 }
 
 }  // namespace understudy::emulator::command_line

@@ -1,8 +1,9 @@
-// A daemon that a debug adapter has started: this program, run again.
+// What a debug adapter has started: this program, run again.
 #pragma once
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,25 +11,55 @@
 
 namespace understudy::emulator::command_line {
 
+/// This program, run again. It ends with this process, and its log goes to a file in memory.
+class QuietProgram {
+ public:
+  explicit QuietProgram(std::vector<std::string> words);
+  ~QuietProgram() { end(); }
+  QuietProgram(const QuietProgram&) = delete;
+  QuietProgram& operator=(const QuietProgram&) = delete;
+
+  void end();
+  /// Returns its exit code, or nothing while it runs.
+  std::optional<int> ended();
+  /// Returns the whole lines that it has logged since the last call.
+  std::string news();
+
+ private:
+  Descriptor said_;
+  off_t told_ = 0;  // of its bytes
+  pid_t pid_ = -1;
+};
+
+/// A scenario that has been run to its end, or to its failure.
+class RecordedScenario {
+ public:
+  /// Throws dap::RequestError if it cannot be run, or is more than one.
+  explicit RecordedScenario(const std::string& scenario);
+  ~RecordedScenario();
+  RecordedScenario(const RecordedScenario&) = delete;
+  RecordedScenario& operator=(const RecordedScenario&) = delete;
+
+  const std::string& recording() const { return recording_; }
+
+ private:
+  void find_recording();
+
+  std::string folder_;  // is removed with it
+  std::string recording_;
+};
+
 class DebuggedBench {
  public:
   /// Runs `understudy WORDS --control SOCKET`, and returns when it answers there. Throws dap::RequestError
   /// with what it said if it ends before.
   DebuggedBench(std::vector<std::string> words, const std::string& socket);
-  ~DebuggedBench() { end(); }
-  DebuggedBench(const DebuggedBench&) = delete;
-  DebuggedBench& operator=(const DebuggedBench&) = delete;
 
-  void end();
-  /// Returns the whole lines that it has logged since the last call.
-  std::string news();
+  void end() { program_.end(); }
+  std::string news() { return program_.news(); }
 
  private:
-  void start(std::vector<std::string>& words);
-
-  Descriptor said_;  // a file in memory
-  off_t told_ = 0;   // of its bytes
-  pid_t pid_ = -1;
+  QuietProgram program_;
 };
 
 }  // namespace understudy::emulator::command_line

@@ -126,7 +126,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why);
   }
   if (arguments.page) require_page_port("replay: --page", *arguments.page);
-  if (arguments.page) return travel_in(models, arguments, until);
+  if (arguments.page || arguments.serve) return travel_in(models, arguments, until);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   require_looks(arguments, claims);

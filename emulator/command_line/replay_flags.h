@@ -15,7 +15,7 @@ inline void add_replay_flags(CLI::App& command, ReplayArguments& replay) {
       ->check(kNotEmpty);
   command
       .add_option("--control", replay.control,
-                  "Path of the control socket, with --until or --page [a private path]")
+                  "Path of the control socket, with --until, --serve or --page [a private path]")
       ->check(kNotEmpty);
   CLI::Option* const trace = command.add_option(
       "--trace", replay.trace,
@@ -35,6 +35,12 @@ inline void add_replay_flags(CLI::App& command, ReplayArguments& replay) {
           "Open the recording in a browser, at the time of --until if given, on this port [any free port]")
       ->expected(0, 1)
       ->default_str("0")
+      ->excludes(trace, trace_also, capture, report);
+  command
+      .add_flag(
+          "--serve", replay.serve,
+          "Serve the recording for `ctl` and debuggers, at the time of --until, at its failure, or from its "
+          "beginning")
       ->excludes(trace, trace_also, capture, report);
 }
 

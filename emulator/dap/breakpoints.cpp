@@ -210,6 +210,22 @@ Json Session::set_breakpoints(const Json& arguments) {
   return {{"breakpoints", std::move(all)}};
 }
 
+/// Returns the lines that have an instruction.
+Json Session::breakpoint_locations(const Json& arguments) {
+  const Json& source = require(arguments, "source");
+  const std::int64_t first = require_whole(arguments, "line") + line_offset_;
+  const std::int64_t last = whole_or(arguments, "endLine", first - line_offset_) + line_offset_;
+  std::string why_none;
+  std::string what_differs;
+  const std::vector<std::size_t> devices = devices_with(source, why_none, what_differs);
+  Json all = Json::array();
+  if (devices.empty()) return {{"breakpoints", std::move(all)}};
+  for (const Json& line : source_of(devices.front()).lines) {
+    if (line >= first && line <= last) all.push_back({{"line", line.get<std::int64_t>() - line_offset_}});
+  }
+  return {{"breakpoints", std::move(all)}};
+}
+
 Json Session::set_exception_breakpoints(const Json& arguments) {
   Json wanted = Json::array();
   if (arguments.contains("filters")) {

@@ -19,7 +19,10 @@ constexpr int kMostPages = 50;  // of events in one look
 }  // namespace
 
 Json Session::go_on(const Json& /*arguments*/) {
-  if (is_manual_) {
+  goes_back_ = false;
+  if (is_recording_) {
+    link_->begin({{"do", "continue"}});
+  } else if (is_manual_) {
     link_->begin({{"do", "continue"}, {"within", kLongTime}});
   } else {
     link_->ask({{"do", "resume"}});
@@ -40,19 +43,42 @@ Json Session::step_in(const Json& arguments) {
   return step(arguments, is_small ? "instruction" : "line");
 }
 
+void Session::require_recording() const {
+  if (!is_recording_) throw RequestError("only a recording goes back; expected a session with one");
+}
+
+Json Session::step_back(const Json& arguments) {
+  require_recording();
+  return step(arguments, text_or(arguments, "granularity") == "instruction" ? "instruction" : "line", true);
+}
+
+Json Session::reverse(const Json& /*arguments*/) {
+  require_recording();
+  goes_back_ = true;
+  link_->begin({{"do", "continue"}, {"back", true}});
+  phase_ = Phase::running;
+  return nullptr;
+}
+
 /// A refusal comes with the reply that tells the end of the step (look()).
-Json Session::step(const Json& arguments, const char* what) {
+Json Session::step(const Json& arguments, const char* what, bool is_back) {
   const Thread& thread = thread_of(arguments);
-  Json message{
-      {"do", "step"}, {"what", what}, {"device", devices_[thread.device].name}, {"within", kLongTime}};
+  goes_back_ = is_back;
+  Json message{{"do", "step"}, {"what", what}, {"device", devices_[thread.device].name}};
+  if (is_back) {
+    message["back"] = true;
+  } else if (!is_recording_) {
+    message["within"] = kLongTime;
+  }
   if (!thread.program.empty()) message["program"] = thread.program;
   link_->begin(message);
   phase_ = Phase::running;
   return nullptr;
 }
 
-/// The stop itself is seen by look().
+/// The stop itself is seen by look(). A recording stops by itself, at its end.
 Json Session::pause(const Json& /*arguments*/) {
+  if (is_recording_) return nullptr;
   link_->ask({{"do", "pause"}});
   wants_pause_ = phase_ == Phase::running;
   return nullptr;
@@ -186,10 +212,17 @@ void Session::look() {
       refusal = error.what();
       reply = Json::object();
     }
+    // What led to an earlier moment has been told before.
+    if (reply && goes_back_)
+      next_event_ = link_->ask({{"do", "events"}, {"last", 0}}).value("next", next_event_);
     const Json seen = look_at_bench();
     if (!reply) return follow(seen);
     if (!refusal.empty()) say(refusal + "\n");
-    stands(reply->value("stop", Json()), refusal.empty() ? "pause" : "step", refusal);
+    std::string text = refusal;
+    if (text.empty() && is_recording_)
+      text = goes_back_ ? "the recording begins here" : "the recording ends here";
+    if (text.empty() && !wants_pause_) text = "nothing has stopped it within " + std::string(kLongTime);
+    stands(reply->value("stop", Json()), refusal.empty() ? "pause" : "step", text);
   } catch (const RequestError& error) {
     has_ended(error.what());
   }

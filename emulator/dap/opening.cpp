@@ -15,6 +15,17 @@ namespace {
 
 constexpr const char* kAtLaunch = "dap";  // the snapshot to which `restart` goes back
 
+/// Returns the course of a recording, or null: only a daemon that serves one knows it.
+Json timeline_of(const BenchLink& link) {
+  try {
+    return link.ask({{"do", "timeline"}})["timeline"];
+  } catch (const GoneError&) {
+    throw;
+  } catch (const RequestError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Json Session::launch(const Json& arguments) {
@@ -40,13 +51,17 @@ void Session::open(std::string_view request, const Json& arguments) {
     next_event_ = next.value("next", std::uint64_t{1});
     is_manual_ = look.value("speed", std::string()) == "manual";
     was_paused_ = look.value("paused", false);
-    if (launched_.end && !launched_.is_recording) link_->ask({{"do", "snapshot"}, {"name", kAtLaunch}});
+    const Json timeline = timeline_of(*link_);
+    is_recording_ = !timeline.is_null();
+    failure_ = is_recording_ && timeline.contains("story") ? text_or(timeline["story"], "text") : "";
+    if (launched_.end && !is_recording_) link_->ask({{"do", "snapshot"}, {"name", kAtLaunch}});
     map_sources(arguments);
   } catch (...) {
     end();
     throw;
   }
   phase_ = Phase::configuring;
+  if (is_recording_) event("capabilities", {{"capabilities", {{"supportsStepBack", true}}}});
 }
 
 void Session::find_devices() {
@@ -80,7 +95,7 @@ void Session::map_sources(const Json& arguments) {
 
 /// Tells where hosts find the lines of a launched bench.
 void Session::say_ports() {
-  if (launched_.is_recording) return;
+  if (is_recording_) return;
   const Json daemon = link_->ask({{"do", "identify"}})["daemon"];
   for (const Json& line : daemon["lines"]) {
     std::string text = line.value("name", std::string());
@@ -97,14 +112,15 @@ void Session::say_ports() {
 
 Json Session::configuration_done(const Json& /*arguments*/) {
   phase_ = Phase::stopped;
-  if (launched_.end && !launched_.is_recording) {
+  if (is_recording_ && stops_at_entry_) link_->ask({{"do", "seek"}, {"to_ns", 0}});
+  if (launched_.end && !is_recording_) {
     if (speed_ != "manual") {
       link_->ask({{"do", "pause"}});
       link_->ask({{"do", "speed"}, {"to", speed_}});
       is_manual_ = false;
     }
     if (!stops_at_entry_) go_on(Json::object());
-  } else if (!launched_.is_recording && !is_manual_ && !was_paused_) {
+  } else if (!is_recording_ && !is_manual_ && !was_paused_) {
     if (stops_at_entry_) {
       link_->ask({{"do", "pause"}});
     } else {
@@ -114,9 +130,20 @@ Json Session::configuration_done(const Json& /*arguments*/) {
   return nullptr;
 }
 
+/// Tells where it stands when all is configured. The recording of a failure stands there.
+void Session::stands_at_entry() {
+  if (failure_.empty() || stops_at_entry_) return stands(Json(), "entry");
+  say(failure_ + "\n");
+  stands(Json(), "exception", failure_);
+}
+
 Json Session::restart(const Json& /*arguments*/) {
-  if (!launched_.end || launched_.is_recording)
-    throw RequestError("only a launched bench starts anew; expected a session by `launch`");
+  if (is_recording_) {
+    link_->ask({{"do", "seek"}, {"to_ns", 0}});
+    stands(Json(), "entry");
+    return nullptr;
+  }
+  if (!launched_.end) throw RequestError("only a launched bench starts anew; expected a session by `launch`");
   link_->pause();
   phase_ = Phase::stopped;
   delete_from_bench();
@@ -149,7 +176,7 @@ void Session::end() {
   if (!link_) return;
   try {
     if (!launched_.end) {
-      if (awaited() >= 0) link_->pause();
+      if (awaited() >= 0 && !is_recording_) link_->pause();
       delete_from_bench();
       if (phase_ == Phase::stopped && !is_manual_ && !was_paused_) link_->ask({{"do", "resume"}});
     }

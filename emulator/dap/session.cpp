@@ -60,12 +60,13 @@ constexpr std::array<Filter, 6> kFilters{
 
 std::span<const Session::Row> Session::rows() {
   using S = Session;
-  static constexpr std::array<Row, 25> kRows{{
+  static constexpr std::array<Row, 28> kRows{{
       {"initialize", &S::initialize, kFresh},
       {"launch", &S::launch, kReady},
       {"attach", &S::attach, kReady},
       {"configurationDone", &S::configuration_done, kConfiguring},
       {"setBreakpoints", &S::set_breakpoints, kThere},
+      {"breakpointLocations", &S::breakpoint_locations, kThere},
       {"setExceptionBreakpoints", &S::set_exception_breakpoints, kThere},
       {"setDataBreakpoints", &S::set_data_breakpoints, kThere},
       {"dataBreakpointInfo", &S::data_breakpoint_info, kThere},
@@ -82,6 +83,8 @@ std::span<const Session::Row> Session::rows() {
       {"next", &S::next, kStopped},
       {"stepIn", &S::step_in, kStopped},
       {"stepOut", &S::step_out, kStopped},
+      {"stepBack", &S::step_back, kStopped},
+      {"reverseContinue", &S::reverse, kStopped},
       {"pause", &S::pause, kStopped | kRunning},
       {"restart", &S::restart, kStopped | kRunning},
       {"terminate", &S::terminate, kAny},
@@ -115,7 +118,7 @@ void Session::handle(const std::string& text) {
   send_(reply);
   // A client waits for these after the reply.
   if (phase_ == Phase::configuring && before == Phase::ready) event("initialized", nullptr);
-  if (before == Phase::configuring && phase_ == Phase::stopped) stands(Json(), "entry");
+  if (before == Phase::configuring && phase_ == Phase::stopped) stands_at_entry();
   if (phase_ == Phase::ended && before != Phase::ended) event("terminated", nullptr);
 }
 
@@ -158,7 +161,8 @@ Json Session::initialize(const Json& arguments) {
         "supportsHitConditionalBreakpoints", "supportsLogPoints", "supportsEvaluateForHovers",
         "supportsSetVariable", "supportsSetExpression", "supportsCompletionsRequest",
         "supportsDataBreakpoints", "supportsSteppingGranularity", "supportsRestartRequest",
-        "supportsTerminateRequest", "supportsExceptionFilterOptions", "supportsValueFormattingOptions"})
+        "supportsTerminateRequest", "supportsBreakpointLocationsRequest", "supportsExceptionFilterOptions",
+        "supportsValueFormattingOptions"})
     capabilities[able] = true;
   return capabilities;
 }

@@ -21,7 +21,6 @@ struct Launched {
   std::string socket;
   std::function<void()> end{};          // ends it; empty if it is not ours
   std::function<std::string()> news{};  // what it has said since the last call; may be empty
-  bool is_recording = false;
 };
 /// Starts or finds a daemon for the request `launch` or `attach` with these arguments. A daemon that it
 /// starts has a stopped clock. Throws an exception of one sentence.
@@ -101,6 +100,7 @@ class Session {
   Json launch(const Json& arguments);
   Json attach(const Json& arguments);
   Json configuration_done(const Json& arguments);
+  void stands_at_entry();
   Json restart(const Json& arguments);
   Json terminate(const Json& arguments);
   Json disconnect(const Json& arguments);
@@ -128,8 +128,11 @@ class Session {
   Json next(const Json& arguments);
   Json step_in(const Json& arguments);
   Json step_out(const Json& arguments);
+  Json step_back(const Json& arguments);
+  Json reverse(const Json& arguments);
   Json pause(const Json& arguments);
-  Json step(const Json& arguments, const char* what);
+  Json step(const Json& arguments, const char* what, bool is_back = false);
+  void require_recording() const;
   void stands(const Json& stop, const char* reason, const std::string& text = {});
   const char* reason_of(const Json& stop, Json& body) const;
   void hear_events(const Json& events);
@@ -139,6 +142,7 @@ class Session {
 
   // breakpoints.cpp
   Json set_breakpoints(const Json& arguments);
+  Json breakpoint_locations(const Json& arguments);
   Json set_exception_breakpoints(const Json& arguments);
   Json set_data_breakpoints(const Json& arguments);
   Json data_breakpoint_info(const Json& arguments);
@@ -183,6 +187,9 @@ class Session {
   bool stops_at_entry_ = false;
   bool is_manual_ = true;
   bool wants_pause_ = false;
+  bool is_recording_ = false;
+  bool goes_back_ = false;   // in a recording
+  std::string failure_{};    // with which the recording of a scenario ends, in a sentence
   bool was_paused_ = false;  // when it was attached
   std::string speed_{};      // that a launched bench is to have
   Launched launched_{};

@@ -120,14 +120,17 @@ class Bench:
         """Deletes a breakpoint; without a number all of them."""
         self.ask("break", delete="all" if number is None else number)
 
-    def go_on(self, within: Optional[str] = None) -> Optional[Dict[str, Any]]:
-        """Lets time run; with `within` until the next stop, which it returns, or None if there was none."""
-        return cast(Optional[Dict[str, Any]], self.ask("continue", **_given({"within": within})).get("stop"))
+    def go_on(self, within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
+        """Lets time run; with `within` until the next stop, which it returns, or None if there was none. A
+        recording also goes back."""
+        asked = {"within": within, "back": back}
+        return cast(Optional[Dict[str, Any]], self.ask("continue", **_given(asked)).get("stop"))
 
     def step_program(self, what: str = "line", device: Optional[str] = None, program: Optional[str] = None,
-                     within: Optional[str] = None) -> Optional[Dict[str, Any]]:
-        """Steps by instruction, line, over, out or stand; returns the stop, or None if time ran out."""
-        asked = {"what": what, "device": device, "program": program, "within": within}
+                     within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
+        """Steps by instruction, line, over, out or stand; returns the stop, or None if time ran out. A recording
+        also goes back."""
+        asked = {"what": what, "device": device, "program": program, "within": within, "back": back}
         return cast(Optional[Dict[str, Any]], self.ask("step", **_given(asked)).get("stop"))
 
     def stack(self, device: Optional[str] = None) -> List[Dict[str, Any]]:

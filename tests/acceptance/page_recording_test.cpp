@@ -155,7 +155,6 @@ TEST_F(PageOfAFailure, RefusesWhateverActs) {
       {{"do", "snapshots"}, {"drop", "here"}},
       {{"do", "advance"}, {"by", "5ms"}},
       {{"do", "run-until"}, {"condition", "time > 0"}},
-      {{"do", "step"}, {"ticks", 1}},
       {{"do", "pause"}},
       {{"do", "resume"}},
       {{"do", "speed"}, {"to", "real"}}};

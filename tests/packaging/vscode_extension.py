@@ -211,6 +211,10 @@ class Debugger(unittest.TestCase):
     def test_launch_configurations_start(self):
         with tempfile.TemporaryDirectory() as folder:
             understudy("init", "--model", "simple2-r3", folder)
+            said = understudy("run", "--record", folder, os.path.join(folder, "first_move.yaml"))
+            recordings = [name for name in os.listdir(folder) if name.endswith(".jsonl")]
+            self.assertEqual(len(recordings), 1, said.stdout + said.stderr)
+            os.rename(os.path.join(folder, recordings[0]), os.path.join(folder, "run.jsonl"))
             for configuration in self.configurations():
                 arguments = {key: value.replace("${workspaceFolder}", folder) if isinstance(value, str) else value
                              for key, value in configuration.items()}

@@ -41,9 +41,7 @@ namespace {
 
 using PointKind = world::BreakpointSetup::Kind;
 
-constexpr std::uint64_t kMaxStepTicks = 3'600'000;  // an hour
 constexpr std::uint64_t kMaxLine = 1'000'000;
-constexpr std::size_t kMaxWords = 1'000;  // of a program, that are looked up
 constexpr std::array<std::string_view, 5> kKinds{"line", "instruction", "when", "write", "on"};
 constexpr std::array<std::pair<std::string_view, world::StepKind>, 5> kSteps{
     {{"instruction", world::StepKind::instruction},
@@ -124,98 +122,7 @@ world::BreakpointSetup setup_of(const Daemon& daemon, const Json& message) {
   return setup;
 }
 
-/// Returns the register that a program writes as the parameter "VAR32", or the word as it is.
-std::string register_of(const Device& device, const std::string& word) {
-  const std::int64_t number = word.starts_with("VAR") ? parse_integer(word.substr(3)).value_or(-1) : -1;
-  for (const ParameterRow& row : device.model().parameters) {
-    const bool is_in = row.letter.empty() && number >= row.first && number < row.first + row.count;
-    if (!is_in) continue;
-    std::string name(row.register_name);
-    if (const std::size_t place = name.find("{}"); place != std::string::npos)
-      name.replace(place, 2, std::to_string(number - row.first));
-    return name;
-  }
-  return word;
-}
-
-/// Adds the value of a register, or of a device without registers.
-void add_value(const Device& device, const std::string& word, Json& values) {
-  if (device.named_values() != nullptr) {
-    if (const auto value = device.named_values()->value_named(word))
-      values[device.name() + "." + word] = json_of(*value);
-    return;
-  }
-  const std::string name = register_of(device, word);
-  const RegisterBank* const bank = device.register_bank();
-  const auto place = bank == nullptr ? std::nullopt : bank->find(name);
-  if (!place || place->place.row->message != nullptr) return;
-  values[device.name() + "." + name] = json_of(number_of(*place, read_value(*bank, *place)));
-}
-
-/// Returns the words of the device's program that may be its registers or values, each once.
-std::vector<std::string> words_of_program(const Device& device) {
-  const std::string text = device.user_program()->program_text();
-  std::vector<std::string> words;
-  std::set<std::string> seen;
-  const auto is_of_word = [](char letter) {
-    return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
-           (letter >= 'A' && letter <= 'Z') || letter == '_';
-  };
-  for (std::size_t at = 0; at < text.size() && words.size() < kMaxWords;) {
-    const std::size_t begin = at;
-    while (at < text.size() && is_of_word(text[at])) ++at;
-    const std::string word = text.substr(begin, at - begin);
-    if (word.empty()) ++at;
-    const bool is_number = !word.empty() && word[0] >= '0' && word[0] <= '9';
-    if (word.empty() || is_number || !seen.insert(word).second) continue;
-    words.push_back(word);
-  }
-  return words;
-}
-
-Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
-  Json values = Json::object();
-  for (const std::string& word : words_of_program(device)) add_value(device, word, values);
-  return values;
-}
-
-/// Returns the names behind the words that are not names themselves.
-Json spelled_otherwise(const Device& device) {
-  Json names = Json::object();
-  if (device.register_bank() == nullptr) return names;
-  for (const std::string& word : words_of_program(device)) {
-    const std::string name = register_of(device, word);
-    if (name != word && device.register_bank()->find(name)) names[word] = device.name() + "." + name;
-  }
-  return names;
-}
-
-Json values_of_axes(const Daemon& daemon, const Device& device) {
-  Json values = Json::object();
-  const world::Probes probes(daemon.world());
-  for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
-    if (device.axes() == nullptr || !device.axes()->has_axis(static_cast<int>(a))) continue;
-    for (const char* what : {"position", "pulses", "target", "speed"}) {
-      const std::string name = device.name() + "." + std::string(device.model().axes[a].name) + "." + what;
-      values[name] = json_of(probes.value(probes.resolve(name).handle).real());
-    }
-  }
-  return values;
-}
-
-Json values_of_terminals(const Daemon& /*daemon*/, const Device& device) {
-  Json values = Json::object();
-  for (const TerminalSight& sight : terminal_sights(device))
-    values[device.name() + "." + sight.name] = value_of(device, sight);
-  return values;
-}
-
-struct ScopeRow {
-  std::string_view name;
-  Json (*values)(const Daemon& daemon, const Device& device);
-};
-constexpr std::array<ScopeRow, 3> kScopes{
-    {{"program", values_of_program}, {"axes", values_of_axes}, {"terminals", values_of_terminals}}};
+}  // namespace
 
 const Device& require_program(Daemon& daemon, const Json& message) {
   const Device& device = daemon.world().device(require_device(daemon, message));
@@ -225,7 +132,19 @@ const Device& require_program(Daemon& daemon, const Json& message) {
   return device;
 }
 
-}  // namespace
+void require_no_way_back(const Json& message) {
+  if (message.contains("back"))
+    throw MessageError("back: only a recording goes back; expected one that `replay --serve` serves");
+}
+
+world::StepKind require_step_kind(const Json& message) {
+  const std::string what = require_text(message, "what");
+  const auto* const found =
+      std::find_if(kSteps.begin(), kSteps.end(), [&](const auto& row) { return row.first == what; });
+  if (found != kSteps.end()) return found->second;
+  throw MessageError("what: " + understudy::quoted(what) +
+                     " is unknown; expected instruction, line, over, out or stand");
+}
 
 Json json_of_stop(const Daemon& daemon) {
   const world::DebugStop* const stop = daemon.observers().debugger.stop();
@@ -281,6 +200,7 @@ Json break_message(Daemon& daemon, const Json& message) {
 }
 
 void continue_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  require_no_way_back(message);
   require_keys(message, {"do", "within"});
   if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
   if (message.contains("within")) {
@@ -295,6 +215,7 @@ void continue_message(Daemon& daemon, const Json& message, const ControlServer::
 }
 
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  require_no_way_back(message);
   if (!message.contains("what")) {
     require_keys(message, {"do", "ticks"});
     const std::uint64_t ticks =
@@ -308,13 +229,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
     return;
   }
   require_keys(message, {"do", "what", "device", "program", "within"});
-  const std::string what = require_text(message, "what");
-  const auto* const found =
-      std::find_if(kSteps.begin(), kSteps.end(), [&](const auto& row) { return row.first == what; });
-  if (found == kSteps.end()) {
-    throw MessageError("what: " + understudy::quoted(what) +
-                       " is unknown; expected instruction, line, over, out or stand");
-  }
+  const world::StepKind kind = require_step_kind(message);
   world::Debugger& debugger = daemon.observers().debugger;
   if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
   Json where = message;
@@ -324,7 +239,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
   const std::string program = message.contains("program") ? require_text(message, "program") : std::string();
   const SimTime within =
       message.contains("within") ? require_duration(daemon, message, "within") : std::chrono::hours(1);
-  debugger.begin_step(found->second, device, program);
+  debugger.begin_step(kind, device, program);
   const bool begun = daemon.advance(within, [&daemon, reply] {
     daemon.observers().debugger.end_step();
     reply(time_and_stop(daemon).dump());
@@ -369,27 +284,6 @@ Json source_message(Daemon& daemon, const Json& message) {
   }
   reply["text"] = lines.text();
   reply["lines"] = lines.lines();
-  return reply;
-}
-
-Json variables_message(Daemon& daemon, const Json& message) {
-  require_keys(message, {"do", "device", "scope"});
-  const std::string wanted = message.contains("scope") ? require_text(message, "scope") : std::string();
-  const auto is_wanted = [&](const ScopeRow& row) { return wanted.empty() || row.name == wanted; };
-  if (std::none_of(kScopes.begin(), kScopes.end(), is_wanted))
-    throw MessageError("scope: " + understudy::quoted(wanted) +
-                       " is unknown; expected program, axes or terminals");
-  daemon.catch_up();
-  const Device& device = require_program(daemon, message);
-  Json scopes = Json::array();
-  for (const ScopeRow& row : kScopes) {
-    if (!is_wanted(row)) continue;
-    scopes.push_back({{"name", row.name}, {"values", row.values(daemon, device)}});
-    Json words = row.values == values_of_program ? spelled_otherwise(device) : Json::object();
-    if (!words.empty()) scopes.back()["words"] = std::move(words);
-  }
-  Json reply = time_and_stop(daemon);
-  reply["scopes"] = std::move(scopes);
   return reply;
 }
 

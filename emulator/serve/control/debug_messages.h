@@ -1,12 +1,14 @@
 // The control messages of a debugger (docs/debugging.md). As in verbs.h, nothing has changed if one throws.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "base/simulated_time.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
+#include "emulator/world/debug/breakpoint.h"
 
 namespace understudy::emulator::serve {
 
@@ -31,6 +33,12 @@ Json source_message(Daemon& daemon, const Json& message);
 /// of its terminals; without "scope" all of these.
 Json variables_message(Daemon& daemon, const Json& message);
 
+inline constexpr std::uint64_t kMaxStepTicks = 3'600'000;  // an hour
+
+/// Returns the device of the message, which must have power and run programs. Throws MessageError.
+const Device& require_program(Daemon& daemon, const Json& message);
+/// Returns the kind of step under "what". Throws MessageError.
+world::StepKind require_step_kind(const Json& message);
 /// Returns a duration from now on. Throws MessageError.
 SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key);
 /// Returns the stop at which the world is, or null.

@@ -16,12 +16,14 @@
 #include "emulator/serve/control/course_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/messages.h"
+#include "emulator/serve/control/recording_stops.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/door.h"
 #include "emulator/serve/loop/pacer.h"
+#include "emulator/world/debug/debugger.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/events/history.h"
 #include "emulator/world/events/story.h"
@@ -45,10 +47,11 @@ bool is_mark(std::string_view what) {
          what == "power" || what == "program";
 }
 
-/// The commands that only read. No others are allowed in a recording, because it shows what happened.
-constexpr std::array<std::string_view, 18> kLooks{
-    "status", "identify", "bench", "registers", "choices", "faults",    "get",   "eval",   "list",
-    "frames", "events",   "where", "look",      "scope",   "snapshots", "stack", "source", "variables"};
+/// The commands that only read, or look on. Others are not allowed in a recording: it shows what happened.
+constexpr std::array<std::string_view, 19> kLooks{"status", "identify", "bench",     "registers", "choices",
+                                                  "faults", "get",      "eval",      "list",      "frames",
+                                                  "events", "where",    "look",      "scope",     "snapshots",
+                                                  "stack",  "source",   "variables", "break"};
 
 bool only_looks(const Json& message, const std::string& word) {
   if (word == "program") return !message.contains("text");  // without a text, it reads the program
@@ -74,6 +77,8 @@ class Travel {
     }
     go_to(std::clamp(setup.at_first, timeline_.begin(), timeline_.end()));
   }
+
+  RecordingStops& stops() { return stops_; }
 
   Json timeline(const Json& message) {
     require_keys(message, {"do", "from"});
@@ -220,11 +225,15 @@ class Travel {
     return *other_;
   }
 
+  /// No breakpoint stops the world on its way.
   void go_to(SimTime time) {
+    world::Debugger& debugger = daemon_.observers().debugger;
+    debugger.sleep();
     timeline_.go_to(time, [this](const world::WorldState& state, std::size_t keyframe) {
       daemon_.restore(state);
       daemon_.tell_anew(last_before(keyframe, &Stretch::frames), last_before(keyframe, &Stretch::events));
     });
+    debugger.wake();
   }
 
   Daemon& daemon_;
@@ -239,7 +248,8 @@ class Travel {
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // must be the last member, because it calls collect()
+  world::Timeline timeline_;  // all others must stand before it, because it calls collect()
+  RecordingStops stops_{daemon_, timeline_, [this](SimTime time) { go_to(time); }};
 };
 
 }  // namespace
@@ -269,7 +279,12 @@ DoorMaker timeline_door(const std::string& path, TimelineSetup given) {
       if (word == "curves") return answer(reply, [&] { return (*travel)->curves(message); });
       if (word == "spans") return answer(reply, [&] { return (*travel)->spans(message); });
       if (word == "what-if") return answer(reply, [&] { return (*travel)->what_if(message); });
-      if (!word.empty() && !only_looks(message, word) && !(*travel)->is_altered()) {
+      const bool is_recorded = !(*travel)->is_altered();
+      if (word == "continue" && is_recorded)
+        return answer(reply, [&] { return (*travel)->stops().go_on(message); });
+      if (word == "step" && is_recorded)
+        return answer(reply, [&] { return (*travel)->stops().step(message); });
+      if (!word.empty() && is_recorded && !only_looks(message, word)) {
         return answer(reply, [&]() -> Json {
           throw MessageError(word +
                              ": a recording cannot be changed; expected `seek`, a command that only reads, "

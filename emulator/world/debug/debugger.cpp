@@ -276,6 +276,11 @@ const DebugStop* Debugger::stop() const { return stop_ && stop_->time == world_.
 
 bool Debugger::take_stop() { return std::exchange(is_fresh_, false); }
 
+void Debugger::wake() {
+  sleeps_ = false;
+  begin_anew();
+}
+
 void Debugger::begin_anew() {
   stop_.reset();
   is_fresh_ = false;

@@ -56,6 +56,9 @@ class Debugger final : private TickWatcher {
   bool take_stop();
   /// The world was put into another state.
   void begin_anew();
+  /// While it sleeps it sees nothing, and stops nothing: the world is on its way to another moment.
+  void sleep() { sleeps_ = true; }
+  void wake();
 
  private:
   struct Point;
@@ -107,6 +110,7 @@ class Debugger final : private TickWatcher {
   std::optional<DebugStop> stop_;
   bool is_fresh_ = false;  // the stop has not been taken
   bool is_watching_ = false;
+  bool sleeps_ = false;
   int last_number_ = 0;
   std::uint64_t next_event_ = 0;
   std::vector<Event> new_events_;  // of this tick

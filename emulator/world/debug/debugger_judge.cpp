@@ -272,6 +272,7 @@ void Debugger::stop_with(DebugStop stop) {
 }
 
 void Debugger::on_tick(Tick /*tick*/) {
+  if (sleeps_) return;
   look_at_events();
   for (const auto& point : points_) judge(*point);
   if (step_) judge_step();
@@ -282,6 +283,7 @@ void Debugger::on_tick(Tick /*tick*/) {
 }
 
 Tick Debugger::next_look(Tick done) const {
+  if (sleeps_) return kNever;
   if (!watches_.empty() || step_) return done + 1;
   if (waits_for_events() && events_.next_number() > next_event_) return done + 1;
   Tick next = kNever;

@@ -27,7 +27,7 @@ Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEv
     keyframes_.push_back({.at = at, .next_event = next, .state = save(world_)});
     on_way();
   }
-  play(world_, next, end_);
+  next_event_ = play(world_, next, end_);
   on_way();
 }
 
@@ -38,11 +38,28 @@ std::size_t Timeline::play(World& world, std::size_t next_event, SimTime until) 
     apply(world, events_[next_event]);
   }
   world.advance_to(until);
-  // Output that no host has read must not reach a host that opens the line now.
+  drop_output(world);
+  return next_event;
+}
+
+/// Output that no host has read must not reach a host that opens the line now.
+void Timeline::drop_output(World& world) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     world.take_output(i, world.line(i).line.output().size());
   }
-  return next_event;
+}
+
+void Timeline::play_on(SimTime until, const std::function<bool()>& is_stopped) {
+  until = std::min(until, end_);
+  for (bool is_over = until <= world_.now(); !is_over;) {
+    const bool is_next = next_event_ < events_.size() && events_[next_event_].at <= until;
+    const SimTime target = is_next ? events_[next_event_].at : until;
+    world_.advance_to(target);
+    is_over = !is_next || is_stopped();
+    for (; next_event_ < events_.size() && events_[next_event_].at <= world_.now(); ++next_event_)
+      apply(world_, events_[next_event_]);
+  }
+  drop_output(world_);
 }
 
 void Timeline::go_to(SimTime time,
@@ -55,7 +72,7 @@ void Timeline::go_to(SimTime time,
   const Keyframe& from = *(later - (has_near ? 2 : 1));
   take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
   restore(world_, from.state);  // restores the hosts of that time as well, not the present ones
-  play(world_, from.next_event, time);
+  next_event_ = play(world_, from.next_event, time);
 }
 
 void Timeline::play_again(World& other, SimTime from, SimTime to, SimTime apart,

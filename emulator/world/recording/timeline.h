@@ -30,10 +30,14 @@ class Timeline {
   SimTime end() const { return end_; }
   const std::vector<RecordedEvent>& events() const { return events_; }
   std::size_t keyframes() const { return keyframes_.size(); }
+  SimTime time_of_keyframe(std::size_t number) const { return keyframes_[number].at; }
 
   /// Moves the world to that time, after all events of that moment. `take_back` puts it into the state of a
   /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls before it.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
+  /// Plays on from where the world is up to that time, or until the world has been stopped. All events of the
+  /// moment have then happened.
+  void play_on(SimTime until, const std::function<bool()>& is_stopped);
 
   /// Plays a stretch once more on another world, made from the same bench, and calls `look` at its beginning,
   /// then every `apart`, and at its end.
@@ -47,11 +51,13 @@ class Timeline {
     WorldState state;
   };
   std::size_t play(World& world, std::size_t next_event, SimTime until) const;
+  static void drop_output(World& world);
 
   World& world_;
   std::vector<RecordedEvent> events_;
   SimTime end_;
   std::vector<Keyframe> keyframes_;
+  std::size_t next_event_ = 0;  // the first that has not happened where the world is
 };
 
 }  // namespace understudy::emulator::world

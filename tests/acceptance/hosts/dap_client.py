@@ -123,8 +123,9 @@ class Served:
         self.bench = pathlib.Path(self.folder.name, "bench.yaml")
         self.bench.write_text("understudy: 1\nlines:\n  a: { stations: [ { name: m, model: %s, program: %s } ] }\n"
                               % (model, self.program.name))
+        self.recording = self.folder.name + "/recording.jsonl"
         self.process = subprocess.Popen([UNDERSTUDY, "serve", str(self.bench), "--speed", speed, "--control",
-                                         self.control], stdout=subprocess.DEVNULL)
+                                         self.control, "--record", self.recording], stdout=subprocess.DEVNULL)
         end = time.monotonic() + PATIENCE
         while not os.path.exists(self.control) and time.monotonic() < end:
             time.sleep(0.01)
@@ -133,9 +134,13 @@ class Served:
         return self
 
     def __exit__(self, *_):
+        self.end()
+        self.folder.cleanup()
+
+    def end(self):
+        """Ends it; its files stay."""
         self.process.terminate()
         assert self.process.wait(PATIENCE) == 0
-        self.folder.cleanup()
 
     def ctl(self, *words):
         return subprocess.run([UNDERSTUDY, "ctl", "--control", self.control, *words], check=True,
@@ -241,6 +246,99 @@ def case_language(model):
         assert served.ctl("break") == "", "its breakpoints are gone"
 
 
+def where_stopped(adapter, thread):
+    """Returns the time and the frames of a thread."""
+    frames = adapter.ask("stackTrace", threadId=thread)["stackFrames"]
+    time_now = adapter.ask("evaluate", expression="time")["result"]
+    return time_now, [frame["line"] for frame in frames]
+
+
+def case_recording(model):
+    """Steps to and fro in the recording of a program, and goes from stop to stop."""
+    language = LANGUAGES[model]
+    with Served(model, language["ending"], language["program"]) as served, Adapter() as adapter:
+        start = language["start"]
+        served.ctl(*(start.split(" ", 1) if start.startswith("command") else ("set", start.replace(" ", ""))))
+        served.ctl("advance", "2s")
+        served.end()
+        set_ones = adapter.begin("launch", recording=served.recording, path=str(served.program),
+                                 breakpoints=[{"line": language["call"]}])["breakpoints"]
+        assert set_ones[0]["verified"], set_ones
+        assert adapter.event("capabilities")["capabilities"]["supportsStepBack"]
+        assert adapter.event("stopped")["reason"] == "entry"
+        lines = adapter.ask("breakpointLocations", source={"path": str(served.program)}, line=1, endLine=99)
+        assert {"line": language["call"]} in lines["breakpoints"], lines
+
+        def stop_after(request, **arguments):
+            adapter.ask(request, **arguments)
+            stopped = adapter.event("stopped")
+            return stopped, where_stopped(adapter, stopped["threadId"])
+
+        stopped, at_breakpoint = stop_after("continue", threadId=1)
+        thread = stopped["threadId"]
+        assert stopped["reason"] == "breakpoint" and at_breakpoint[1][0] == language["call"], (stopped, at_breakpoint)
+        assert adapter.ask("stackTrace", threadId=thread)["stackFrames"][0]["source"]["path"] == str(served.program)
+        forward = [at_breakpoint] + [stop_after("stepIn", threadId=thread)[1] for _ in range(3)]
+        assert len({time for time, _ in forward}) == 4, forward
+        back = [forward[-1]] + [stop_after("stepBack", threadId=thread)[1] for _ in range(3)]
+        assert back == forward[::-1], (forward, back)
+        assert [stop_after("stepIn", threadId=thread)[1] for _ in range(3)] == forward[1:]
+        assert stop_after("reverseContinue", threadId=thread)[1] == at_breakpoint
+        stopped, begin = stop_after("reverseContinue", threadId=thread)
+        assert stopped["reason"] == "pause" and "begins here" in stopped["text"] and begin[0].startswith("0"), stopped
+        assert stop_after("continue", threadId=thread)[1] == at_breakpoint
+        stopped, _ = stop_after("continue", threadId=thread)
+        assert "ends here" in stopped["text"], stopped
+        assert "cannot be changed" in adapter.refused("setExpression", expression=language["value"][0], value="5")
+        adapter.ask("restart")
+        assert adapter.event("stopped")["reason"] == "entry"
+        adapter.ask("disconnect")
+
+
+def case_scenario():
+    with tempfile.TemporaryDirectory() as folder, Adapter() as adapter:
+        _, path = counting_bench(folder)
+        scenario = failing_scenario(folder)
+        assert "none.yaml" in adapter_refusal("scenario", "/none.yaml")
+        adapter.begin("launch", scenario=scenario, path=path, breakpoints=[{"line": 1}])
+        adapter.event("stopped")
+        counted = []
+        for request in ("continue", "continue", "continue", "reverseContinue", "reverseContinue"):
+            adapter.ask(request, threadId=1)
+            stopped = adapter.event("stopped")
+            assert stopped["reason"] == "breakpoint", (request, stopped)
+            counted.append(adapter.ask("evaluate", expression="PROG_VAR0")["result"])
+        assert counted == ["1", "2", "3", "2", "1"], counted
+        adapter.ask("disconnect")
+    with tempfile.TemporaryDirectory() as folder, Adapter() as adapter:
+        _, path = counting_bench(folder)
+        scenario = failing_scenario(folder)
+        adapter.begin("launch", stop_on_entry=False, scenario=scenario, path=path, breakpoints=[{"line": 1}])
+        stopped = adapter.event("stopped")
+        assert stopped["reason"] == "exception" and "1000" in stopped["text"], stopped
+        at_failure = adapter.ask("evaluate", expression="PROG_VAR0")["result"]
+        adapter.ask("reverseContinue", threadId=1)
+        assert adapter.event("stopped")["reason"] == "breakpoint"
+        assert adapter.ask("evaluate", expression="PROG_VAR0")["result"] == at_failure
+        adapter.ask("reverseContinue", threadId=1)
+        assert adapter.event("stopped")["reason"] == "breakpoint"
+        assert int(adapter.ask("evaluate", expression="PROG_VAR0")["result"]) == int(at_failure) - 1
+        adapter.ask("disconnect")
+
+
+def failing_scenario(folder):
+    scenario = pathlib.Path(folder, "fails.scenario.yaml")
+    scenario.write_text("understudy: 1\nname: fails\nbench: bench.yaml\nsteps:\n  - advance: 300ms\n"
+                        "  - expect: { m.PROG_VAR0: 1000 }\n")
+    return str(scenario)
+
+
+def adapter_refusal(key, value):
+    with Adapter() as adapter:
+        adapter.ask("initialize", adapterID="understudy")
+        return adapter.refused("launch", **{key: value})
+
+
 COUNTING = "again:  VAR_Inc VAR32\n        Delay_mSec 5\n        Jump again\n        END\n"
 
 
@@ -338,7 +436,7 @@ def case_bad():
         adapter.ask("initialize", adapterID="understudy")
         assert adapter.refused("initialize")
         assert adapter.refused("threads") == "threads: nothing is launched; expected `launch` or `attach` first"
-        assert adapter.refused("launch") == "launch: expected one of bench and model"
+        assert adapter.refused("launch") == "launch: expected one of bench, model, recording and scenario"
         assert "none.yaml" in adapter.refused("launch", bench="/none.yaml")
         assert "simple3" in adapter.refused("launch", model="simple3")
         assert "--nothing" in adapter.refused("launch", model="slim", args=["--nothing"])
@@ -442,5 +540,6 @@ def case_listen():
 
 if sys.argv[2] in LANGUAGES:
     case_language(sys.argv[2])
+    case_recording(sys.argv[2])
 else:
     globals()["case_" + sys.argv[2]]()

@@ -1,0 +1,54 @@
+// Goes on and back in a recording to where a debugger stops.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/world/debug/breakpoint.h"
+#include "emulator/world/debug/debugger.h"
+#include "emulator/world/recording/timeline.h"
+
+namespace understudy::emulator::serve {
+
+class RecordingStops {
+ public:
+  /// `go_to` takes the world to a moment. All must outlive it.
+  RecordingStops(Daemon& daemon, world::Timeline& timeline, std::function<void(SimTime)> go_to);
+
+  /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. Without a stop it goes to the end, or
+  /// to the beginning.
+  Json go_on(const Json& message);
+  /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and by ticks.
+  Json step(const Json& message);
+
+ private:
+  struct Wanted {
+    world::StepKind kind = world::StepKind::line;
+    std::size_t device = 0;
+    std::string program{};
+  };
+  /// Plays on to a stop, `until` at most. Returns false if there was none.
+  using PlayOn = std::function<bool(SimTime until)>;
+  /// Whether a stop is one of those that are wanted.
+  using IsWanted = std::function<bool(const world::DebugStop& stop)>;
+
+  Wanted wanted_step(const Json& message) const;
+  bool play_on(SimTime until);
+  bool step_on(const Wanted& wanted, SimTime until);
+  void go_back(const PlayOn& play, const IsWanted& is_wanted);
+  std::optional<std::size_t> last_stop(std::size_t keyframe, SimTime before, const PlayOn& play,
+                                       const IsWanted& is_wanted);
+  void begin_at(std::size_t keyframe);
+  world::Debugger& debugger() const;
+  SimTime now() const;
+
+  Daemon& daemon_;
+  world::Timeline& timeline_;
+  std::function<void(SimTime)> go_to_;
+};
+
+}  // namespace understudy::emulator::serve
