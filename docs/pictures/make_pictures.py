@@ -110,6 +110,7 @@ def main():
             page.picture('registers')
         pathlib.Path(folder, 'fails.yaml').write_text(FAILING)
         subprocess.run([program, 'run', 'fails.yaml', '--record', folder], cwd=folder, check=False, stdout=subprocess.DEVNULL)
+        subprocess.run([program, 'replay', 'the_axis_arrives.jsonl', '--picture', HERE / 'story.svg'], cwd=folder, check=True)
         with Shown(program, ['replay', 'the_axis_arrives.jsonl', '--page'], folder, 640) as page:
             bar = page.find('.travel input[type=range]')[0]
             page.browser.execute_script(

@@ -137,6 +137,10 @@ struct ReplayArguments {
   std::string report;
   std::optional<int> page;  // the port of the recording's live page; 0: any
   bool serve = false;       // the whole recording, without a page
+  std::string story;        // an HTML file that holds the recording's page
+  std::string picture;      // an SVG or PNG file that shows a panel of that page
+  std::string panel;        // which one; empty: the timeline
+  std::string at;           // a duration; the moment that such files show first
   std::string version;      // the version of this program
 };
 int replay_recording(ModelList models, const ReplayArguments& arguments);

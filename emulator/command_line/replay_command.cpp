@@ -18,6 +18,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/replay_looks.h"
+#include "emulator/command_line/replay_story.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/device/model.h"
@@ -82,42 +83,52 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// Replays the whole recording, then serves any moment of it, at first `until`, the failure or the beginning.
-/// A recording that differs is served up to the difference.
-int travel_in(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> until) {
+/// A recording that has been replayed as a whole, to move in.
+struct Travelled {
+  world::Replayed replayed;
+  serve::TimelineSetup setup;
+};
+
+/// Replays the whole recording, to show any moment of it, at first `at`, the failure or the beginning. A
+/// recording that differs is shown up to the difference.
+Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<world::WorldState> begin;
   std::optional<SimTime> begins;
   std::vector<world::RecordedEvent> events;
-  const world::Replayed replayed = world::replay(
-      models, file, arguments.recording, {},
-      [&](world::World& world) { return std::make_unique<Rememberer>(world, begin, begins, events); });
+  world::Replayed replayed = world::replay(models, file, arguments.recording, {}, [&](world::World& world) {
+    return std::make_unique<Rememberer>(world, begin, begins, events);
+  });
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
   const SimTime end = replayed.result.reached;
   SimTime begins_at = *begins;
   for (const world::RecordedEvent& event : events)
     if (!event.failed.what.empty()) begins_at = event.failed.at;
-  const SimTime at_first = std::clamp(until.value_or(begins_at), *begins, end);
-  const auto door = serve::timeline_door(arguments.control, {.bench = replayed.bench,
-                                                             .options = replayed.header.options,
-                                                             .begin = *begin,
-                                                             .events = std::move(events),
-                                                             .end = end,
-                                                             .at_first = at_first});
-  return serve_from(replayed, *begin, at_first, arguments.recording, door, arguments.page);
+  serve::TimelineSetup setup{.bench = replayed.bench,
+                             .options = replayed.header.options,
+                             .begin = *begin,
+                             .events = std::move(events),
+                             .end = end,
+                             .at_first = std::clamp(at.value_or(begins_at), *begins, end)};
+  return {std::move(replayed), std::move(setup)};
+}
+
+std::optional<SimTime> duration_of_flag(const char* flag, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto duration = parse_duration(text);
+  if (!duration)
+    throw UsageError(std::string(flag) + ": " + understudy::quoted(text) +
+                     " is not a duration; expected one such as 2.5s");
+  return duration;
 }
 
 }  // namespace
 
 int replay_recording(ModelList models, const ReplayArguments& arguments) {
-  std::optional<SimTime> until;
-  if (!arguments.until.empty()) {
-    until = parse_duration(arguments.until);
-    if (!until)
-      throw UsageError("--until: " + understudy::quoted(arguments.until) +
-                       " is not a duration; expected one such as 2.5s");
-  }
+  const auto until = duration_of_flag("--until", arguments.until);
+  const auto at = duration_of_flag("--at", arguments.at);
+  require_story_flags(arguments);
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw world::RecordingError(arguments.recording + ": recording: " + why + "; expected a recording");
   }
@@ -126,7 +137,16 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why);
   }
   if (arguments.page) require_page_port("replay: --page", *arguments.page);
-  if (arguments.page || arguments.serve) return travel_in(models, arguments, until);
+  if (wants_story(arguments)) {
+    tell_story(arguments, replay_whole(models, arguments, at).setup);
+    return kExitWell;
+  }
+  if (arguments.page || arguments.serve) {
+    const Travelled travelled = replay_whole(models, arguments, until);
+    return serve_from(travelled.replayed, travelled.setup.begin, travelled.setup.at_first,
+                      arguments.recording, serve::timeline_door(arguments.control, travelled.setup),
+                      arguments.page);
+  }
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   require_looks(arguments, claims);

@@ -29,19 +29,31 @@ inline void add_replay_flags(CLI::App& command, ReplayArguments& replay) {
       command.add_option("--report", replay.report, "Write a report on it to this file, as HTML");
   for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
   trace_also->delimiter(',');
-  command
-      .add_option(
-          "--page", replay.page,
-          "Open the recording in a browser, at the time of --until if given, on this port [any free port]")
-      ->expected(0, 1)
-      ->default_str("0")
-      ->excludes(trace, trace_also, capture, report);
+  CLI::Option* const page = command.add_option(
+      "--page", replay.page,
+      "Open the recording in a browser, at the time of --until if given, on this port [any free port]");
+  page->expected(0, 1)->default_str("0")->excludes(trace, trace_also, capture, report);
+  CLI::Option* const story =
+      command.add_option("--export", replay.story,
+                         "Write its page to this file, as HTML that needs neither a server nor a network");
+  CLI::Option* const picture = command.add_option("--picture", replay.picture,
+                                                  "Write a picture of it to this file: FILE.svg or FILE.png");
+  command.add_option("--panel", replay.panel, "What --picture shows: timeline, axes, path or bus [timeline]")
+      ->check(kNotEmpty);
+  for (CLI::Option* const file : {story, picture}) {
+    file->check(kNotEmpty)->excludes(trace, trace_also, capture, report, page);
+    file->excludes("--until", "--control");
+  }
   command
       .add_flag(
           "--serve", replay.serve,
           "Serve the recording for `ctl` and debuggers, at the time of --until, at its failure, or from its "
           "beginning")
-      ->excludes(trace, trace_also, capture, report);
+      ->excludes(trace, trace_also, capture, report, story, picture);
+  command
+      .add_option("--at", replay.at,
+                  "The moment that --export and --picture show [the failure or the beginning]")
+      ->check(kNotEmpty);
 }
 
 }  // namespace understudy::emulator::command_line

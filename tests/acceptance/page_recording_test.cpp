@@ -1,7 +1,10 @@
 // A recording opened in the page: any moment of it, and where a scenario failed.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -267,6 +270,115 @@ TEST_F(PageOfAFailure, HasCurvesAndSpans) {
         TestJson{{"do", "spans"}, {"to_ns", -1}}, TestJson{{"do", "spans"}, {"nonsense", 1}}}) {
     EXPECT_EQ(ask(message)["ok"], false) << message.dump();
   }
+}
+
+/// Returns what told.js in the file replies to a message, after one that moves.
+TestJson reply_of_file(const PrivateFolder& folder, const std::string& data, std::int64_t at,
+                       const TestJson& message) {
+  std::filesystem::copy_file(std::string(PROJECT_FOLDER) + "/emulator/page/web/told.js", folder / "told.mjs",
+                             std::filesystem::copy_options::overwrite_existing);
+  folder.write("data.json", data);
+  folder.write("ask.mjs", R"(import fs from 'fs';
+globalThis.document = { getElementById: () => ({ textContent: fs.readFileSync(process.argv[2], 'utf8') }) };
+const { Told } = await import(process.argv[3]);
+const told = new Told({ hello: () => {}, look: (look) => { if (look.time_ns === Number(process.argv[4])) values = look.values; } });
+let values = null;
+await told.ask(0, { do: 'seek', to_ns: Number(process.argv[4]) });
+const message = JSON.parse(process.argv[5]);
+if (message.names) told.watch(0, { names: message.names });
+const reply = await told.ask(0, message);
+setTimeout(() => console.log(JSON.stringify({ ...reply, values })), 20);
+)");
+  const Finished run = acceptance::run({"node", folder / "ask.mjs", folder / "data.json", folder / "told.mjs",
+                                        std::to_string(at), message.dump()});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  return TestJson::parse(run.output, nullptr, false);
+}
+
+TEST_F(PageOfAFailure, IsOneFileThatAnswersAsItsServer) {
+  const Finished run = understudy({"replay", recording_, "--export", folder_ / "story.html"});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  std::ifstream written(folder_ / "story.html");
+  const std::string file{std::istreambuf_iterator<char>(written), {}};
+  EXPECT_EQ(file.find(folder_.path()), std::string::npos);
+  EXPECT_EQ(file.find("src="), std::string::npos) << "it loads nothing";
+  EXPECT_NE(file.find("<strong>failed at "), std::string::npos) << "readers without scripts see the story";
+  const std::string begin = "id=\"told\">";
+  const std::size_t at = file.find(begin) + begin.size();
+  const std::string data = file.substr(at, file.find("</script>", at) - at);
+  const TestJson told = TestJson::parse(data);
+  const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
+  EXPECT_EQ(told["timeline"], timeline);
+  EXPECT_EQ(told["frames"].size(), ask({{"do", "frames"}})["frames"].size());
+  EXPECT_EQ(told["events"].size(), ask({{"do", "events"}})["events"].size());
+  EXPECT_EQ(told["values"]["feeder.A.position"], 3200);
+
+  const std::int64_t moment = 1'234'000'000;
+  for (const std::int64_t from : {0, 500'000'000}) {
+    const std::int64_t to = from == 0 ? 2'000'000'000 : 600'000'000;
+    const std::int64_t dots = from == 0 ? 200 : 100;
+    const TestJson message{{"do", "curves"},
+                           {"names", {"feeder.A.position", "feeder.A.speed"}},
+                           {"from_ns", from},
+                           {"to_ns", to},
+                           {"dots", dots}};
+    const TestJson there = ask(message);
+    const TestJson here = reply_of_file(folder_, data, moment, message);
+    for (std::size_t name = 0; name < 2; ++name) {
+      for (const char* const which : {"least", "greatest"}) {
+        const TestJson& one = there["curves"][name][which];
+        const TestJson& other = here["curves"][name][which];
+        ASSERT_EQ(other.size(), one.size()) << here.dump();
+        // The file has a value for each tick, which may lie in the next dot.
+        const double one_tick = name == 0 ? 2.0 : 110.0;
+        for (std::size_t i = 0; i < one.size(); ++i)
+          EXPECT_NEAR(other[i].get<double>(), one[i].get<double>(), one_tick) << which << " " << i;
+      }
+    }
+    EXPECT_NEAR(here["values"]["feeder.A.position"].get<double>(), static_cast<double>(position_at(moment)),
+                2.0);
+  }
+  const TestJson spans{{"do", "spans"}, {"from_ns", 0}, {"to_ns", 3'000'000'000}, {"dots", 4000}};
+  EXPECT_EQ(reply_of_file(folder_, data, moment, spans)["spans"].size(), ask(spans)["spans"].size());
+}
+
+TEST_F(PageOfAFailure, IsAPictureWithoutABrowser) {
+  const auto drawn = [&](const std::string& name, const Words& more) {
+    Words words{"replay", recording_, "--picture", folder_ / name};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = understudy(words);
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    std::ifstream file(folder_ / name);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const std::string timeline = drawn("timeline.svg", {});
+  EXPECT_NE(timeline.find("feeder.A position"), std::string::npos);
+  EXPECT_NE(timeline.find("ends elsewhere: failed at "), std::string::npos);
+  EXPECT_EQ(timeline.find("feeder.B position"), std::string::npos) << "it stands";
+  EXPECT_NE(drawn("axes.svg", {"--panel", "axes"}).find(">3,200 pulses<"), std::string::npos);
+  EXPECT_NE(drawn("early.svg", {"--panel", "axes", "--at", "0s"}).find(">0 pulses<"), std::string::npos);
+  EXPECT_NE(drawn("path.svg", {"--panel", "path"}).find("feeder.A.position to the right"), std::string::npos);
+  EXPECT_NE(drawn("bus.svg", {"--panel", "bus"}).find("write 0x1014 feeder.Aaxis_SVON = 1"),
+            std::string::npos);
+  const std::string bits = drawn("timeline.png", {});
+  EXPECT_TRUE(bits.starts_with("\x89PNG")) << bits.size();
+  EXPECT_EQ(drawn("again.png", {}), bits);
+}
+
+TEST_F(PageOfAFailure, RefusesWhatDoesNotFitWithOneFile) {
+  const std::string file = folder_ / "story.html";
+  for (const Words& words :
+       {Words{"--panel", "bus"}, Words{"--picture", folder_ / "picture.gif"},
+        Words{"--picture", folder_ / "picture.svg", "--panel", "nonsense"}, Words{"--at", "1s"},
+        Words{"--export", file, "--page"}, Words{"--export", file, "--report", folder_ / "other.html"},
+        Words{"--export", recording_}, Words{"--export", file, "--at", "soon"}}) {
+    Words all{"replay", recording_};
+    all.insert(all.end(), words.begin(), words.end());
+    const Finished run = understudy(all);
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_NE(run.errors.find("--"), std::string::npos) << run.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(PageOfAFailure, WritesNoFilesOfAReplayBesideIt) {

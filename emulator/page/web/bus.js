@@ -99,7 +99,7 @@ export function Bus() {
         'application/x-pcapng')}>pcapng<//>
       <small class="figure count">${grouped(count)} of ${grouped(frames.length)}${store.framesLost ? `, ${grouped(store.framesLost)} not shown` : ''}</small>
     </div>
-    <${ByHand} /><${Drops} />
+    ${!store.timeline && html`<${ByHand} />`}<${Drops} />
     ${frames.length === 0 && html`<p>No traffic on the lines yet.</p>`}
     ${!store.timeline && html`<${Connections} isFirst=${frames.length === 0} />`}
     ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>

@@ -2,6 +2,7 @@
 // token. The browser's back button goes to the panel and the moment before.
 import { ask, complain, draw, store } from './store.js';
 import { keep, kept } from './kept.js';
+import { isTold } from './told.js';
 
 // What of a bench is in the address: the word there, and the name by which it is kept.
 const kKept = [['names', 'plotted'], ['lanes', 'find in the timeline'], ['stretch', 'stretch of the timeline'], ['signals', 'filter of signals'],
@@ -76,7 +77,7 @@ export async function copyMoment() {
   put();
   try {
     await navigator.clipboard.writeText(location.href);
-    complain('The link to this moment is copied; it works while this page runs.');
+    complain(`The link to this moment is copied${isTold ? '' : '; it works while this page runs'}.`);
   } catch {
     complain(`Copy this address: ${location.href}`);
   }

@@ -13,12 +13,15 @@ import { Faults } from './faults.js';
 import { Story, WhatIf } from './story.js';
 import { copyMoment, goThere, noteMoment } from './link.js';
 import { Timeline } from './timeline.js';
+import { isTold } from './told.js';
 import { Travel } from './travel.js';
 import { keepPaths } from './plane.js';
 import { keep, kept } from './kept.js';
 
-const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Timeline', Timeline], ['Registers', Registers], ['Bus', Bus],
-                 ['Program', Program], ['Events', Events], ['Faults', Faults]];
+const kAllPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Timeline', Timeline], ['Registers', Registers], ['Bus', Bus],
+                    ['Program', Program], ['Events', Events], ['Faults', Faults]];
+// A recording in one file holds no registers and no text of programs, and nothing in it can be changed.
+const kPanels = kAllPanels.filter(([name]) => !isTold || !['Registers', 'Program', 'Faults'].includes(String(name)));
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
 const kMaxNamed = 3;  // devices in the header
 

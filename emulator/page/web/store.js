@@ -1,5 +1,6 @@
 // The page's knowledge of the bench that it shows. Panels read it; only this file writes what the server sends.
 import { Wire } from './wire.js';
+import { Told, isTold } from './told.js';
 import { hear } from './heard.js';
 
 const kMaxFrames = 1024;
@@ -67,7 +68,7 @@ function watch() {
   wire.watch(store.number, { names, frames: true, events: true, status: true });
 }
 
-const wire = new Wire({
+const wire = new (isTold ? Told : Wire)({
   hello: (hello) => {
     store.link = '';
     store.hello = hello;

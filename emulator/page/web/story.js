@@ -4,6 +4,7 @@ import { ask, isAltered, isReadOnly, store } from './store.js';
 import { Button, seconds } from './small.js';
 import { leaveMoment } from './link.js';
 import { keep, useKept } from './kept.js';
+import { isTold } from './told.js';
 
 export async function goTo(to_ns) {
   leaveMoment();
@@ -38,6 +39,6 @@ export function WhatIf() {
     return html`<span class="badge">altered since ${seconds(store.look.altered_at_ns)}: not what happened</span>
       <${Button} kind="small main" title="back to the recording" disabled=${isReadOnly()} does=${() => ask({ do: 'what-if', off: true })}>back to the recording<//>`;
   }
-  return html`<span class="badge calm">recording</span><${Button} kind="small" title="try what would happen from here; the recording stays as it is" disabled=${isReadOnly()}
-    does=${() => ask({ do: 'what-if' })}>what if ...<//>`;
+  return html`<span class="badge calm">recording</span>${!isTold && html`<${Button} kind="small" title="try what would happen from here; the recording stays as it is" disabled=${isReadOnly()}
+    does=${() => ask({ do: 'what-if' })}>what if ...<//>`}`;
 }

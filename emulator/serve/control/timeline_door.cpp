@@ -254,46 +254,48 @@ class Travel {
 
 }  // namespace
 
-DoorMaker timeline_door(const std::string& path, TimelineSetup given) {
-  const auto travel = std::make_shared<std::unique_ptr<Travel>>();
+ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup given) {
   const auto setup = std::make_shared<const TimelineSetup>(std::move(given));
+  const auto travel = std::make_shared<std::unique_ptr<Travel>>();
+  const auto travelled = [=, &daemon] {
+    if (!*travel) *travel = std::make_unique<Travel>(daemon, *setup);
+  };
+  daemon.post(travelled);  // runs before any client is served
+  return [=, &daemon](const std::string& line, const ControlServer::Reply& reply) {
+    travelled();
+    Json message;
+    try {
+      if (line.size() <= kMaxAtOnce) message = Json::parse(line);
+      message.erase("as");
+    } catch (const Json::exception&) {
+    }
+    const std::string word = message.is_object() && message.contains("do") && message["do"].is_string()
+                                 ? message["do"].get<std::string>()
+                                 : std::string();
+    if (word == "timeline") return answer(reply, [&] { return (*travel)->timeline(message); });
+    if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
+    if (word == "curves") return answer(reply, [&] { return (*travel)->curves(message); });
+    if (word == "spans") return answer(reply, [&] { return (*travel)->spans(message); });
+    if (word == "what-if") return answer(reply, [&] { return (*travel)->what_if(message); });
+    const bool is_recorded = !(*travel)->is_altered();
+    if (word == "continue" && is_recorded)
+      return answer(reply, [&] { return (*travel)->stops().go_on(message); });
+    if (word == "step" && is_recorded) return answer(reply, [&] { return (*travel)->stops().step(message); });
+    if (!word.empty() && is_recorded && !only_looks(message, word)) {
+      return answer(reply, [&]() -> Json {
+        throw MessageError(word +
+                           ": a recording cannot be changed; expected `seek`, a command that only reads, "
+                           "or `what-if` first");
+      });
+    }
+    handle_message(daemon, line, reply);
+  };
+}
+
+DoorMaker timeline_door(const std::string& path, const TimelineSetup& setup) {
   return [=](Daemon& daemon, const std::function<void(const std::string&)>&) -> std::unique_ptr<Door> {
-    const auto travelled = [=, &daemon] {
-      if (!*travel) *travel = std::make_unique<Travel>(daemon, *setup);
-    };
-    daemon.post(travelled);  // runs before any client is served
-    const auto handle = [&daemon, travel, travelled](const std::string& line,
-                                                     const ControlServer::Reply& reply) {
-      travelled();
-      Json message;
-      try {
-        if (line.size() <= kMaxAtOnce) message = Json::parse(line);
-        message.erase("as");
-      } catch (const Json::exception&) {
-      }
-      const std::string word = message.is_object() && message.contains("do") && message["do"].is_string()
-                                   ? message["do"].get<std::string>()
-                                   : std::string();
-      if (word == "timeline") return answer(reply, [&] { return (*travel)->timeline(message); });
-      if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
-      if (word == "curves") return answer(reply, [&] { return (*travel)->curves(message); });
-      if (word == "spans") return answer(reply, [&] { return (*travel)->spans(message); });
-      if (word == "what-if") return answer(reply, [&] { return (*travel)->what_if(message); });
-      const bool is_recorded = !(*travel)->is_altered();
-      if (word == "continue" && is_recorded)
-        return answer(reply, [&] { return (*travel)->stops().go_on(message); });
-      if (word == "step" && is_recorded)
-        return answer(reply, [&] { return (*travel)->stops().step(message); });
-      if (!word.empty() && is_recorded && !only_looks(message, word)) {
-        return answer(reply, [&]() -> Json {
-          throw MessageError(word +
-                             ": a recording cannot be changed; expected `seek`, a command that only reads, "
-                             "or `what-if` first");
-        });
-      }
-      handle_message(daemon, line, reply);
-    };
-    return std::make_unique<ControlServer>(daemon.loop(), path.empty() ? own_control_path() : path, handle);
+    return std::make_unique<ControlServer>(daemon.loop(), path.empty() ? own_control_path() : path,
+                                           timeline_handler(daemon, setup));
   };
 }
 

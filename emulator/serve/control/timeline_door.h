@@ -1,9 +1,11 @@
-// The control socket of a recording: all messages, and two more that move in its time (docs/control.md).
+// The control socket of a recording: all messages, and those of a recording (docs/control.md).
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/recording/recording.h"
@@ -20,8 +22,12 @@ struct TimelineSetup {
   SimTime end{0};
   SimTime at_first{0};
 };
-/// Makes the door of a daemon whose world is of the recording's bench and whose clock is stopped. It plays
-/// the recording once, as soon as the daemon runs, and moves to `at_first`. `path` is as for control_door().
-DoorMaker timeline_door(const std::string& path, TimelineSetup setup);
+/// Answers the messages for a daemon whose world is of the recording's bench and whose clock is stopped. It
+/// plays the recording once, as soon as the daemon runs, and moves to `at_first`. What it returns must be
+/// called, and destroyed, on the daemon's thread or when that has ended.
+ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup setup);
+
+/// Makes a door with that handler. `path` is as for control_door().
+DoorMaker timeline_door(const std::string& path, const TimelineSetup& setup);
 
 }  // namespace understudy::emulator::serve

@@ -287,6 +287,30 @@ def recording(options):
         visit.close()
 
 
+def story_file(options):
+    """A recording in one file: it opens at the failure without a server, goes to other moments, and is complete."""
+    with Stage(options) as stage:
+        (stage.folder / 'failing.yaml').write_text(FAILING, encoding='utf-8')
+        for words in [['run', 'failing.yaml', '--record', 'kept'], ['replay', 'kept/ends_elsewhere.jsonl', '--export', 'story.html']]:
+            subprocess.run([options.understudy, *words], cwd=stage.folder, check=False, stdout=subprocess.DEVNULL)
+        stage.address = (stage.folder / 'story.html').as_uri()
+        visit = stage.visit()
+        clock = lambda: visit.texts('.clock')[0]
+        visit.until('a file opens at the failure', lambda: clock().startswith('3.0') and 'failing.yaml:11' in visit.texts('.story strong')[0])
+        visit.until('without panels of which it holds nothing', lambda: visit.texts('nav button') == ['Axes', 'Signals', 'Plot', 'Timeline', 'Bus', 'Events'])
+        visit.picture('story_file')
+        visit.find('.story li button')[1].click()
+        visit.until('a moment of it is a link', lambda: clock() < '0.1')
+        canvas = visit.find('.timeline canvas')[0]
+        ActionChains(visit.driver).move_to_element(canvas).click().perform()
+        visit.until('a click on its timeline goes there', lambda: '1.0' < clock() < '2.2')
+        visit.show('Axes')
+        visit.until('the axes are where they were', lambda: '1,000' < visit.texts('.reading.wide output')[0] < '32,000')
+        visit.show('Bus')
+        visit.until('with the frames before', lambda: any('Aaxis_Move_INC' in row for row in visit.texts('.frames tr')))
+        visit.close()
+
+
 def story(options):
     """A recording opens at its failure, with what led there; a timeline; something else is tried, and given up; a moment is a link."""
     with Stage(options) as stage:
@@ -381,7 +405,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():
