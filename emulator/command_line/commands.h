@@ -102,6 +102,19 @@ struct RunArguments {
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
 
+struct HuntArguments {
+  std::string scenario;  // a file with `hunt`
+  std::string time;      // a duration of real time; empty: a minute, unless `courses` is given
+  std::optional<std::uint64_t> courses;
+  std::uint64_t seed = 0;
+  std::optional<int> jobs;      // none: one for each core
+  std::string shard;            // "1/4"
+  std::string found = "found";  // the folder for what is found
+  std::string version;          // the version of this program
+};
+/// Searches for what breaks a scenario.
+int hunt_scenario(ModelList models, const HuntArguments& arguments);
+
 struct ExecArguments {
   ServeArguments serve;
   HostArguments host;

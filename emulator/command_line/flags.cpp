@@ -40,6 +40,7 @@ struct CommandLine {
   ServeArguments serve;
   ExecArguments exec;
   RunArguments run;
+  HuntArguments hunt;
   CoverageArguments coverage;
   ReplayArguments replay;
   ControlArguments control;
@@ -71,7 +72,7 @@ struct CommandLine {
     const char* help;
     void (CommandLine::*fill)(CLI::App& command);
   };
-  static const std::array<Command, 20> kCommands;
+  static const std::array<Command, 21> kCommands;
   static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
@@ -138,6 +139,14 @@ struct CommandLine {
     command.callback([this] {
       run.version = UNDERSTUDY_VERSION;
       chosen = [this] { return run_scenarios(models, run); };
+    });
+  }
+
+  void add_hunt(CLI::App& command) {
+    add_hunt_flags(command, hunt);
+    command.callback([this] {
+      hunt.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return hunt_scenario(models, hunt); };
     });
   }
 
@@ -343,13 +352,15 @@ struct CommandLine {
 };
 
 // This is the order of `--help`.
-const std::array<CommandLine::Command, 20> CommandLine::kCommands{{
+const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
     {"exec", "Run a command against a bench, or in each case of a scenario: exec FILE -- COMMAND",
      &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
+    {"hunt", "Search for what breaks a scenario, and shrink it to the least that does",
+     &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
     {"ctl", "Inspect and control a running `serve`", &CommandLine::add_control},

@@ -70,6 +70,25 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
   add_case_flags(command, run);
 }
 
+inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
+  command.add_option("SCENARIO", hunt.scenario, "A scenario file with `hunt`, which says what may happen")
+      ->required();
+  command.add_option("--for", hunt.time, "End after this much real time [60s, unless --courses is given]")
+      ->check(kNotEmpty);
+  command.add_option("--courses", hunt.courses, "End after this many courses [any number]");
+  command.add_option("--seed", hunt.seed, "Draw other courses: any whole number")
+      ->check(kSeed)
+      ->capture_default_str();
+  command.add_option("--jobs", hunt.jobs, "Number of courses to play at a time [one for each core]");
+  command.add_option("--shard", hunt.shard, "I/N: play the I-th of all courses, and every N-th after it")
+      ->check(kNotEmpty);
+  command
+      .add_option("--found", hunt.found,
+                  "Folder for what is found: a scenario, a recording and a page for each kind of failure")
+      ->capture_default_str()
+      ->check(kNotEmpty);
+}
+
 /// The flags of `exec` besides those of `serve`.
 inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
   command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")->check(kNotEmpty);

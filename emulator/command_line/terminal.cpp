@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace understudy::emulator::command_line {
 
@@ -59,7 +61,12 @@ std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t
   return text;
 }
 
-ProgressLine::ProgressLine(std::uint64_t total) : total_(total) {
+ProgressLine::ProgressLine(std::uint64_t total)
+    : ProgressLine([this](double seconds) { return progress_text(done_, total_, failed_, seconds); }) {
+  total_ = total;
+}
+
+ProgressLine::ProgressLine(std::function<std::string(double)> text_of) : text_of_(std::move(text_of)) {
   const bool is_watched = isatty(STDERR_FILENO) != 0 && !is_dumb() && !is_set("CI");
   if (is_watched) thread_ = std::thread([this] { run(); });
 }
@@ -86,7 +93,7 @@ void ProgressLine::run() {
   over_.wait_for(lock, kFirst, [this] { return is_over_; });
   while (!is_over_) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-    std::fprintf(stderr, "\r%s\x1b[K", progress_text(done_, total_, failed_, passed.count()).c_str());
+    std::fprintf(stderr, "\r%s\x1b[K", text_of_(passed.count()).c_str());
     is_shown_ = true;
     over_.wait_for(lock, kEvery, [this] { return is_over_; });
   }

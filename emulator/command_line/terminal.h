@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -25,6 +26,8 @@ std::string coloured_verdict(const std::string& line, bool with_colour);
 class ProgressLine {
  public:
   explicit ProgressLine(std::uint64_t total);
+  /// Shows the text that `text_of` returns for the seconds since the start. It is called on another thread.
+  explicit ProgressLine(std::function<std::string(double)> text_of);
   ~ProgressLine();  // clears the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -52,7 +55,8 @@ class ProgressLine {
   void run();
   void wipe();
 
-  std::uint64_t total_;
+  std::function<std::string(double)> text_of_;
+  std::uint64_t total_ = 0;
   std::mutex mutex_;
   std::condition_variable over_;
   std::uint64_t done_ = 0;

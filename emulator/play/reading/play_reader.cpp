@@ -1,9 +1,11 @@
 #include "emulator/play/reading/play_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,6 +26,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/play/reading/case_table.h"
+#include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/shared_reading.h"
@@ -285,7 +288,17 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   if (file_.seed) scenario.bench.seed = *file_.seed;
   scenario.seed = scenario.bench.seed;
   StepsReader steps(trial, file_.reading, file_.path);
-  all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
+  std::vector<WrittenStep> written;
+  const bool has_steps = all.attempt([&] {
+    scenario.steps = steps.read(root.at("steps"), parameters, root.has("hunt") ? &written : nullptr);
+  });
+  all.attempt([&] {
+    if (!root.has("hunt") || !has_steps) return;
+    static constexpr std::array<std::string_view, 9> kOfSteps{
+        "understudy", "name", "plays", "parameters", "cases", "choice", "vary", "hunt", "steps"};
+    scenario.hunt =
+        std::make_shared<const HuntPlan>(root.at("hunt"), root.without(kOfSteps), std::move(written), steps);
+  });
   all.attempt([&] { read_command(root, parameters, scenario); });
   all.throw_if_any();
   // Without the command, nobody knows what it uses.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "emulator/play/reading/hunt_form.h"
 #include "emulator/world/bench_file/bench_form.h"
 
 namespace understudy::emulator::play {
@@ -74,6 +75,9 @@ inline constexpr world::Key kChoiceKey{
 inline constexpr world::Key kVaryKey{
     "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};
 
+inline constexpr world::Key kHuntKey{"hunt", "What may happen to it, and what must hold, for `hunt`.",
+                                     &kHuntSchema};
+
 /// A play has the keys of a scenario. It can omit `bench`, and everything else that the file gives to all of
 /// them.
 inline constexpr std::array kPlayKeys{
@@ -89,6 +93,7 @@ inline constexpr std::array kPlayKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
+    kHuntKey,
     world::Key{"steps", "Actions and expectations, in order.", &world::kSteps}};
 inline constexpr world::Schema kPlaySchema = world::keys_schema(kPlayKeys);
 inline constexpr world::Schema kPlaysSchema = world::list_schema(kPlaySchema);
@@ -106,6 +111,7 @@ inline constexpr std::array kScenarioKeys{
     kCasesKey,
     kChoiceKey,
     kVaryKey,
+    kHuntKey,
     world::Key{"steps", "Actions and expectations, in order.", &world::kSteps},
     world::Key{"plays", "Several plays instead of `steps`; they share all other keys of the file.",
                &kPlaysSchema}};

@@ -82,11 +82,32 @@ StepsReader::StepsReader(const Trial& trial, FileReading& file, const std::strin
     story_.faults.push_back(world::to_text(trial.known(), fault));
 }
 
-Steps StepsReader::read(const world::YamlFields& list, const Parameters& parameters) {
+Steps StepsReader::read(const world::YamlFields& list, const Parameters& parameters,
+                        std::vector<WrittenStep>* written) {
+  Steps steps;
+  top_ = into_ = &steps;
+  written_ = written;
+  diagnostics_.require([&] { read_here(list, parameters); });
+  written_ = nullptr;
+  return steps;
+}
+
+Steps StepsReader::read_apart(const world::YamlFields& step) {
+  static const Parameters kNone;
   Steps steps;
   into_ = &steps;
-  diagnostics_.require([&] { read_here(list, parameters); });
+  parameters_ = &kNone;
+  const Story before = story_;
+  diagnostics_ = {};
+  diagnostics_.require([&] { read_or_complain(step); });
+  story_ = before;
   return steps;
+}
+
+void StepsReader::note_written() {
+  written_->push_back(
+      {.fields = has_added_ ? written_->back().fields : current_->settled(), .continues = has_added_});
+  has_added_ = true;
 }
 
 void StepsReader::count(const world::YamlFields& where) {
@@ -142,7 +163,10 @@ Steps StepsReader::read_branch(const world::YamlFields& list) {
   Steps steps;
   Steps* const outer = std::exchange(into_, &steps);
   const Story before = story_;
+  const auto branching = current_;
   diagnostics_.attempt([&] { read_here(list, *parameters_); });
+  current_ = branching;
+  has_added_ = false;
   story_ = before;
   into_ = outer;
   return steps;
@@ -175,6 +199,8 @@ void StepsReader::read_included(const world::YamlFields& field) {
 void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
   step.require_map();
   if (row == nullptr) fail_without_row(step);
+  current_ = step;
+  has_added_ = false;
   std::vector<world::Key> known{row->key};
   known.insert(known.end(), row->beside.begin(), row->beside.end());
   for (const auto& [key, value] : step.entries()) {

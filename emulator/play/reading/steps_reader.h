@@ -2,12 +2,14 @@
 // everything is checked on the way.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
+#include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/reading/story.h"
@@ -42,8 +44,11 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Throws all mistakes in the steps.
-  Steps read(const world::YamlFields& list, const Parameters& parameters);
+  /// Throws all mistakes in the steps. Adds to `written`, if it is given, what each step was made of.
+  Steps read(const world::YamlFields& list, const Parameters& parameters,
+             std::vector<WrittenStep>* written = nullptr);
+  /// Reads a step that needs no parameters, and whose names no other step knows. Throws all mistakes in it.
+  Steps read_apart(const world::YamlFields& step);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
   const Trial& trial() const { return trial_; }
@@ -64,6 +69,7 @@ class StepsReader {
     into_->push_back(
         {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
     count_bytes(where, into_->back());
+    if (written_ != nullptr && into_ == top_) note_written();
   }
   /// Adds the steps of a list at this position, with other parameters.
   void read_here(const world::YamlFields& list, const Parameters& parameters);
@@ -95,6 +101,7 @@ class StepsReader {
  private:
   void read_or_complain(const world::YamlFields& step);
   void read_step(const world::YamlFields& step, const StepRow* row);
+  void note_written();
   void count(const world::YamlFields& where);
   void count_bytes(const world::YamlFields& where, const Step& step);
 
@@ -103,6 +110,10 @@ class StepsReader {
   const Parameters* parameters_ = nullptr;
   Story story_;
   Steps* into_ = nullptr;
+  const Steps* top_ = nullptr;                   // those of the scenario, not of a branch
+  std::vector<WrittenStep>* written_ = nullptr;  // what they are made of
+  std::optional<world::YamlFields> current_;     // the step that is read
+  bool has_added_ = false;                       // it has made one already
   std::vector<FileClaim> files_;
   std::vector<std::pair<std::string, world::YamlFields>> saved_;
   std::vector<std::string> paths_;  // of the files that include each other here

@@ -27,6 +27,11 @@ class Variation {
   /// Returns how many values are combined with those of other parameters.
   std::uint64_t count() const { return count_; }
   std::string value(std::uint64_t number) const;
+  /// Returns true if it has a list of values, and not a range.
+  bool has_list() const { return !listed_.empty(); }
+  /// Returns how many values a range or a list has, and one of these by its place in it.
+  std::uint64_t places() const { return places_; }
+  std::string value_at(std::uint64_t place) const;
   /// Returns true if the entry is not combined: one value is drawn for each case, by a hash of the case's
   /// other values.
   bool is_free() const { return is_free_; }
@@ -38,7 +43,6 @@ class Variation {
   void read_range(bool is_drawn);
   void read_samples(std::uint64_t seed, bool overrides);
   void read_list(const world::YamlFields& list);
-  std::string value_at(std::uint64_t place) const;
 
   std::string name_;
   world::YamlFields field_;

@@ -18,6 +18,8 @@
 
 namespace understudy::emulator::play {
 
+class HuntPlan;  // emulator/play/reading/hunt_plan.h
+
 struct Step;
 using Steps = std::vector<Step>;
 
@@ -230,6 +232,7 @@ struct Scenario {
   Case which{};
   std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
   std::vector<std::pair<std::string, std::string>> environment{};  // for the command
+  std::shared_ptr<const HuntPlan> hunt{};                          // null: the file says nothing about it
 };
 
 }  // namespace understudy::emulator::play

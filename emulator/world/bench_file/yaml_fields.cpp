@@ -137,6 +137,68 @@ YamlFields YamlFields::without(std::span<const std::string_view> keys) const {
   return rest;
 }
 
+YamlFields YamlFields::settled(
+    const std::function<std::optional<std::string>(const YamlFields&)>& text_of) const {
+  auto nodes = std::make_shared<JoinedNodes>(JoinedNodes{.own = node_, .defaults = nullptr});
+  const std::function<const YamlNode*(const YamlFields&, int)> copy = [&](const YamlFields& from,
+                                                                          int depth) -> const YamlNode* {
+    if (depth > kMaxJoinedDepth) from.fail("is nested too deeply; expected fewer levels");
+    YamlNode& node = nodes->make(*from.node_);
+    node.kind = from.node_->kind;
+    if (const auto text = text_of ? text_of(from) : std::nullopt) {
+      node.kind = YamlNode::Kind::scalar;
+      node.scalar = *text;
+    } else if (from.is_scalar()) {
+      node.scalar = from.read_scalar(*from.node_);
+      node.text_line = from.node_->text_line;
+      node.text_column = from.node_->text_column;
+    } else if (from.is_list()) {
+      for (const YamlFields& element : from.elements()) node.parts.push_back(copy(element, depth + 1));
+    } else if (from.is_map()) {
+      for (std::size_t i = 0; i + 1 < from.node_->parts.size(); i += 2) {
+        YamlNode& key = nodes->make(*from.node_->parts[i]);
+        key.kind = YamlNode::Kind::scalar;
+        key.scalar = from.part(*from.node_->parts[i], from.field_).text();
+        const YamlFields value = from.part(*from.node_->parts[i + 1], from.field_of(key.scalar));
+        node.parts.insert(node.parts.end(), {&key, copy(value, depth + 1)});
+      }
+    }
+    return &node;
+  };
+  YamlFields same = *this;
+  same.node_ = {nodes, copy(*this, 0)};
+  same.rule_ = nullptr;
+  return same;
+}
+
+YamlFields YamlFields::with_entry(const std::string& key, const std::string& text) const {
+  auto nodes = std::make_shared<JoinedNodes>(JoinedNodes{.own = node_, .defaults = nullptr});
+  YamlNode& node = nodes->make(*node_);
+  node.parts = node_->parts;
+  for (const std::string& scalar : {key, text}) {
+    YamlNode& added = nodes->make(*node_);
+    added.kind = YamlNode::Kind::scalar;
+    added.scalar = scalar;
+    node.parts.push_back(&added);
+  }
+  YamlFields longer = *this;
+  longer.node_ = {std::move(nodes), &node};
+  return longer;
+}
+
+YamlFields YamlFields::under(const std::string& key) const {
+  auto nodes = std::make_shared<JoinedNodes>(JoinedNodes{.own = node_, .defaults = nullptr});
+  YamlNode& node = nodes->make(*node_);
+  YamlNode& name = nodes->make(*node_);
+  name.kind = YamlNode::Kind::scalar;
+  name.scalar = key;
+  node.parts = {&name, node_.get()};
+  YamlFields map = *this;
+  map.node_ = {std::move(nodes), &node};
+  if (map.field_.ends_with("." + key)) map.field_.resize(map.field_.size() - key.size() - 1);
+  return map;
+}
+
 bool YamlFields::is_map() const { return node_->kind == YamlNode::Kind::map; }
 bool YamlFields::is_list() const { return node_->kind == YamlNode::Kind::list; }
 bool YamlFields::is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }

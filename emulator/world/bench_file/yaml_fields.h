@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,13 @@ class YamlFields {
   YamlFields with_defaults(const YamlFields& defaults) const;
   /// This map without some of its keys.
   YamlFields without(std::span<const std::string_view> keys) const;
+  /// A copy whose scalars have been read by the rule, so that it needs none. Parts for which `text_of`
+  /// returns a text become scalars with that text.
+  YamlFields settled(const std::function<std::optional<std::string>(const YamlFields&)>& text_of = {}) const;
+  /// This map with one more scalar at its end.
+  YamlFields with_entry(const std::string& key, const std::string& text) const;
+  /// A map whose only value is this node.
+  YamlFields under(const std::string& key) const;
 
   bool is_map() const;
   bool is_list() const;

@@ -48,7 +48,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
       {with("stepps: 1"),
        "3: stepps: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, "
        "parameters, environment, "
-       "cases, choice, vary, steps, plays (the nearest is 'steps')"},
+       "cases, choice, vary, hunt, steps, plays (the nearest is 'steps')"},
       {with("seed: 1\nseed: 2"), "4: seed: is given twice; expected it once"},
       {with("seed: -1"),
        "3: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807"},

@@ -117,7 +117,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
        "5: plays[1]: is called 'a', as another play is; expected a name of its own"},
       {head + "plays: [ { name: a, stepz: 1 } ]\n",
        "3: plays[0].stepz: is not a key here; expected one of name, bench, nv, firmware, gap, seed, "
-       "parameters, environment, cases, choice, vary, steps (the nearest is 'steps')"},
+       "parameters, environment, cases, choice, vary, hunt, steps (the nearest is 'steps')"},
       {head + "steps: [ advance: 1ms ]\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "3: steps: cannot be combined with `plays`; expected them in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",

@@ -454,7 +454,7 @@ steps:
   - expect: { feeder.Cord_A: x }
 )"),
       R"(scenario.yaml:3: gap: 'soon' is not a duration; expected one such as 250ms
-scenario.yaml:4: seeed: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, parameters, environment, cases, choice, vary, steps, plays (the nearest is 'seed')
+scenario.yaml:4: seeed: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, parameters, environment, cases, choice, vary, hunt, steps, plays (the nearest is 'seed')
 scenario.yaml:6: steps[0].write.feeder.Aaxis_SVN: feeder: no register is called 'Aaxis_SVN'; the nearest is 'Aaxis_SVON'
 scenario.yaml:7: steps[1].inject: )" +
           folder.diagnostic(play::ScenarioFolder::scenario_of("  - inject: { stal: feeder.A, name: jam }\n"))

@@ -1,0 +1,60 @@
+// A course is a case of a scenario file with disturbances: a value that is drawn, and made smaller when it
+// fails.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/play/reading/hunt_plan.h"
+
+namespace understudy::emulator::hunt {
+
+struct Course {
+  std::uint64_t case_number = 0;
+  std::vector<play::Disturbance> disturbances{};  // in the order of their steps
+  // What the shrinker has left out: steps of the scenario, and all from `end` on.
+  std::set<std::size_t> left_out{};
+  std::size_t end = SIZE_MAX;
+
+  bool operator==(const Course&) const = default;
+};
+
+/// What happens in a case without disturbances: the bounds of what is drawn.
+struct Undisturbed {
+  std::vector<SimTime> begins;  // of each step
+  std::vector<SimTime> ends;    //
+  std::int64_t requests = 0;    // of all stations
+};
+
+/// The times at which a fault of an entry may begin.
+struct Window {
+  SimTime low{0};
+  SimTime high{0};
+};
+Window window_of(const play::HuntPlan::Entry& entry, const Undisturbed& undisturbed);
+
+/// Random numbers from a seed, the same everywhere.
+class Dice {
+ public:
+  /// `number` is that of the course.
+  Dice(std::uint64_t seed, std::uint64_t number);
+  std::uint64_t next();
+  /// Returns a number below `count`, which is at least 1.
+  std::uint64_t below(std::uint64_t count);
+  bool one_in(std::uint64_t count) { return below(count) == 0; }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t drawn_ = 0;
+};
+
+/// Draws which disturbances a course may have at all, then how many of them, then their values and moments.
+std::vector<play::Disturbance> draw_disturbances(const play::HuntPlan& plan, const Undisturbed& undisturbed,
+                                                 Dice& dice);
+/// Puts disturbances into the order of their steps.
+void arrange(std::vector<play::Disturbance>& disturbances);
+
+}  // namespace understudy::emulator::hunt

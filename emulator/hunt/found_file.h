@@ -1,0 +1,25 @@
+// Writes what a hunt has found as an ordinary scenario.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "emulator/hunt/shrinker.h"
+#include "emulator/hunt/stage.h"
+
+namespace understudy::emulator::hunt {
+
+/// How a finding came about, for people.
+struct Origin {
+  std::string command;           // with which it is found again
+  std::uint64_t course = 0;      // its number
+  std::size_t disturbances = 0;  // of the course
+};
+
+/// Returns the name of its file, without a folder and an ending: always the same one for a kind of failure.
+std::string name_of_finding(const Stage& stage, const Shrunk& found);
+/// Returns the text of a scenario file in that folder.
+std::string text_of_finding(const Stage& stage, const Shrunk& found, const Origin& origin,
+                            const std::string& folder);
+
+}  // namespace understudy::emulator::hunt

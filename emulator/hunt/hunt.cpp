@@ -1,0 +1,150 @@
+#include "emulator/hunt/hunt.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "emulator/hunt/course.h"
+#include "emulator/hunt/shrinker.h"
+#include "emulator/hunt/stage.h"
+#include "emulator/play/performing/case_list.h"
+#include "emulator/play/performing/suite.h"
+#include "emulator/play/results/failure_kinds.h"
+#include "emulator/play/results/result.h"
+
+namespace understudy::emulator::hunt {
+
+namespace {
+
+constexpr std::size_t kMaxStages = 64;  // of one thread
+
+}  // namespace
+
+Hunt::Hunt(const play::CaseList& cases, ModelList models, HuntOptions options, Player player)
+    : cases_(cases), models_(models), options_(std::move(options)), player_(std::move(player)) {}
+
+std::unique_ptr<Hunt::Actor> Hunt::take_actor() {
+  const std::lock_guard lock(actors_mutex_);
+  if (actors_.empty()) {
+    auto actor = std::make_unique<Actor>();
+    actor->reader = std::make_unique<play::CaseReader>(cases_);
+    return actor;
+  }
+  auto actor = std::move(actors_.back());
+  actors_.pop_back();
+  return actor;
+}
+
+void Hunt::give_back(std::unique_ptr<Actor> actor) {
+  const std::lock_guard lock(actors_mutex_);
+  actors_.push_back(std::move(actor));
+}
+
+std::shared_ptr<Stage> Hunt::stage_of(Actor& actor, std::uint64_t case_number) const {
+  const auto it = actor.stages.find(case_number);
+  if (it != actor.stages.end()) return it->second;
+  if (actor.stages.size() >= kMaxStages) actor.stages.clear();
+  auto scenario = actor.reader->read({.file = 0, .number = case_number});
+  auto stage = std::make_shared<Stage>(std::move(scenario), models_, player_);
+  return actor.stages.emplace(case_number, std::move(stage)).first->second;
+}
+
+Hunt::Played Hunt::play(Actor& actor, std::uint64_t number) const {
+  Dice dice(options_.seed, number);
+  Played played;
+  played.course.case_number = dice.below(cases_.cases_of(0));
+  Stage& stage = *stage_of(actor, played.course.case_number);
+  played.outcome = stage.undisturbed_outcome();
+  if (!played.outcome.kind.empty()) return played;
+  played.course.disturbances = draw_disturbances(stage.plan(), stage.undisturbed(), dice);
+  played.outcome = stage.play(played.course);
+  return played;
+}
+
+/// Counts a course, and shrinks it if it is the first that failed in its way.
+void Hunt::judge(std::uint64_t number, const Played& played,
+                 const std::function<void(const Finding&)>& found) {
+  const Outcome& outcome = played.outcome;
+  const bool is_new = !outcome.kind.empty() &&
+                      (kinds_.contains(outcome.kind) || kinds_.size() < play::FailureKinds::kMax) &&
+                      ++kinds_[outcome.kind] == 1;
+  {
+    const std::lock_guard lock(tally_mutex_);
+    ++tally_.courses;
+    tally_.simulated += outcome.simulated;
+    if (!outcome.kind.empty()) ++tally_.failed;
+    if (outcome.is_cut_short) ++tally_.cut_short;
+    if (is_new) ++tally_.findings;
+  }
+  if (!is_new) return;
+  auto actor = take_actor();
+  Finding finding{.course = number, .disturbances = played.course.disturbances.size()};
+  finding.stage = stage_of(*actor, played.course.case_number);
+  finding.shrunk = Shrinker(*finding.stage, outcome.kind).shrink(played.course, outcome);
+  found(finding);
+  give_back(std::move(actor));
+}
+
+/// Plays the courses of this shard from `first` to `end`. Returns false if there was no time for all of them.
+bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
+                           const std::function<void(const Finding&)>& found) {
+  std::vector<std::optional<Played>> all(end - first);
+  std::uint64_t next = first;
+  bool is_whole = true;
+  const auto next_course = [&]() -> std::optional<play::CaseId> {
+    while (next < end && next % options_.shard.of != options_.shard.number - 1) ++next;
+    if (next >= end) return std::nullopt;
+    if (options_.is_over()) {
+      is_whole = false;
+      return std::nullopt;
+    }
+    return play::CaseId{.file = 0, .number = next++};
+  };
+  const auto make_play = [&]() -> play::Play {
+    const auto return_it = [this](Actor* actor) { give_back(std::unique_ptr<Actor>(actor)); };
+    const std::shared_ptr<Actor> actor(take_actor().release(), return_it);
+    return [this, actor, &all, first](const play::CaseId& course) {
+      all[course.number - first] = play(*actor, course.number);
+      return std::vector<play::ScenarioResult>{};
+    };
+  };
+  play::run_suite(next_course, make_play, options_.jobs,
+                  [&](const play::CaseId& course, const std::vector<play::ScenarioResult>&) {
+                    auto& played = all[course.number - first];
+                    judge(course.number, *played, found);
+                    played.reset();
+                  });
+  return is_whole;
+}
+
+/// Judges the only case without disturbances, if it fails: every course would fail in the same way.
+bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
+  auto actor = take_actor();
+  const Played played{.course = {}, .outcome = stage_of(*actor, 0)->undisturbed_outcome()};
+  give_back(std::move(actor));
+  if (played.outcome.kind.empty()) return false;
+  judge(0, played, found);
+  return true;
+}
+
+void Hunt::run(const std::function<void(const Finding&)>& found) {
+  if (cases_.cases_of(0) == 1 && fails_by_itself(found)) return;
+  for (std::uint64_t first = 0; first < options_.courses;) {
+    const std::uint64_t count = std::min(kGeneration * options_.shard.of, options_.courses - first);
+    if (!play_generation(first, first + count, found)) return;
+    first += count;
+  }
+}
+
+Tally Hunt::tally() const {
+  const std::lock_guard lock(tally_mutex_);
+  return tally_;
+}
+
+}  // namespace understudy::emulator::hunt

@@ -1,0 +1,94 @@
+// Plays courses of a scenario file until one fails, and shrinks the first of each kind. Courses are played on
+// several threads, in generations, and judged in the order of their numbers. So the findings depend on the
+// seed alone.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/device/model.h"
+#include "emulator/hunt/course.h"
+#include "emulator/hunt/shrinker.h"
+#include "emulator/hunt/stage.h"
+#include "emulator/play/performing/case_list.h"
+
+namespace understudy::emulator::hunt {
+
+struct HuntOptions {
+  std::uint64_t seed = 0;
+  int jobs = 1;
+  std::uint64_t courses = UINT64_MAX;  // how many at most
+  play::Shard shard{};
+  std::function<bool()> is_over = [] { return false; };  // may be called on any thread
+};
+
+/// A kind of failure.
+struct Finding {
+  std::uint64_t course = 0;      // the number of the first
+  std::size_t disturbances = 0;  // how many it had
+  Shrunk shrunk{};
+  std::shared_ptr<Stage> stage{};  // of its case
+};
+
+/// What has happened so far.
+struct Tally {
+  std::uint64_t courses = 0;
+  std::uint64_t failed = 0;
+  std::uint64_t cut_short = 0;  // a disturbance failed as a step
+  std::size_t findings = 0;
+  SimTime simulated{0};
+};
+
+class Hunt {
+ public:
+  /// `cases` has one file with a plan; it must outlive the hunt.
+  Hunt(const play::CaseList& cases, ModelList models, HuntOptions options, Player player);
+
+  /// Hunts until it is over. `found` gets each finding as soon as it is shrunk, on this thread.
+  void run(const std::function<void(const Finding&)>& found);
+
+  /// May be called on any thread.
+  Tally tally() const;
+  /// Returns how many courses failed in each way, by kind.
+  const std::map<std::string, std::uint64_t>& kinds() const { return kinds_; }
+
+ private:
+  static constexpr std::uint64_t kGeneration = 256;  // courses
+
+  /// A thread's own stages.
+  struct Actor {
+    std::unique_ptr<play::CaseReader> reader;
+    std::map<std::uint64_t, std::shared_ptr<Stage>> stages;  // by case
+  };
+  struct Played {
+    Course course;
+    Outcome outcome;
+  };
+
+  std::unique_ptr<Actor> take_actor();
+  void give_back(std::unique_ptr<Actor> actor);
+  std::shared_ptr<Stage> stage_of(Actor& actor, std::uint64_t case_number) const;
+  Played play(Actor& actor, std::uint64_t number) const;
+  void judge(std::uint64_t number, const Played& played, const std::function<void(const Finding&)>& found);
+  bool fails_by_itself(const std::function<void(const Finding&)>& found);
+  bool play_generation(std::uint64_t first, std::uint64_t end,
+                       const std::function<void(const Finding&)>& found);
+
+  const play::CaseList& cases_;
+  ModelList models_;
+  HuntOptions options_;
+  Player player_;
+  std::mutex actors_mutex_;
+  std::vector<std::unique_ptr<Actor>> actors_;
+  std::map<std::string, std::uint64_t> kinds_;
+  mutable std::mutex tally_mutex_;
+  Tally tally_;
+};
+
+}  // namespace understudy::emulator::hunt

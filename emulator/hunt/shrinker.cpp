@@ -1,0 +1,164 @@
+#include "emulator/hunt/shrinker.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <variant>
+
+#include "base/simulated_time.h"
+#include "emulator/hunt/course.h"
+#include "emulator/hunt/stage.h"
+#include "emulator/play/reading/hunt_plan.h"
+#include "emulator/play/reading/variation.h"
+#include "emulator/play/scenario/scenario.h"
+
+namespace understudy::emulator::hunt {
+
+namespace {
+
+using play::Disturbance;
+using When = Disturbance::When;
+
+}  // namespace
+
+bool Shrinker::try_course(Course course) {
+  if (course == best_.course || best_.plays >= kMaxPlays) return false;
+  ++best_.plays;
+  Outcome outcome = stage_.play(course);
+  if (outcome.kind != kind_) return false;
+  best_.course = std::move(course);
+  best_.outcome = std::move(outcome);
+  return true;
+}
+
+bool Shrinker::fails(const Course& course) {
+  ++best_.plays;
+  return stage_.play(course).kind == kind_;
+}
+
+Shrunk Shrinker::shrink(const Course& course, const Outcome& outcome) {
+  best_ = {.course = course, .outcome = outcome};
+  end_early();
+  remove_disturbances();
+  for (std::size_t i = 0; i < best_.course.disturbances.size(); ++i) simplify(i);
+  remove_disturbances();
+  leave_out_steps();
+  best_.is_minimal = is_minimal();
+  return std::move(best_);
+}
+
+/// Leaves out everything behind the step that failed.
+void Shrinker::end_early() {
+  if (best_.outcome.failed_step == SIZE_MAX) return;
+  Course shorter = best_.course;
+  shorter.end = best_.outcome.failed_step + 1;
+  std::erase_if(shorter.disturbances, [&](const Disturbance& one) { return one.step >= shorter.end; });
+  try_course(std::move(shorter));
+}
+
+/// Removes disturbances one by one until each is needed.
+bool Shrinker::remove_disturbances() {
+  bool is_smaller = false;
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = best_.course.disturbances.size(); i-- > 0;) {
+      Course smaller = best_.course;
+      smaller.disturbances.erase(smaller.disturbances.begin() + static_cast<std::ptrdiff_t>(i));
+      again = try_course(std::move(smaller)) || again;
+    }
+    is_smaller = is_smaller || again;
+  }
+  return is_smaller;
+}
+
+/// Finds a smallest number with which the course fails, as if it failed with all greater ones.
+void Shrinker::lower(std::size_t number, std::uint64_t low, std::uint64_t high,
+                     const std::function<void(Disturbance&, std::uint64_t)>& set) {
+  const auto attempt = [&](std::uint64_t value) {
+    Course lower = best_.course;
+    set(lower.disturbances[number], value);
+    return try_course(std::move(lower));
+  };
+  if (low >= high || attempt(low)) return;
+  while (low + 1 < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (attempt(middle) ? high : low) = middle;
+  }
+}
+
+void Shrinker::simplify(std::size_t number) {
+  const Disturbance& one = best_.course.disturbances[number];
+  const auto& values = stage_.plan().entries()[one.entry].values;
+  if (one.when == When::nth) {
+    lower(number, 1, static_cast<std::uint64_t>(one.moment),
+          [](Disturbance& it, std::uint64_t value) { it.moment = static_cast<std::int64_t>(value); });
+  }
+  if (one.when == When::at) round_moment(number);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint64_t present = best_.course.disturbances[number].values[i];
+    const auto set = [i](Disturbance& it, std::uint64_t value) { it.values[i] = value; };
+    if (!values[i].has_list()) {
+      lower(number, 0, present, set);
+      continue;
+    }
+    for (std::uint64_t place = 0; place < present; ++place) {
+      Course simpler = best_.course;
+      set(simpler.disturbances[number], place);
+      if (try_course(std::move(simpler))) break;
+    }
+  }
+}
+
+/// Takes the roundest time near the present one with which the course fails.
+void Shrinker::round_moment(std::size_t number) {
+  using namespace std::chrono_literals;
+  constexpr std::array<SimTime, 5> kUnits{1s, 100ms, 10ms, 1ms, 100us};
+  const Disturbance& one = best_.course.disturbances[number];
+  const SimTime present(one.moment);
+  const Window window = window_of(stage_.plan().entries()[one.entry], stage_.undisturbed());
+  for (const SimTime unit : kUnits) {
+    const SimTime below = present / unit * unit;
+    for (const SimTime rounded : {below, below + unit}) {
+      if (rounded == present) return;
+      if (rounded < window.low || rounded > window.high) continue;
+      Course rounder = best_.course;
+      rounder.disturbances[number].moment = rounded.count();
+      if (try_course(std::move(rounder))) return;
+    }
+  }
+}
+
+/// Leaves out steps of the scenario, from the end on, if the course then still fails because of its
+/// disturbances, and the scenario without them does not.
+void Shrinker::leave_out_steps() {
+  const auto& steps = stage_.scenario().steps;
+  const std::size_t last = std::min(best_.course.end, steps.size());
+  for (std::size_t i = last; i-- > 0;) {
+    if (std::holds_alternative<play::SayStep>(steps[i].what) || i == best_.outcome.failed_step) continue;
+    if (stage_.plan().steps()[i].continues) continue;
+    Course shorter = best_.course;
+    shorter.left_out.insert(i);
+    for (std::size_t j = i + 1; j < steps.size() && stage_.plan().steps()[j].continues; ++j)
+      shorter.left_out.insert(j);
+    if (shorter.left_out.contains(best_.outcome.failed_step)) continue;
+    Course undisturbed = shorter;
+    undisturbed.disturbances.clear();
+    if (best_.plays >= kMaxPlays || fails(undisturbed)) continue;
+    try_course(std::move(shorter));
+  }
+}
+
+bool Shrinker::is_minimal() {
+  for (std::size_t i = 0; i < best_.course.disturbances.size(); ++i) {
+    Course smaller = best_.course;
+    smaller.disturbances.erase(smaller.disturbances.begin() + static_cast<std::ptrdiff_t>(i));
+    if (fails(smaller)) return false;
+  }
+  return true;
+}
+
+}  // namespace understudy::emulator::hunt

@@ -1,0 +1,48 @@
+// Makes a course that failed smaller, as long as it fails in the same way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "emulator/hunt/course.h"
+#include "emulator/hunt/stage.h"
+
+namespace understudy::emulator::hunt {
+
+struct Shrunk {
+  Course course;
+  Outcome outcome;
+  int plays = 0;            // how many courses it took
+  bool is_minimal = false;  // without any one of its disturbances it does not fail in that way
+};
+
+class Shrinker {
+ public:
+  /// `kind` is how the course fails. Both must outlive it.
+  Shrinker(Stage& stage, const std::string& kind) : stage_(stage), kind_(kind) {}
+
+  Shrunk shrink(const Course& course, const Outcome& outcome);
+
+ private:
+  static constexpr int kMaxPlays = 3000;
+
+  bool fails(const Course& course);
+  /// Takes the course if it fails in the same way.
+  bool try_course(Course course);
+  void end_early();
+  bool remove_disturbances();
+  void simplify(std::size_t number);
+  void lower(std::size_t number, std::uint64_t low, std::uint64_t high,
+             const std::function<void(play::Disturbance&, std::uint64_t)>& set);
+  void round_moment(std::size_t number);
+  void leave_out_steps();
+  bool is_minimal();
+
+  Stage& stage_;
+  const std::string& kind_;
+  Shrunk best_;
+};
+
+}  // namespace understudy::emulator::hunt

@@ -1,0 +1,70 @@
+// A case of a scenario file that plays its courses. Each thread has stages of its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/hunt/course.h"
+#include "emulator/play/performing/run.h"
+#include "emulator/play/reading/hunt_plan.h"
+#include "emulator/play/reading/shared_reading.h"
+#include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/reading/trial.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+
+namespace understudy::emulator::hunt {
+
+/// What has become of a course.
+struct Outcome {
+  std::string kind{};                            // of its failure; empty: there is none that counts
+  std::optional<play::ScenarioResult> failed{};  // the scenario, or the branch, that failed
+  std::size_t failed_step = SIZE_MAX;            // the number of the scenario's step; SIZE_MAX: a branch's
+  bool is_cut_short = false;                     // a disturbance failed as a step, so the rest was not played
+  SimTime simulated{0};
+};
+
+/// Plays a scenario: run_scenario(), or something that runs a program beside it.
+using Player =
+    std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)>;
+
+class Stage {
+ public:
+  /// The scenario must have a plan.
+  Stage(std::shared_ptr<const play::Scenario> scenario, ModelList models, Player player);
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const play::HuntPlan& plan() const { return *scenario_->hunt; }
+  const play::Scenario& scenario() const { return *scenario_; }
+  /// Plays the case without disturbances, if that has not been done yet.
+  const Outcome& undisturbed_outcome();
+  const Undisturbed& undisturbed();
+
+  Outcome play(const Course& course);
+
+ private:
+  const play::Steps& spans();
+  void put_on(const Course& course);
+  Outcome outcome_of(std::vector<play::ScenarioResult> results) const;
+  void note_undisturbed(const std::vector<play::ScenarioResult>& results);
+
+  std::shared_ptr<const play::Scenario> scenario_;
+  Player player_;
+  play::SharedReading shared_;
+  play::FileReading reading_;
+  play::Trial trial_;
+  play::StepsReader reader_;
+  play::Steps spans_;
+  play::Scenario played_;             // with the steps of the present course
+  std::vector<std::size_t> sources_;  // for each of these: the scenario's step, or SIZE_MAX
+  std::optional<Outcome> undisturbed_outcome_;
+  Undisturbed undisturbed_;
+};
+
+}  // namespace understudy::emulator::hunt

@@ -1,0 +1,82 @@
+// Declares the form of `hunt`: what may happen to a scenario, and what must hold then.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "emulator/play/reading/step_forms.h"
+#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/fault_form.h"
+#include "emulator/world/bench_file/form.h"
+
+namespace understudy::emulator::play {
+
+// --- values that are drawn -----------------------------------------------------------------------
+inline constexpr world::Schema kTwoEnds = world::list_schema(world::kText, 2);
+inline constexpr std::array kDrawBetweenKeys{
+    world::Key{"between", "The smallest and the largest value to draw.", &kTwoEnds, true},
+    world::Key{"step", "The distance between values (default: the precision of the ends).", &world::kText}};
+inline constexpr std::array kDrawOneOfKeys{
+    world::Key{"one_of", "Values to choose from at random.", &world::kTextList, true}};
+inline constexpr world::Schema kDrawBetweenSchema = world::keys_schema(kDrawBetweenKeys);
+inline constexpr world::Schema kDrawOneOfSchema = world::keys_schema(kDrawOneOfKeys);
+inline constexpr std::array<const world::Schema*, 3> kDrawnWays{&world::kText, &kDrawBetweenSchema,
+                                                                &kDrawOneOfSchema};
+inline constexpr world::Schema kDrawn = world::any_of_schemas(kDrawnWays);
+inline constexpr world::Schema kDrawnByName = world::names_schema(kDrawn);
+inline constexpr world::Schema kDrawnByDevice = world::names_schema(kDrawn, world::Schema::Of::devices);
+inline constexpr world::Schema kDrawnByInput = world::names_schema(kDrawn, world::Schema::Of::inputs);
+inline constexpr world::Schema kDrawnByTurned = world::names_schema(kDrawn, world::Schema::Of::turned);
+inline constexpr world::Schema kDrawnByRegister = world::names_schema(kDrawn, world::Schema::Of::registers);
+
+namespace hunt_form {
+/// The keys of a fault. Its place and its fields may be drawn.
+constexpr auto drawn_fault() {
+  auto keys = world::kFaultKeys;
+  for (world::Key& key : keys) {
+    if (key.form == &world::kText) key.form = &kDrawn;
+  }
+  return keys;
+}
+}  // namespace hunt_form
+inline constexpr auto kDrawnFaultKeys = hunt_form::drawn_fault();
+inline constexpr world::Schema kDrawnFaultSchema = world::keys_schema(kDrawnFaultKeys);
+
+// --- may -----------------------------------------------------------------------------------------
+inline constexpr world::Schema kMostTimesSchema = world::integer_schema(1, 100);
+/// The steps that may happen, and what may accompany them.
+inline constexpr std::size_t kDisturbingSteps = 9;
+inline constexpr std::array kMayKeys{
+    world::Key{"inject", "A fault. It is injected at any time, unless its fields say when.",
+               &kDrawnFaultSchema},
+    world::Key{"input", "Inputs that somebody or something else switches.", &kDrawnByInput},
+    world::Key{"turn", "Hand wheels that are turned.", &kDrawnByTurned},
+    world::Key{"power", "Devices that are switched on or off.", &kDrawnByDevice},
+    world::Key{"write", "A request of another host.", &kDrawnByRegister},
+    world::Key{"command", "A command of another host.", &kDrawnByDevice},
+    world::Key{"send", "Bytes or a line of text of another host.", &kDrawnByName},
+    world::Key{"program", "A program that somebody loads.", &kDrawnByDevice},
+    world::Key{"advance", "A delay of the host.", &kDrawn},
+    world::Key{"times", "How often it may happen in a course, at most (1).", &kMostTimesSchema},
+    world::Key{"within", "All of these happen within this time, as a contact that bounces.",
+               &world::kDuration},
+    world::Key{"from", "The text of a `say` step, before which it does not happen.", &world::kText},
+    world::Key{"to", "The text of a `say` step, after which it does not happen.", &world::kText}};
+inline constexpr world::Schema kMaySchema = world::keys_schema(kMayKeys);
+inline constexpr world::Schema kMayListSchema = world::list_schema(kMaySchema);
+
+// --- what must hold ------------------------------------------------------------------------------
+inline constexpr world::Schema kSpanListSchema = world::list_schema(kSpanSchema);
+inline constexpr std::array<const world::Schema*, 3> kSpansWays{&world::kText, &kSpanKeysSchema,
+                                                                &kSpanListSchema};
+inline constexpr world::Schema kSpansSchema = world::any_of_schemas(kSpansWays);
+inline constexpr std::array kHuntKeys{
+    world::Key{"may", "What may happen: steps, whose values may be drawn.", &kMayListSchema, true},
+    world::Key{"from", "The text of a `say` step, before which nothing happens.", &world::kText},
+    world::Key{"to", "The text of a `say` step, after which nothing happens.", &world::kText},
+    world::Key{"never", "Conditions that must not be true at any tick of any course.", &kSpansSchema},
+    world::Key{"always", "Conditions that must be true at every tick of every course.", &kSpansSchema},
+    world::Key{"within", "The simulated time after which every course must be over.", &world::kDuration}};
+inline constexpr world::Schema kHuntSchema = world::keys_schema(kHuntKeys);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,86 @@
+// What `hunt` in a scenario file says: the disturbances that may happen to the scenario, and the conditions
+// that must hold. A course is the scenario with some of these disturbances, each with drawn values at a drawn
+// moment.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/play/reading/variation.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+class StepsReader;
+
+/// A step of the file, for one step of the scenario. A few steps of files make several.
+struct WrittenStep {
+  world::YamlFields fields;
+  bool continues = false;  // the step before it was made of the same one
+};
+
+/// A disturbance of a course.
+struct Disturbance {
+  std::size_t entry = 0;  // of `may`
+  std::size_t step = 0;   // it comes before this step of the scenario
+  enum class When : std::uint8_t {
+    here,  // at once
+    at,    // a fault that waits for a time
+    nth,   // a fault that waits for a message
+  } when = When::here;
+  std::int64_t moment = 0;            // the time in nanoseconds, or the number of the message
+  std::vector<std::uint64_t> values;  // the places of its values in their ranges, in the order written
+
+  bool operator==(const Disturbance&) const = default;
+};
+
+class HuntPlan {
+ public:
+  /// An entry of `may`.
+  struct Entry {
+    world::YamlFields step;         // with values that are still to be drawn
+    std::vector<Variation> values;  // in the order written
+    std::size_t most = 1;           // how often it may happen
+    SimTime within{-1};             // all of them; negative: at any time
+    std::size_t first = 0;          // the steps of the scenario before which it may come
+    std::size_t last = 0;
+    std::vector<Disturbance::When> ways;  // the moments that it may have
+    bool has_end = false;                 // a fault that ends by itself
+  };
+
+  /// Reads `hunt`. `head` has the keys of the file that are not about steps; `steps` are the scenario's, for
+  /// each of its steps one. Checks everything with `reader`. Throws FileError.
+  HuntPlan(const world::YamlFields& hunt, const world::YamlFields& head, std::vector<WrittenStep> steps,
+           StepsReader& reader);
+
+  const std::vector<Entry>& entries() const { return entries_; }
+  const world::YamlFields& head() const { return head_; }
+  /// The steps as they were written. Parameters have their values, and loops are unrolled.
+  const std::vector<WrittenStep>& steps() const { return steps_; }
+  /// Returns true if a disturbance may come before that step.
+  bool has_room_before(std::size_t step) const { return step < steps_.size() && !steps_[step].continues; }
+  /// The steps that check what must hold, which come before all others.
+  const std::vector<world::YamlFields>& spans() const { return spans_; }
+  /// Returns a disturbance as a step.
+  world::YamlFields step_of(const Disturbance& disturbance) const;
+
+ private:
+  void read_entry(const world::YamlFields& field, StepsReader& reader);
+  void read_ways(Entry& entry, StepsReader& reader);
+  void check_values(const Entry& entry, StepsReader& reader) const;
+  void read_spans(const world::YamlFields& hunt, StepsReader& reader);
+  std::size_t step_called(const world::YamlFields& field) const;
+
+  world::YamlFields head_;
+  std::vector<WrittenStep> steps_;
+  std::vector<world::YamlFields> spans_;
+  std::vector<Entry> entries_;
+  std::size_t first_ = 0;
+  std::size_t last_ = 0;
+};
+
+}  // namespace understudy::emulator::play
