@@ -39,6 +39,8 @@ constexpr std::array kKinds{
     KindRow{ContentKind::coverage, "a file of coverage", {"<?xml", "<coverage"}, "<coverage"},
     KindRow{ContentKind::picture, "a picture", {"\x89PNG\r\n\x1a\n"}},
     KindRow{ContentKind::picture, "a picture", {"<?xml", "<svg"}, "<svg"},
+    KindRow{ContentKind::photograph, "a photograph", {"{"}, "\"kind\":\"photograph\"", true},
+    KindRow{ContentKind::evidence, "evidence", {"{"}, "\"kind\":\"evidence\"", true},
 };
 
 struct NamedKind {

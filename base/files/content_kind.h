@@ -22,6 +22,8 @@ enum class ContentKind : std::uint8_t {
   junit,
   coverage,  // of programs, in the format of lcov or Cobertura
   picture,
+  photograph,  // of a real controller
+  evidence,    // what real controllers have shown
   // Kinds from here on are files that people write.
   bench,
   scenario,

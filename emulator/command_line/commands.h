@@ -245,6 +245,19 @@ struct PollArguments {
 };
 int poll_port(ModelList models, const PollArguments& arguments);
 
+struct PhotographArguments {
+  std::string port;  // "/dev/ttyUSB0,19200,8E1", "rtu://HOST:PORT"
+  std::string model;
+  std::string firmware;  // empty: the newest
+  std::optional<int> station;
+  std::optional<int> modules;
+  std::string output;  // BOX.nv.json; the photograph itself is BOX.photo.json
+  std::string timeout = "300ms";
+  bool arrays = false;
+};
+/// Reads all that a real controller tells, into an NV image and a photograph.
+int take_photograph(ModelList models, const PhotographArguments& arguments);
+
 /// Names a program as text, and the settings to read it.
 struct ProgramTextArguments {
   std::string model;

@@ -18,6 +18,7 @@
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/app_words.h"
+#include "emulator/command_line/box_flags.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/completion.h"
@@ -49,6 +50,7 @@ struct CommandLine {
   PageArguments page;
   DapArguments dap;
   PollArguments poll;
+  PhotographArguments photograph;
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
@@ -261,6 +263,11 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return poll_port(models, poll); }; });
   }
 
+  void add_photograph(CLI::App& command) {
+    add_photograph_flags(command, photograph);
+    command.callback([this] { chosen = [this] { return take_photograph(models, photograph); }; });
+  }
+
   void add_coverage_sum(CLI::App& command) {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
@@ -367,6 +374,8 @@ const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
     {"page", "Show running benches in a browser", &CommandLine::add_page},
     {"dap", "Debug controllers' programs from an editor (Debug Adapter Protocol)", &CommandLine::add_dap},
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
+    {"photograph", "Read everything that a real controller tells, into an NV image",
+     &CommandLine::add_photograph},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
     {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},

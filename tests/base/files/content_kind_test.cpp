@@ -35,6 +35,8 @@ const std::vector<Case> kCases = {
     {"<testsuite>", Kind::junit},
     {"\x89PNG\r\n\x1a\n", Kind::picture},
     {"<?xml version=\"1.0\"?>\n<svg width=\"1\">", Kind::picture},
+    {"{\n \"understudy\": 1,\n \"kind\": \"photograph\",\n", Kind::photograph},
+    {"{\n \"understudy\": 1,\n \"kind\": \"evidence\",\n", Kind::evidence},
     {"understudy: 1\nlines:\n", Kind::bench},
     {"# a scenario\nunderstudy: 1\nbench: a.yaml\nsteps: []\n", Kind::scenario},
     {"understudy: 1\nname: x\nlines: {}\nsteps: []\n", Kind::scenario},

@@ -1,0 +1,21 @@
+// What a real controller answered, and how long that took.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/box/wire/wire.h"
+
+namespace understudy::emulator::box {
+
+/// One request and what came back, as bytes of the line.
+struct Asked {
+  Bytes request;
+  Bytes reply;          // without an echo; empty: nothing came in time
+  WallTime latency{0};  // from the request's first byte to the reply's last, by this machine's clock
+  bool was_echoed = false;
+};
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,20 @@
+// A photograph as JSON: values, refusals, latencies, and every exchange.
+#pragma once
+
+#include <string>
+
+#include "emulator/box/photograph/photograph.h"
+
+namespace understudy::emulator::box {
+
+std::string photo_json(const Photograph& photo);
+
+/// The least, the middle and the largest of all latencies.
+struct Latencies {
+  WallTime least{0};
+  WallTime median{0};
+  WallTime most{0};
+};
+Latencies latencies_of(const Photograph& photo);
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,68 @@
+// A photograph of a real controller: everything that reads can tell, at about one moment.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/box/asking/asked.h"
+#include "emulator/box/wire/wire.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::box {
+
+struct PhotoValue {
+  std::string name;
+  std::string value;    // as text; in quotes in the file if it is not a number
+  std::string table{};  // of a register
+  std::uint16_t address = 0;
+};
+
+/// Something that the controller did not tell.
+struct PhotoRefusal {
+  std::string name;
+  std::string why;  // "exception 2", "no answer"
+  std::string table{};
+  std::uint16_t address = 0;
+};
+
+struct Photograph {
+  std::string model;
+  std::string place;
+  std::string line;         // "19200 8E1"; empty if the port has no settings
+  int station = -1;         // -1: the model has none
+  bool is_echoing = false;  // the adapter sends back what it is given
+  std::vector<PhotoValue> values{};
+  std::vector<PhotoRefusal> refused{};
+  std::vector<Asked> exchanges{};  // all of them, in order
+  NvImage image{};                 // what is persistent and differs from the factory's values
+  /// Persistent values that an image of the model cannot hold, and why.
+  std::vector<std::pair<std::string, std::string>> left_out{};
+};
+
+/// Receives progress: requests so far, and what is asked next.
+using PhotoProgress = std::function<void(std::size_t requests, std::string_view next)>;
+
+/// Reports that the controller does not answer as its model would. One line.
+struct BoxError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct PhotoSettings {
+  std::optional<int> station{};
+  Firmware firmware = 0;
+  WallTime timeout{0};
+  int modules = 0;          // of a chain; 0: as the chain says
+  bool has_arrays = false;  // of a text controller: its long arrays, too
+};
+
+/// Reads everything. Only reads are sent. Throws BoxError and WireError.
+Photograph photograph(const Model& model, const PortName& port, const PhotoSettings& settings,
+                      const PhotoProgress& progress);
+
+}  // namespace understudy::emulator::box

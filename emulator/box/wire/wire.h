@@ -1,0 +1,47 @@
+// The way to a real controller: bytes to and from a serial port of this machine or one behind TCP, in wall
+// time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "emulator/box/wire/port_name.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "pty/line_settings.h"
+#include "pty/port_link.h"
+
+namespace understudy::emulator::box {
+
+using Bytes = std::vector<std::uint8_t>;
+using serve::WallTime;
+
+/// The port cannot be opened, or is lost. The message is one line that names it and what was expected.
+struct WireError : pty::PortError {
+  using pty::PortError::PortError;
+};
+
+class Wire {
+ public:
+  Wire() = default;
+  virtual ~Wire() = default;
+  Wire(const Wire&) = delete;
+  Wire& operator=(const Wire&) = delete;
+
+  /// Sets speed and framing, if PortName::has_settings(). Throws WireError.
+  virtual void set_line(const pty::LineSettings& settings) = 0;
+  /// Sends all bytes. Throws WireError.
+  virtual void send(std::span<const std::uint8_t> bytes) = 0;
+  /// Adds the bytes that are there, or come before `until`. Returns false if there are none. Throws
+  /// WireError.
+  virtual bool receive(Bytes& bytes, WallTime until) = 0;
+
+  /// Drops what was received and nobody has read.
+  void discard();
+};
+
+/// Throws WireError.
+std::unique_ptr<Wire> open_wire(const PortName& name);
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,35 @@
+// The flags of commands for real controllers. Included by flags.cpp only: CLI11 is slow to compile.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/serving_flags.h"
+
+namespace understudy::emulator::command_line {
+
+inline void add_photograph_flags(CLI::App& command, PhotographArguments& photograph) {
+  command
+      .add_option(
+          "PORT", photograph.port,
+          "The controller's port: /dev/ttyUSB0[,SPEED[,8E1]], rtu://HOST:PORT, modbus-tcp://HOST:PORT "
+          "or rfc2217://HOST:PORT[,SPEED[,8E1]] [tries all speeds of the model]")
+      ->required()
+      ->check(kNotEmpty);
+  command.add_option("--model", photograph.model, "The controller's model, or a model file")
+      ->required()
+      ->check(kNotEmpty);
+  command
+      .add_option("-o,--output", photograph.output,
+                  "NV image to write, BOX.nv.json; the photograph is BOX.photo.json next to it")
+      ->required()
+      ->check(kNotEmpty);
+  command.add_option("--station", photograph.station, "Station to ask [the model's factory number]");
+  command.add_option("--firmware", photograph.firmware, "The controller's firmware version [newest]")
+      ->check(kNotEmpty);
+  command.add_option("--modules", photograph.modules, "Modules of the chain to ask [those of PN50]");
+  command.add_option("--timeout", photograph.timeout, "How long to wait for a reply")->capture_default_str();
+  command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
+}
+
+}  // namespace understudy::emulator::command_line
