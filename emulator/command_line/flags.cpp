@@ -74,7 +74,7 @@ struct CommandLine {
     const char* help;
     void (CommandLine::*fill)(CLI::App& command);
   };
-  static const std::array<Command, 21> kCommands;
+  static const std::vector<Command> kCommands;
   static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
@@ -359,7 +359,7 @@ struct CommandLine {
 };
 
 // This is the order of `--help`.
-const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
+const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
@@ -386,7 +386,7 @@ const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
     {"import", "Make a model file from a list of registers", &CommandLine::add_import},
     {"tty-shim", "Print the path of the library that --tty-shim preloads", &CommandLine::add_tty_shim},
     {"completion", "Print a completion script for a shell", &CommandLine::add_completion},
-}};
+};
 const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
     {"watch", "Show a live table of everything that moves, until Ctrl-C", &CommandLine::add_watch},
     {"frames", "Show the traffic on the lines in words, until Ctrl-C", &CommandLine::add_frames},
