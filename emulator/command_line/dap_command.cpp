@@ -49,7 +49,7 @@ dap::Launched attach(const dap::Json& arguments) {
   const WhichDaemon which{.socket = text_in(arguments, "control"),
                           .bench = text_in(arguments, "bench"),
                           .port = text_in(arguments, "port")};
-  return {.socket = choose_daemon(which)};
+  return {.link = std::make_unique<dap::SocketLink>(choose_daemon(which))};
 }
 
 /// Returns the words that serve what is to be debugged. A scenario has been recorded.
@@ -83,8 +83,9 @@ dap::Launched launch(const dap::Json& arguments) {
   const std::string socket = serve::own_control_path();
   const auto started = std::make_shared<DebuggedBench>(
       words_to_serve(arguments, recorded ? recorded->recording() : std::string()), socket);
-  return {
-      .socket = socket, .end = [started] { started->end(); }, .news = [started] { return started->news(); }};
+  return {.link = std::make_unique<dap::SocketLink>(socket),
+          .end = [started] { started->end(); },
+          .news = [started] { return started->news(); }};
 }
 
 dap::Launched launch_or_attach(std::string_view request, const dap::Json& arguments) {

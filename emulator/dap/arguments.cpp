@@ -48,7 +48,9 @@ std::string require_text(const Json& arguments, const char* key) {
 
 std::int64_t require_whole(const Json& arguments, const char* key) {
   const Json& value = require(arguments, key);
-  if (!value.is_number_integer() || value > kGreatest || value < -kGreatest)
+  const bool is_too_great =
+      value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(kGreatest);
+  if (!value.is_number_integer() || is_too_great || value.get<std::int64_t>() < -kGreatest)
     throw is_not(key, "a whole number");
   return value.get<std::int64_t>();
 }

@@ -23,7 +23,13 @@ namespace {
 
 constexpr int kAgainMs = 50;
 
-Json judged(const std::string& line) {
+std::string line_of(const Json& message) {
+  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Json judged_reply(const std::string& line) {
   Json reply = Json::parse(line, nullptr, false);
   if (!reply.is_object() || !reply.contains("ok"))
     throw RequestError(
@@ -32,25 +38,15 @@ Json judged(const std::string& line) {
   return reply;
 }
 
-std::string line_of(const Json& message) {
-  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-}  // namespace
-
-Json BenchLink::ask(const Json& message) const {
+Json SocketLink::ask(const Json& message) const {
   try {
-    return judged(serve::ask_control(socket_, line_of(message)));
+    return judged_reply(serve::ask_control(socket_, line_of(message)));
   } catch (const serve::ControlError& error) {
     throw GoneError(one_line(error.what()));
   }
 }
 
-Json BenchLink::ask_for(const char* member, const Json& message) const {
-  return ask(message).value(member, Json());
-}
-
-void BenchLink::begin(const Json& message) {
+void SocketLink::begin(const Json& message) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket_.size() >= sizeof address.sun_path) throw RequestError(socket_ + ": the path is too long");
@@ -67,7 +63,7 @@ void BenchLink::begin(const Json& message) {
   throw GoneError(socket_ + ": nobody answers; expected a running `understudy serve`");
 }
 
-std::optional<Json> BenchLink::take_reply() {
+std::optional<Json> SocketLink::take_reply() {
   std::array<char, 4096> some{};
   const ssize_t got = recv(awaited_.get(), some.data(), some.size(), MSG_DONTWAIT);
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
@@ -78,10 +74,10 @@ std::optional<Json> BenchLink::take_reply() {
   received_.append(some.data(), static_cast<std::size_t>(got));
   if (!received_.ends_with('\n')) return std::nullopt;
   awaited_ = Descriptor();
-  return judged(received_);
+  return judged_reply(received_);
 }
 
-void BenchLink::pause() {
+void SocketLink::pause() {
   ask({{"do", "pause"}});
   while (awaited_.get() >= 0) {
     pollfd wait{.fd = awaited_.get(), .events = POLLIN, .revents = 0};

@@ -1,6 +1,7 @@
-// The control socket of a daemon, as a debug adapter uses it.
+// The control messages of a daemon, as a debug adapter uses them.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -25,21 +26,39 @@ struct GoneError : RequestError {
 
 class BenchLink {
  public:
-  explicit BenchLink(std::string socket) : socket_(std::move(socket)) {}
+  virtual ~BenchLink() = default;
 
   /// Returns the reply. Throws RequestError if the daemon refuses, GoneError if it is not there.
-  Json ask(const Json& message) const;
+  virtual Json ask(const Json& message) const = 0;
   /// Returns one member of the reply, or null.
-  Json ask_for(const char* member, const Json& message) const;
+  Json ask_for(const char* member, const Json& message) const { return ask(message).value(member, Json()); }
   /// Sends a message whose reply comes later. Throws GoneError.
-  void begin(const Json& message);
-  /// Returns the descriptor at which that reply comes, or -1.
-  int awaited() const { return awaited_.get(); }
+  virtual void begin(const Json& message) = 0;
+  /// Returns true while that reply is awaited.
+  virtual bool is_awaiting() const = 0;
+  /// Returns the descriptor at which it comes, or -1.
+  virtual int awaited() const = 0;
   /// Returns the reply once it is whole. Throws RequestError if it is a refusal,
   /// GoneError if it never comes.
-  std::optional<Json> take_reply();
+  virtual std::optional<Json> take_reply() = 0;
   /// Ends the advance whose reply is awaited, and drops the reply.
-  void pause();
+  virtual void pause() = 0;
+};
+
+/// Returns a reply, or throws the RequestError that it is.
+Json judged_reply(const std::string& line);
+
+/// Over a daemon's control socket.
+class SocketLink final : public BenchLink {
+ public:
+  explicit SocketLink(std::string socket) : socket_(std::move(socket)) {}
+
+  Json ask(const Json& message) const override;
+  void begin(const Json& message) override;
+  bool is_awaiting() const override { return awaited_.get() >= 0; }
+  int awaited() const override { return awaited_.get(); }
+  std::optional<Json> take_reply() override;
+  void pause() override;
 
  private:
   std::string socket_;

@@ -1,5 +1,6 @@
 #include "emulator/dap/framing.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -37,11 +38,10 @@ std::size_t length_in(std::string_view head) {
 
 std::optional<std::string> Unframer::take() {
   const std::size_t end = bytes_.find(kEnd);
-  if (end == std::string::npos) {
-    if (bytes_.size() > kLongestHead)
-      throw FramingError("the head of a message has no end; expected at most 1024 bytes and an empty line");
-    return std::nullopt;
-  }
+  // Of the end, three bytes can have come with a head that is not too long.
+  if (std::min(end, bytes_.size()) > kLongestHead + (end == std::string::npos ? kEnd.size() - 1 : 0))
+    throw FramingError("the head of a message has no end; expected at most 1024 bytes and an empty line");
+  if (end == std::string::npos) return std::nullopt;
   const std::size_t begin = end + kEnd.size();
   const std::size_t length = length_in(std::string_view(bytes_).substr(0, end));
   if (bytes_.size() - begin < length) return std::nullopt;

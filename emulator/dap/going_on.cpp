@@ -179,7 +179,7 @@ Json Session::look_at_bench() {
 
 /// The clock may have been stopped, or let go, by something that was no request of this session.
 void Session::follow(const Json& seen) {
-  if (awaited() >= 0) {
+  if (link_->is_awaiting()) {
     // The advance may have begun after `pause` had come.
     if (wants_pause_ && seen.value("advancing", false)) link_->ask({{"do", "pause"}});
     return;
@@ -205,7 +205,7 @@ void Session::look() {
     std::optional<Json> reply;
     std::string refusal;
     try {
-      if (awaited() >= 0) reply = link_->take_reply();
+      if (link_->is_awaiting()) reply = link_->take_reply();
     } catch (const GoneError&) {
       throw;
     } catch (const RequestError& error) {

@@ -43,7 +43,7 @@ Json Session::attach(const Json& arguments) {
 void Session::open(std::string_view request, const Json& arguments) {
   stops_at_entry_ = flag_or(arguments, "stopOnEntry", false);
   launched_ = launcher_(request, arguments);
-  link_.emplace(launched_.socket);
+  link_ = std::move(launched_.link);
   try {
     find_devices();
     const Json look = link_->ask({{"do", "look"}, {"events", 0}});
@@ -176,9 +176,11 @@ void Session::end() {
   if (!link_) return;
   try {
     if (!launched_.end) {
-      if (awaited() >= 0 && !is_recording_) link_->pause();
+      // A step that is under way has stopped the clock as well.
+      const bool is_held = phase_ == Phase::stopped || link_->is_awaiting();
+      if (link_->is_awaiting() && !is_recording_) link_->pause();
       delete_from_bench();
-      if (phase_ == Phase::stopped && !is_manual_ && !was_paused_) link_->ask({{"do", "resume"}});
+      if (is_held && !is_recording_ && !is_manual_ && !was_paused_) link_->ask({{"do", "resume"}});
     }
   } catch (const RequestError&) {  // it has ended already
   }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,7 +18,7 @@ namespace understudy::emulator::dap {
 
 /// A daemon that was started, or found.
 struct Launched {
-  std::string socket;
+  std::unique_ptr<BenchLink> link;
   std::function<void()> end{};          // ends it; empty if it is not ours
   std::function<std::string()> news{};  // what it has said since the last call; may be empty
 };
@@ -40,7 +40,7 @@ class Session {
   void handle(const std::string& text);
   bool is_over() const { return phase_ == Phase::over; }
   /// Returns true if look() is to be called now and then.
-  bool has_bench() const { return link_.has_value(); }
+  bool has_bench() const { return link_ != nullptr; }
   bool is_running() const { return phase_ == Phase::running; }
   /// Returns the descriptor at which the end of an advance is told, or -1.
   int awaited() const { return link_ ? link_->awaited() : -1; }
@@ -193,7 +193,7 @@ class Session {
   bool was_paused_ = false;  // when it was attached
   std::string speed_{};      // that a launched bench is to have
   Launched launched_{};
-  std::optional<BenchLink> link_{};
+  std::unique_ptr<BenchLink> link_{};
   std::vector<DeviceInfo> devices_{};
   std::vector<Thread> threads_{};         // by number, from 1
   std::vector<std::string> with_bits_{};  // whole names of registers
