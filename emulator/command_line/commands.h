@@ -107,8 +107,12 @@ struct HuntArguments {
   std::string time;      // a duration of real time; empty: a minute, unless `courses` is given
   std::optional<std::uint64_t> courses;
   std::uint64_t seed = 0;
-  std::optional<int> jobs;      // none: one for each core
-  std::string shard;            // "1/4"
+  std::optional<int> jobs;  // none: one for each core
+  std::string shard;        // "1/4"
+  bool unguided = false;    // every course is drawn alone
+  std::string corpus;       // a file of courses to go on from
+  std::string coverage;     // files, as of `run`
+  std::string device_coverage;
   std::string found = "found";  // the folder for what is found
   std::string version;          // the version of this program
 };

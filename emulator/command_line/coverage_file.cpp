@@ -142,7 +142,7 @@ std::vector<play::ObserverMaker> RunCoverage::observers(const play::Scenario& sc
 
 bool RunCoverage::write(std::FILE* told) {
   const bool is_enough = !programs.is_wanted() || programs.write(told);
-  devices.write(told);
+  if (devices.is_wanted()) devices.write(told);
   return is_enough;
 }
 

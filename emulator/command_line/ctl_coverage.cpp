@@ -61,15 +61,19 @@ std::string lines_left(const world::CoveredFile& file) {
 
 }  // namespace
 
-void print_coverage(const Json& reply) {
-  const world::CoverageReport report = report_of(reply);
-  const SimTime since{reply.at("since_ns").get<std::int64_t>()};
-  std::printf("since %s: %s\n", format_duration(since).c_str(), play::coverage_text(report.totals()).c_str());
+void print_files(const world::CoverageReport& report) {
   for (const auto& [path, file] : report.files) {
     const std::string left = lines_left(file);
     const std::string text = path + ": " + play::coverage_text(file.totals());
     std::printf("%s\n", one_line(text + (left.empty() ? "" : "; not run: " + left)).c_str());
   }
+}
+
+void print_coverage(const Json& reply) {
+  const world::CoverageReport report = report_of(reply);
+  const SimTime since{reply.at("since_ns").get<std::int64_t>()};
+  std::printf("since %s: %s\n", format_duration(since).c_str(), play::coverage_text(report.totals()).c_str());
+  print_files(report);
 }
 
 void write_coverage(const Json& reply, const ControlArguments& arguments) {

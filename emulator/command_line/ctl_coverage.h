@@ -5,8 +5,12 @@
 #include <string>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/world/coverage/coverage_report.h"
 
 namespace understudy::emulator::command_line {
+
+/// Prints each program with the lines that have not run.
+void print_files(const world::CoverageReport& report);
 
 /// Prints the reply: the totals, then each program with the lines that have not run.
 void print_coverage(const nlohmann::ordered_json& reply);

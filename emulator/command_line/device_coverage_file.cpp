@@ -60,8 +60,8 @@ play::ObserverMaker DeviceCoverageFile::observer() {
 }
 
 void DeviceCoverageFile::write(std::FILE* told) {
-  if (!is_wanted()) return;
-  file_.write(is_device_page(path_) ? play::touched_page(report_, version_) : world::json_text(report_));
+  if (is_wanted())
+    file_.write(is_device_page(path_) ? play::touched_page(report_, version_) : world::json_text(report_));
   std::fprintf(told, "%s", play::touched_text(report_).c_str());
 }
 

@@ -28,7 +28,7 @@ class DeviceCoverageFile {
   void add(const world::TouchedReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer();
-  /// Writes the file, and prints the largest gaps.
+  /// Writes the file, if one is wanted, and prints the largest gaps.
   void write(std::FILE* told);
 
  private:

@@ -1,62 +1,42 @@
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
-#include "base/files/growing_file.h"
-#include "base/files/text_file.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/command_line/failure_story.h"
+#include "emulator/command_line/coverage_file.h"
+#include "emulator/command_line/ctl_coverage.h"
+#include "emulator/command_line/device_coverage_file.h"
+#include "emulator/command_line/hunt_files.h"
 #include "emulator/command_line/interruption.h"
-#include "emulator/command_line/log.h"
+#include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
-#include "emulator/hunt/found_file.h"
+#include "emulator/hunt/corpus.h"
 #include "emulator/hunt/hunt.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/reach.h"
 #include "emulator/play/performing/case_list.h"
-#include "emulator/play/performing/performance_recorder.h"
 #include "emulator/play/performing/run.h"
-#include "emulator/play/reading/hunt_plan.h"
-#include "emulator/play/reading/scenario_file.h"
-#include "emulator/play/report/page.h"
-#include "emulator/play/report/run_logger.h"
-#include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/world/bench/bench_text.h"
-#include "emulator/world/bench_file/yaml_text.h"
-#include "emulator/world/recording/recording.h"
-#include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-constexpr const char* kScenarioEnding = ".yaml";
-constexpr const char* kRecordingEnding = ".jsonl";
-constexpr const char* kPageEnding = ".html";
 
 /// Returns when the hunt is to end; nothing if only the number of courses ends it.
 std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
@@ -96,93 +76,13 @@ void require_hunted(const play::Scenario& scenario) {
   }
 }
 
-/// Keeps what is found in a folder, and tells people about it.
-class FoundFiles {
- public:
-  FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims)
-      : models_(models), arguments_(arguments), claims_(std::move(claims)) {
-    if (fs::exists(arguments.found) && !fs::is_directory(arguments.found)) {
-      throw UsageError("--found: " + arguments.found + ": is not a folder; expected one");
-    }
-  }
-
-  void add(const hunt::Finding& finding) {
-    ++count_;
-    fs::create_directories(arguments_.found);
-    const hunt::Stage& stage = *finding.stage;
-    const std::string path =
-        (fs::path(arguments_.found) / hunt::name_of_finding(stage, finding.shrunk)).generic_string();
-    hunt::Origin origin{.command = "understudy hunt " + arguments_.scenario,
-                        .course = finding.course,
-                        .disturbances = finding.disturbances};
-    if (arguments_.seed != 0) origin.command += " --seed " + std::to_string(arguments_.seed);
-    write(path + kScenarioEnding, hunt::text_of_finding(stage, finding.shrunk, origin, arguments_.found),
-          ContentKind::scenario);
-    print(finding, path);
-    play(finding, path);
-    std::fflush(stdout);
-  }
-
- private:
-  void write(const std::string& path, const std::string& text, ContentKind kind) {
-    std::string why = claims_.objection_to(path);
-    if (why.empty()) why = replace_text_file(path, text, kind);
-    if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
-  }
-
-  void print(const hunt::Finding& finding, const std::string& path) const {
-    const hunt::Shrunk& found = finding.shrunk;
-    const std::string verdict = coloured_verdict(
-        "FAIL  " + path + kScenarioEnding + ": " + one_line(found.outcome.failed->failure->what),
-        wants_colour(fileno(stdout)));
-    std::printf("%s\n", verdict.c_str());
-    if (found.course.disturbances.empty()) {
-      std::printf("      without any disturbance\n");
-      return;
-    }
-    for (const play::Disturbance& one : found.course.disturbances) {
-      std::string step = world::flow_text(finding.stage->plan().step_of(one));
-      step = step.substr(2, step.size() - 4);  // without its braces
-      std::printf("      %s\n", one_line(step).c_str());
-    }
-    std::printf("      course %" PRIu64 ": %zu of %zu disturbances, shrunk in %d more courses\n",
-                finding.course, found.course.disturbances.size(), finding.disturbances, found.plays);
-  }
-
-  /// Plays the written file once more, with a recorder, as `run` does.
-  void play(const hunt::Finding& finding, const std::string& path) {
-    std::vector<play::Scenario> scenarios = play::load_scenarios(models_, path + kScenarioEnding);
-    const play::Scenario& scenario = scenarios.front();
-    play::RunOptions options;
-    options.observers.push_back([](world::World& world) { return std::make_unique<play::RunLogger>(world); });
-    const std::string recording = path + kRecordingEnding;
-    if (const std::string why = claims_.objection_to(recording); !why.empty())
-      throw GrowingFileError("--found: " + recording + " cannot be written: " + why);
-    options.observers.push_back([&](world::World& world) {
-      world::RecordingHeader header{.version = arguments_.version,
-                                    .bench = world::to_text(scenario.bench),
-                                    .options = {},
-                                    .seed = scenario.bench.seed,
-                                    .snapshot = {}};
-      header.options.strict_framing = true;
-      return std::make_unique<play::PerformanceRecorder>(world, std::move(header), recording);
-    });
-    std::vector<play::ScenarioResult> results = play::run_scenario(scenario, options);
-    bool fails = false;
-    for (play::ScenarioResult& result : results) {
-      if (!result.failure) continue;
-      fails = fails || result.branch == finding.shrunk.outcome.failed->branch;
-      result.failure->led_to = what_led_to_it(models_, recording);
-    }
-    if (!fails) log_line("hunt: " + path + kScenarioEnding + " does not fail; this is a fault of understudy");
-    write(path + kPageEnding, play::report_page(results, arguments_.version), ContentKind::page);
-  }
-
-  ModelList models_;
-  const HuntArguments& arguments_;
-  FileClaims claims_;
-  std::size_t count_ = 0;
-};
+RunArguments coverage_arguments(const HuntArguments& arguments) {
+  RunArguments covered;
+  covered.coverage = arguments.coverage;
+  covered.device_coverage = arguments.device_coverage;
+  covered.version = arguments.version;
+  return covered;
+}
 
 std::string rate_text(double rate) {
   char figures[40];
@@ -203,6 +103,10 @@ class HuntProgress {
     std::string text = std::to_string(tally.courses) + " courses, " +
                        rate_text(seconds > 0 ? static_cast<double>(tally.courses) / seconds : 0) + ", " +
                        std::to_string(tally.findings) + " found";
+    for (std::size_t i = 0; i < tally.reached.size(); ++i) {
+      if (tally.reached[i] > 0)
+        text += ", " + std::to_string(tally.reached[i]) + " " + std::string(hunt::kSorts[i]);
+    }
     if (tally.findings > 0)
       text += ", the last " + std::to_string(static_cast<int>(seconds - last_)) + " s ago";
     return text;
@@ -213,6 +117,35 @@ class HuntProgress {
   std::size_t findings_ = 0;
   double last_ = 0;
 };
+
+/// Prints how much had been reached after 256 courses, 512, and so on.
+void print_curve(const hunt::Hunt& hunt) {
+  const auto& curve = hunt.curve();
+  if (curve.size() < 2 || curve.back().reached == hunt::Counts{}) return;
+  std::printf("%10s", "courses");
+  for (const std::string_view sort : hunt::kSorts) std::printf("  %s", std::string(sort).c_str());
+  std::printf("\n");
+  std::uint64_t next = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve[i].courses < next && i + 1 < curve.size()) continue;
+    next = 2 * curve[i].courses;
+    std::printf("%10" PRIu64, curve[i].courses);
+    for (std::size_t sort = 0; sort < hunt::kSorts.size(); ++sort) {
+      std::printf("  %*zu", static_cast<int>(hunt::kSorts[sort].size()), curve[i].reached[sort]);
+    }
+    std::printf("\n");
+  }
+}
+
+/// Plays the courses that reached something new once more, and prints what none of them has reached.
+void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
+  hunt.play_corpus([&](const play::Scenario& scenario) {
+    return std::vector{coverage.programs.observer(scenario), coverage.devices.observer()};
+  });
+  coverage.programs.write(stdout);
+  print_files(coverage.programs.report());
+  coverage.devices.write(stdout);
+}
 
 void print_summary(const hunt::Hunt& hunt) {
   const hunt::Tally tally = hunt.tally();
@@ -233,16 +166,27 @@ void print_summary(const hunt::Hunt& hunt) {
 }  // namespace
 
 int hunt_scenario(ModelList models, const HuntArguments& arguments) {
+  CorpusFile corpus(arguments.corpus);
   hunt::HuntOptions options{.seed = arguments.seed,
                             .jobs = jobs_of_hunt(arguments),
                             .courses = arguments.courses.value_or(UINT64_MAX),
-                            .shard = shard_of_hunt(arguments)};
+                            .shard = shard_of_hunt(arguments),
+                            .first = corpus.next_course(arguments.seed),
+                            .corpus = corpus.courses(),
+                            .is_guided = !arguments.unguided};
+  if (arguments.unguided && corpus.is_wanted())
+    throw UsageError("--unguided: goes on from no course; expected it without --corpus");
   play::CaseList cases(models, {});
   FileClaims claims;
   cases.add(arguments.scenario, [&](const play::Scenario& scenario) {
     require_hunted(scenario);
     claims.add(scenario.files);
   });
+  const RunArguments covered = coverage_arguments(arguments);
+  require_coverage(claims, coverage_of(covered));
+  require_device_coverage(claims, covered.device_coverage);
+  require_output(claims, "--corpus", arguments.corpus);
+  RunCoverage coverage(covered);
   FoundFiles files(models, arguments, std::move(claims));
   const auto end = end_of(arguments);
   watch_for_interruption();
@@ -251,9 +195,19 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
   {
     HuntProgress state(hunt);
     ProgressLine progress([&](double seconds) { return state.text(seconds); });
-    hunt.run([&](const hunt::Finding& finding) { progress.above([&] { files.add(finding); }); });
+    auto written = Clock::now();
+    hunt.run([&](const hunt::Finding& finding) { progress.above([&] { files.add(finding); }); },
+             [&] {
+               constexpr auto kEvery = std::chrono::seconds(5);
+               if (!corpus.is_wanted() || Clock::now() < written + kEvery) return;
+               corpus.write(hunt, arguments.seed);
+               written = Clock::now();
+             });
   }
+  if (corpus.is_wanted()) corpus.write(hunt, arguments.seed);
   print_summary(hunt);
+  print_curve(hunt);
+  if (!arguments.unguided) print_unreached(hunt, coverage);
   return hunt.tally().findings > 0 ? kExitFailed : kExitWell;
 }
 

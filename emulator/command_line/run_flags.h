@@ -82,6 +82,12 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
   command.add_option("--jobs", hunt.jobs, "Number of courses to play at a time [one for each core]");
   command.add_option("--shard", hunt.shard, "I/N: play the I-th of all courses, and every N-th after it")
       ->check(kNotEmpty);
+  command.add_flag("--unguided", hunt.unguided,
+                   "Draw each course alone, instead of going on from courses that reached something new");
+  command.add_option("--corpus", hunt.corpus, "Keep such courses in this file, and go on from those in it")
+      ->check(kNotEmpty);
+  command.add_option("--coverage", hunt.coverage, kCoverageHelp)->check(kNotEmpty);
+  command.add_option("--device-coverage", hunt.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   command
       .add_option("--found", hunt.found,
                   "Folder for what is found: a scenario, a recording and a page for each kind of failure")

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -24,11 +25,13 @@ constexpr SimTime kNear = std::chrono::milliseconds(5);  // to the beginning or 
 constexpr SimTime kFine = std::chrono::microseconds(100);
 
 /// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,
-/// where things meet.
-SimTime draw_time(const Undisturbed& undisturbed, SimTime low, SimTime high, Dice& dice) {
+/// where things meet, or near one at which something new happened.
+SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
   if (dice.one_in(2)) {
+    const Undisturbed& undisturbed = ground.undisturbed;
     const std::size_t step = dice.below(undisturbed.begins.size());
-    const SimTime edge = dice.one_in(2) ? undisturbed.begins[step] : undisturbed.ends[step];
+    SimTime edge = dice.one_in(2) ? undisturbed.begins[step] : undisturbed.ends[step];
+    if (!ground.moments.empty() && dice.one_in(2)) edge = ground.moments[dice.below(ground.moments.size())];
     const SimTime near = edge - kNear + kFine * static_cast<std::int64_t>(dice.below(2 * kNear / kFine + 1));
     if (near >= low && near <= high) return near;
   }
@@ -36,38 +39,98 @@ SimTime draw_time(const Undisturbed& undisturbed, SimTime low, SimTime high, Dic
   return low + kTickLength * static_cast<std::int64_t>(dice.below(ticks));
 }
 
-Disturbance draw_one(const HuntPlan& plan, std::size_t number, const Undisturbed& undisturbed, Dice& dice) {
-  const HuntPlan::Entry& entry = plan.entries()[number];
-  Disturbance drawn{.entry = number, .step = entry.first, .values = {}};
-  for (const play::Variation& value : entry.values) {
-    // The ends of a range are drawn more often than others.
-    const std::uint64_t last = value.places() - 1;
-    drawn.values.push_back(dice.one_in(8) ? (dice.one_in(2) ? 0 : last) : dice.below(last + 1));
-  }
+/// The ends of a range are drawn more often than other values.
+std::uint64_t draw_value(const play::Variation& value, Dice& dice) {
+  const std::uint64_t last = value.places() - 1;
+  return dice.one_in(8) ? (dice.one_in(2) ? 0 : last) : dice.below(last + 1);
+}
+
+void draw_moment(Disturbance& drawn, const Ground& ground, Dice& dice) {
+  const HuntPlan::Entry& entry = ground.plan.entries()[drawn.entry];
   drawn.when = entry.ways[dice.below(entry.ways.size())];
   if (entry.within >= SimTime{0}) drawn.when = When::at;
   switch (drawn.when) {
     case When::here: {
       std::vector<std::size_t> steps;
       for (std::size_t i = entry.first; i <= entry.last; ++i) {
-        if (plan.has_room_before(i)) steps.push_back(i);
+        if (ground.plan.has_room_before(i)) steps.push_back(i);
       }
       drawn.step = steps[dice.below(steps.size())];
       break;
     }
     case When::at: {
-      const Window window = window_of(entry, undisturbed);
-      drawn.moment = draw_time(undisturbed, window.low, window.high, dice).count();
+      const Window window = window_of(entry, ground.undisturbed);
+      drawn.moment = draw_time(ground, window.low, window.high, dice).count();
       break;
     }
     case When::nth: {
       constexpr std::int64_t kMore = 2;
-      drawn.moment =
-          1 + static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(undisturbed.requests + kMore)));
+      drawn.moment = 1 + static_cast<std::int64_t>(
+                             dice.below(static_cast<std::uint64_t>(ground.undisturbed.requests + kMore)));
       break;
     }
   }
+}
+
+Disturbance draw_one(const Ground& ground, std::size_t number, Dice& dice) {
+  const HuntPlan::Entry& entry = ground.plan.entries()[number];
+  Disturbance drawn{.entry = number, .step = entry.first, .values = {}};
+  for (const play::Variation& value : entry.values) drawn.values.push_back(draw_value(value, dice));
+  draw_moment(drawn, ground, dice);
   return drawn;
+}
+
+/// Moves the disturbances of entries that have `within` to within this time of the first of each.
+void gather(std::vector<Disturbance>& all, const HuntPlan& plan, Dice& dice) {
+  for (std::size_t number = 0; number < plan.entries().size(); ++number) {
+    const SimTime within = plan.entries()[number].within;
+    if (within < SimTime{0}) continue;
+    const Disturbance* first = nullptr;
+    for (Disturbance& one : all) {
+      if (one.entry != number) continue;
+      if (first == nullptr) {
+        first = &one;
+      } else if (one.moment < first->moment || one.moment - first->moment > within.count()) {
+        const auto steps = static_cast<std::uint64_t>(within / kFine) + 1;
+        one.moment = first->moment + kFine.count() * static_cast<std::int64_t>(dice.below(steps));
+      }
+    }
+  }
+}
+
+std::size_t count_of(const std::vector<Disturbance>& all, std::size_t entry) {
+  return static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [&](const Disturbance& one) { return one.entry == entry; }));
+}
+
+/// Draws the moment again: near the present one, near another disturbance's, or anywhere.
+void change_moment(Disturbance& one, const std::vector<Disturbance>& all, const Ground& ground, Dice& dice) {
+  const Disturbance& other = all[dice.below(all.size())];
+  if (one.when == When::here || other.when != one.when || dice.one_in(4)) {
+    one.step = ground.plan.entries()[one.entry].first;
+    return draw_moment(one, ground, dice);
+  }
+  const bool is_number = one.when == When::nth;
+  const std::int64_t unit = is_number ? 1 : kFine.count();
+  const std::int64_t most = std::int64_t{1} << dice.below(is_number ? 4 : 11);  // units
+  const std::int64_t moved =
+      other.moment +
+      unit * (static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * most) + 1)) - most);
+  one.moment = std::max<std::int64_t>(moved, is_number ? 1 : 0);
+}
+
+void change_value(Disturbance& one, const Ground& ground, Dice& dice) {
+  const auto& values = ground.plan.entries()[one.entry].values;
+  if (values.empty()) return;
+  const std::size_t i = dice.below(values.size());
+  const std::uint64_t last = values[i].places() - 1;
+  if (dice.one_in(2)) {
+    one.values[i] = draw_value(values[i], dice);
+  } else if (dice.one_in(2)) {
+    one.values[i] = std::min(last, one.values[i] + 1 + dice.below(4));
+  } else {
+    one.values[i] -= std::min(one.values[i], 1 + dice.below(4));
+  }
 }
 
 }  // namespace
@@ -95,32 +158,68 @@ void arrange(std::vector<Disturbance>& disturbances) {
                    [](const Disturbance& a, const Disturbance& b) { return a.step < b.step; });
 }
 
-std::vector<Disturbance> draw_disturbances(const HuntPlan& plan, const Undisturbed& undisturbed, Dice& dice) {
+std::vector<Disturbance> draw_disturbances(const Ground& ground, Dice& dice) {
+  const auto& entries = ground.plan.entries();
   std::vector<std::size_t> allowed;
-  for (std::size_t i = 0; i < plan.entries().size(); ++i) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     if (dice.one_in(2)) allowed.push_back(i);
   }
-  if (allowed.empty()) allowed.push_back(dice.below(plan.entries().size()));
+  if (allowed.empty()) allowed.push_back(dice.below(entries.size()));
   std::uint64_t count = 1;
   while (count < kMaxDisturbances && !dice.one_in(3)) ++count;
   std::vector<Disturbance> drawn;
-  std::vector<std::vector<std::int64_t>> moments(plan.entries().size());  // by entry
   for (std::uint64_t i = 0; i < count && !allowed.empty(); ++i) {
     const std::size_t place = dice.below(allowed.size());
     const std::size_t number = allowed[place];
-    const HuntPlan::Entry& entry = plan.entries()[number];
-    Disturbance one = draw_one(plan, number, undisturbed, dice);
-    if (entry.within >= SimTime{0} && !moments[number].empty()) {
-      const auto steps = static_cast<std::uint64_t>(entry.within / kFine) + 1;
-      one.moment = moments[number].front() + kFine.count() * static_cast<std::int64_t>(dice.below(steps));
-    }
-    moments[number].push_back(one.moment);
-    drawn.push_back(std::move(one));
-    if (moments[number].size() >= entry.most)
+    drawn.push_back(draw_one(ground, number, dice));
+    if (count_of(drawn, number) >= entries[number].most)
       allowed.erase(allowed.begin() + static_cast<std::ptrdiff_t>(place));
   }
+  gather(drawn, ground.plan, dice);
   arrange(drawn);
   return drawn;
+}
+
+std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const Disturbance> others,
+                                 const Ground& ground, Dice& dice) {
+  const auto& entries = ground.plan.entries();
+  const std::uint64_t changes = 1 + dice.below(4);
+  for (std::uint64_t i = 0; i < changes; ++i) {
+    const std::uint64_t how = all.empty() ? 0 : dice.below(6);
+    if (how <= 1) {  // one more, of its own or of another course
+      const Disturbance one = how == 1 && !others.empty()
+                                  ? others[dice.below(others.size())]
+                                  : draw_one(ground, dice.below(entries.size()), dice);
+      const bool has_room =
+          all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].most;
+      if (has_room) all.push_back(one);
+    } else if (how == 2 && all.size() > 1) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(dice.below(all.size())));
+    } else if (how <= 4) {
+      change_moment(all[dice.below(all.size())], all, ground, dice);
+    } else {
+      change_value(all[dice.below(all.size())], ground, dice);
+    }
+  }
+  gather(all, ground.plan, dice);
+  arrange(all);
+  return all;
+}
+
+bool is_possible(const Disturbance& one, const HuntPlan& plan) {
+  if (one.entry >= plan.entries().size()) return false;
+  const HuntPlan::Entry& entry = plan.entries()[one.entry];
+  const bool has_way = std::find(entry.ways.begin(), entry.ways.end(), one.when) != entry.ways.end();
+  const bool is_in_time = one.when == When::here
+                              ? one.step >= entry.first && one.step <= entry.last &&
+                                    plan.has_room_before(one.step) && one.moment == 0
+                              : one.step == entry.first && one.moment >= 0 && one.moment <= kHorizon.count();
+  if (!has_way || !is_in_time || one.values.size() != entry.values.size()) return false;
+  if (one.when == When::nth && one.moment == 0) return false;
+  for (std::size_t i = 0; i < one.values.size(); ++i) {
+    if (one.values[i] >= entry.values[i].places()) return false;
+  }
+  return true;
 }
 
 }  // namespace understudy::emulator::hunt

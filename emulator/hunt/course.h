@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -51,9 +52,22 @@ class Dice {
   std::uint64_t drawn_ = 0;
 };
 
+/// What a drawn course is made from.
+struct Ground {
+  const play::HuntPlan& plan;
+  const Undisturbed& undisturbed;
+  std::span<const SimTime> moments{};  // at which something new happened
+};
+
 /// Draws which disturbances a course may have at all, then how many of them, then their values and moments.
-std::vector<play::Disturbance> draw_disturbances(const play::HuntPlan& plan, const Undisturbed& undisturbed,
-                                                 Dice& dice);
+std::vector<play::Disturbance> draw_disturbances(const Ground& ground, Dice& dice);
+/// Changes a few of the disturbances: adds one, removes one, draws a moment or a value of one again, or takes
+/// one of `others`.
+std::vector<play::Disturbance> changed(std::vector<play::Disturbance> disturbances,
+                                       std::span<const play::Disturbance> others, const Ground& ground,
+                                       Dice& dice);
+/// Returns true if the plan can have this disturbance.
+bool is_possible(const play::Disturbance& disturbance, const play::HuntPlan& plan);
 /// Puts disturbances into the order of their steps.
 void arrange(std::vector<play::Disturbance>& disturbances);
 

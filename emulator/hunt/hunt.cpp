@@ -7,14 +7,19 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
 #include "emulator/hunt/stage.h"
 #include "emulator/play/performing/case_list.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/suite.h"
+#include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/results/failure_kinds.h"
 #include "emulator/play/results/result.h"
 
@@ -55,15 +60,37 @@ std::shared_ptr<Stage> Hunt::stage_of(Actor& actor, std::uint64_t case_number) c
   return actor.stages.emplace(case_number, std::move(stage)).first->second;
 }
 
-Hunt::Played Hunt::play(Actor& actor, std::uint64_t number) const {
+/// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
+Course Hunt::draw(Actor& actor, std::uint64_t number) const {
   Dice dice(options_.seed, number);
-  Played played;
-  played.course.case_number = dice.below(cases_.cases_of(0));
-  Stage& stage = *stage_of(actor, played.course.case_number);
-  played.outcome = stage.undisturbed_outcome();
-  if (!played.outcome.kind.empty()) return played;
-  played.course.disturbances = draw_disturbances(stage.plan(), stage.undisturbed(), dice);
-  played.outcome = stage.play(played.course);
+  const std::vector<Seed>& seeds = corpus_.seeds();
+  Course course;
+  if (seeds.empty() || !options_.is_guided || dice.one_in(2)) {
+    course.case_number = dice.below(cases_.cases_of(0));
+    Stage& stage = *stage_of(actor, course.case_number);
+    if (!stage.undisturbed_outcome().kind.empty()) return course;
+    course.disturbances = draw_disturbances({.plan = stage.plan(), .undisturbed = stage.undisturbed()}, dice);
+    return course;
+  }
+  // Younger seeds are closer to what is still unknown.
+  const Seed& seed = seeds[std::max(dice.below(seeds.size()), dice.below(seeds.size()))];
+  const Seed& other = seeds[dice.below(seeds.size())];
+  course.case_number = seed.course.case_number;
+  Stage& stage = *stage_of(actor, course.case_number);
+  const bool is_of_case = other.course.case_number == course.case_number;
+  course.disturbances =
+      changed(seed.course.disturbances,
+              is_of_case ? std::span<const play::Disturbance>(other.course.disturbances)
+                         : std::span<const play::Disturbance>(),
+              {.plan = stage.plan(), .undisturbed = stage.undisturbed(), .moments = seed.moments}, dice);
+  return course;
+}
+
+Hunt::Played Hunt::play(Actor& actor, Course course) const {
+  Stage& stage = *stage_of(actor, course.case_number);
+  Played played{.course = std::move(course), .outcome = stage.undisturbed_outcome()};
+  if (played.outcome.kind.empty())
+    played.outcome = stage.play(played.course, options_.is_guided ? &played.reached : nullptr);
   return played;
 }
 
@@ -81,6 +108,9 @@ void Hunt::judge(std::uint64_t number, const Played& played,
     if (!outcome.kind.empty()) ++tally_.failed;
     if (outcome.is_cut_short) ++tally_.cut_short;
     if (is_new) ++tally_.findings;
+    // A course that fails always ends in the same way, so nothing goes on from it.
+    if (outcome.kind.empty() && !outcome.is_cut_short) corpus_.add(played.course, played.reached);
+    tally_.reached = corpus_.counts();
   }
   if (!is_new) return;
   auto actor = take_actor();
@@ -110,7 +140,7 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
     const auto return_it = [this](Actor* actor) { give_back(std::unique_ptr<Actor>(actor)); };
     const std::shared_ptr<Actor> actor(take_actor().release(), return_it);
     return [this, actor, &all, first](const play::CaseId& course) {
-      all[course.number - first] = play(*actor, course.number);
+      all[course.number - first] = play(*actor, draw(*actor, course.number));
       return std::vector<play::ScenarioResult>{};
     };
   };
@@ -133,12 +163,56 @@ bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
   return true;
 }
 
-void Hunt::run(const std::function<void(const Finding&)>& found) {
+/// Plays the courses of earlier hunts, to know what they have reached.
+void Hunt::play_earlier() {
+  auto actor = take_actor();
+  options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances
+  for (Course& course : options_.corpus) {
+    if (options_.is_over()) break;
+    if (course.case_number >= cases_.cases_of(0)) continue;
+    const play::HuntPlan& plan = stage_of(*actor, course.case_number)->plan();
+    const bool fits = std::all_of(course.disturbances.begin(), course.disturbances.end(),
+                                  [&](const play::Disturbance& one) { return is_possible(one, plan); });
+    if (!fits) continue;
+    arrange(course.disturbances);
+    const Played played = play(*actor, course);
+    if (played.outcome.kind.empty() && !played.outcome.is_cut_short)
+      corpus_.add(played.course, played.reached);
+  }
+  give_back(std::move(actor));
+  corpus_.renew();
+}
+
+void Hunt::note_curve() {
+  const Tally now = tally();
+  if (curve_.empty() || curve_.back().reached != now.reached)
+    curve_.push_back({.courses = now.courses, .reached = now.reached});
+}
+
+void Hunt::play_corpus(
+    const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers) {
+  corpus_.renew();
+  auto actor = take_actor();
+  for (const Seed& seed : corpus_.seeds()) {
+    Stage& stage = *stage_of(*actor, seed.course.case_number);
+    stage.play(seed.course, observers(stage.scenario()));
+  }
+  give_back(std::move(actor));
+}
+
+void Hunt::run(const std::function<void(const Finding&)>& found, const std::function<void()>& pause) {
+  next_ = options_.first;
   if (cases_.cases_of(0) == 1 && fails_by_itself(found)) return;
-  for (std::uint64_t first = 0; first < options_.courses;) {
-    const std::uint64_t count = std::min(kGeneration * options_.shard.of, options_.courses - first);
-    if (!play_generation(first, first + count, found)) return;
-    first += count;
+  play_earlier();
+  const std::uint64_t end =
+      options_.courses > UINT64_MAX - options_.first ? UINT64_MAX : options_.first + options_.courses;
+  while (next_ < end) {
+    const std::uint64_t count = std::min(kGeneration * options_.shard.of, end - next_);
+    if (!play_generation(next_, next_ + count, found)) return;
+    next_ += count;
+    corpus_.renew();
+    note_curve();
+    pause();
   }
 }
 

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "emulator/device/model.h"
+#include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
 #include "emulator/hunt/stage.h"
 #include "emulator/play/performing/case_list.h"
@@ -25,6 +27,9 @@ struct HuntOptions {
   int jobs = 1;
   std::uint64_t courses = UINT64_MAX;  // how many at most
   play::Shard shard{};
+  std::uint64_t first = 0;                               // the number of the first course
+  std::vector<Course> corpus{};                          // courses of earlier hunts, which are played first
+  bool is_guided = true;                                 // goes on from courses that reached something new
   std::function<bool()> is_over = [] { return false; };  // may be called on any thread
 };
 
@@ -43,6 +48,13 @@ struct Tally {
   std::uint64_t cut_short = 0;  // a disturbance failed as a step
   std::size_t findings = 0;
   SimTime simulated{0};
+  Counts reached{};
+};
+
+/// What had been reached after some courses.
+struct CurvePoint {
+  std::uint64_t courses = 0;
+  Counts reached{};
 };
 
 class Hunt {
@@ -50,13 +62,22 @@ class Hunt {
   /// `cases` has one file with a plan; it must outlive the hunt.
   Hunt(const play::CaseList& cases, ModelList models, HuntOptions options, Player player);
 
-  /// Hunts until it is over. `found` gets each finding as soon as it is shrunk, on this thread.
-  void run(const std::function<void(const Finding&)>& found);
+  /// Hunts until it is over. `found` gets each finding as soon as it is shrunk, on this thread, which also
+  /// calls `pause` after each generation.
+  void run(
+      const std::function<void(const Finding&)>& found, const std::function<void()>& pause = [] {});
 
   /// May be called on any thread.
   Tally tally() const;
   /// Returns how many courses failed in each way, by kind.
   const std::map<std::string, std::uint64_t>& kinds() const { return kinds_; }
+  /// Returns the courses that reached something new.
+  const Corpus& corpus() const { return corpus_; }
+  /// Returns the number of the next course.
+  std::uint64_t next_course() const { return next_; }
+  const std::vector<CurvePoint>& curve() const { return curve_; }
+  /// Plays the courses that together have reached everything, with these observers.
+  void play_corpus(const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers);
 
  private:
   static constexpr std::uint64_t kGeneration = 256;  // courses
@@ -69,12 +90,16 @@ class Hunt {
   struct Played {
     Course course;
     Outcome outcome;
+    Reached reached{};
   };
 
   std::unique_ptr<Actor> take_actor();
   void give_back(std::unique_ptr<Actor> actor);
   std::shared_ptr<Stage> stage_of(Actor& actor, std::uint64_t case_number) const;
-  Played play(Actor& actor, std::uint64_t number) const;
+  Course draw(Actor& actor, std::uint64_t number) const;
+  Played play(Actor& actor, Course course) const;
+  void play_earlier();
+  void note_curve();
   void judge(std::uint64_t number, const Played& played, const std::function<void(const Finding&)>& found);
   bool fails_by_itself(const std::function<void(const Finding&)>& found);
   bool play_generation(std::uint64_t first, std::uint64_t end,
@@ -87,6 +112,9 @@ class Hunt {
   std::mutex actors_mutex_;
   std::vector<std::unique_ptr<Actor>> actors_;
   std::map<std::string, std::uint64_t> kinds_;
+  Corpus corpus_;
+  std::vector<CurvePoint> curve_;
+  std::uint64_t next_ = 0;
   mutable std::mutex tally_mutex_;
   Tally tally_;
 };

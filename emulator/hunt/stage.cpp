@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/reach.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/results/failure_kinds.h"
@@ -80,9 +81,17 @@ void Stage::put_on(const Course& course) {
   }
 }
 
-Outcome Stage::play(const Course& course) {
+Outcome Stage::play(const Course& course, Reached* reached) {
+  std::vector<play::ObserverMaker> observers;
+  if (reached != nullptr) observers.push_back(reach_observer(*reached));
+  return play(course, observers);
+}
+
+Outcome Stage::play(const Course& course, const std::vector<play::ObserverMaker>& observers) {
   put_on(course);
-  return outcome_of(player_(played_, {}));
+  play::RunOptions options;
+  options.observers = observers;
+  return outcome_of(player_(played_, options));
 }
 
 const Outcome& Stage::undisturbed_outcome() {

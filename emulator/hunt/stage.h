@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/reach.h"
+#include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/reading/shared_reading.h"
@@ -46,7 +48,10 @@ class Stage {
   const Outcome& undisturbed_outcome();
   const Undisturbed& undisturbed();
 
-  Outcome play(const Course& course);
+  /// Adds what the course reaches to `reached`, if that is given.
+  Outcome play(const Course& course, Reached* reached = nullptr);
+  /// Plays it with other observers.
+  Outcome play(const Course& course, const std::vector<play::ObserverMaker>& observers);
 
  private:
   const play::Steps& spans();

@@ -1,0 +1,36 @@
+// What a course has reached: a set of numbers, each of which stands for something that can be reached or not.
+// There are four sorts: lines of programs and their decisions; registers with classes of values; states of
+// the whole bench, coarsely; and orders of events: one such state after another.
+//
+// It looks when something happens: at messages, faults, inputs, and after each step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/play/performing/observer.h"
+
+namespace understudy::emulator::hunt {
+
+enum class Sort : std::uint8_t { program, value, state, order };
+inline constexpr std::array<std::string_view, 4> kSorts{"lines and branches", "values", "states", "orders"};
+
+/// Something that was reached. Its sort is in the lowest bits of its number.
+using Feature = std::uint64_t;
+constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3); }
+
+struct Reached {
+  /// When each was reached first. Looked up and sorted, never iterated for a result.
+  std::unordered_map<Feature, SimTime> when{};
+};
+
+/// Returns an observer that adds to `reached`, which must outlive it.
+play::ObserverMaker reach_observer(Reached& reached);
+
+}  // namespace understudy::emulator::hunt
