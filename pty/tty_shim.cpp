@@ -58,11 +58,13 @@ extern "C" __attribute__((visibility("default"))) int tcsetattr(int fd, int opti
     errno = ENOSYS;
     return -1;
   }
+  const bool is_terminal = understudy::shim::pseudo_terminal_number(fd) >= 0;
+  if (optional_actions != TCSANOW && is_terminal) tcdrain(fd);
   // The call is tried twice, because the other end may have put the line back to rest in between.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const int result = set(fd, optional_actions, termios_p);
     if (result == 0 || errno != EINVAL) return result;
-    if ((termios_p->c_cflag & PARENB) == 0 || understudy::shim::pseudo_terminal_number(fd) < 0) break;
+    if ((termios_p->c_cflag & PARENB) == 0 || !is_terminal) break;
     if (all_but_parity_is_set(fd, *termios_p)) return 0;
   }
   errno = EINVAL;

@@ -54,14 +54,9 @@ void use_private_places(Serving& serving, const ExecArguments& arguments, serve:
   if (serving.options.record_path.empty()) serving.options.record_path = folder.path() + "/recording";
 }
 
-void require_host_time(const ExecArguments& arguments, const world::Bench& bench) {
+void require_host_time(const ExecArguments& arguments) {
   if (arguments.has_speed)
     throw UsageError("--host-time: the host's waits decide how fast time goes; expected no --speed");
-  for (const world::LineSetup& line : bench.lines) {
-    if (line.tcp.empty()) continue;
-    throw UsageError("--host-time: line " + line.name +
-                     " listens on TCP; expected lines with pseudo-terminals only");
-  }
 }
 
 /// Prints the verdicts of the scenario and returns its exit code.
@@ -131,7 +126,7 @@ void require_apart(const play::Scenario& scenario, const ServeArguments& serve, 
 int execute_once(ModelList models, const ExecArguments& arguments) {
   Serving serving = make_serving(models, arguments.serve, "exec");
   require_variables(serving.bench);
-  if (arguments.host.host_time) require_host_time(arguments, serving.bench);
+  if (arguments.host.host_time) require_host_time(arguments);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
     scenario = play::load_side_scenario(models, arguments.with, serving.bench, arguments.save_below);
@@ -143,6 +138,7 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
       return kExitNoHostTime;
     }
     serving.options.speed.kind = serve::Speed::Kind::manual;
+    serving.options.is_host_simulated = true;
   }
   serve::remove_left_overs();
   serve::PrivateFolder folder;

@@ -15,6 +15,9 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
+// A line begins with the time and the word of the event.
+constexpr std::size_t kLongestBegin = 48;
+
 /// The event's simulated time; every event begins with it.
 std::string time_in(std::string_view event) {
   constexpr std::string_view kBegin = "{\"t\":";
@@ -28,6 +31,19 @@ std::string shown(std::string_view event) {
   return one_line(std::string(event.substr(0, kMax))) + (event.size() > kMax ? "..." : "");
 }
 
+/// Returns a recording without the waits of its host.
+std::string without_waits(std::string_view text) {
+  std::string rest;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.substr(0, kLongestBegin).find(R"("do":"wait")") != std::string_view::npos) continue;
+    rest += line;
+    rest += '\n';
+  }
+  return rest;
+}
+
 /// Returns the line in which the place lies.
 std::string_view line_at(std::string_view text, std::size_t place) {
   const std::size_t before = place == 0 ? std::string_view::npos : text.rfind('\n', place - 1);
@@ -38,7 +54,7 @@ std::string_view line_at(std::string_view text, std::size_t place) {
 }  // namespace
 
 std::string Courses::add(const std::string& recording) {
-  std::string text = read_text_file(recording).value_or("");
+  std::string text = without_waits(read_text_file(recording).value_or(""));
   ++runs_;
   for (Course& course : courses_) {
     if (course.text != text) continue;

@@ -70,21 +70,25 @@ std::vector<std::string> last_lines(int file) {
   return lines;
 }
 
-/// Ports with their links in the folder, and memories that are never written.
+/// Ports with their links in the folder, and memories that are never written. In real time cases that run
+/// side by side cannot listen at the same addresses, so they do not listen at any.
 Serving serving_of(const play::Scenario& scenario, const RunArguments& arguments, const std::string& folder,
                    const std::string& recording) {
   Serving serving;
   serving.bench = scenario.bench;
   for (world::LineSetup& line : serving.bench.lines) {
-    line.link = folder + "/" + line.name + ".port";
-    line.tcp.clear();
-    line.has_pty = true;
+    if (!arguments.host.host_time) {
+      line.tcp.clear();
+      line.has_pty = true;
+    }
+    if (line.has_pty) line.link = folder + "/" + line.name + ".port";
   }
   for (world::DeviceSetup& device : serving.bench.devices) device.nv_path.clear();
   serving.options.watch_signals = false;
   serving.options.door = serve::control_door(folder + "/control");
   serving.options.record_path = recording;
   serving.options.version = arguments.version;
+  serving.options.is_host_simulated = arguments.host.host_time;
   if (arguments.host.host_time) serving.options.speed.kind = serve::Speed::Kind::manual;
   return serving;
 }

@@ -12,6 +12,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
+#include "emulator/play/report/run_log.h"
 #include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/result.h"
 #include "emulator/world/names/names.h"
@@ -65,6 +66,8 @@ void ReplayLooks::begin_step(std::string text, std::size_t line_number) {
 
 void ReplayLooks::happened(const world::RecordedEvent& event, std::size_t line_number) {
   if (!run_logger_) return;
+  if (event.what == world::RecordedEvent::What::wait)
+    run_logger_->add({.thread = event.where, .begin = event.since, .end = event.at, .text = event.text});
   if (std::string text = world::text_of(event, world_); !text.empty())
     begin_step(std::move(text), line_number);
 }

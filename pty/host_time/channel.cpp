@@ -175,7 +175,7 @@ __attribute__((constructor)) void begin() {
 Message receive_one(int descriptor) {
   Message message;
   while (true) {
-    const ssize_t size = recv(descriptor, &message, sizeof message, 0);
+    const ssize_t size = UNDERSTUDY_REAL(recv)(descriptor, &message, sizeof message, 0);
     if (size == static_cast<ssize_t>(sizeof message)) return message;
     if (size < 0 && errno == EINTR) continue;
     give_up();
@@ -219,7 +219,7 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
       break;
     }
     Message answer;
-    const ssize_t size = recv(descriptor, &answer, sizeof answer, 0);
+    const ssize_t size = UNDERSTUDY_REAL(recv)(descriptor, &answer, sizeof answer, 0);
     if (size < 0 && errno == EINTR) {
       cancel(descriptor, message);
       woken = Woken::by_signal;
@@ -236,6 +236,28 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
 }  // namespace
 
 bool is_active() { return page != nullptr; }
+
+const Page& the_page() { return *page; }
+
+void address_of_door(int door, sockaddr_un* address) {
+  *address = bench_address;
+  char* place = address->sun_path + strlen(address->sun_path);
+  const char* const end = address->sun_path + sizeof address->sun_path - 3;
+  for (const char* c = kDoorEnding; *c != '\0' && place < end; ++c) *place++ = *c;
+  if (door >= 10) *place++ = static_cast<char>('0' + door / 10);
+  *place++ = static_cast<char>('0' + door % 10);
+  *place = '\0';
+}
+
+int number_of_door(const sockaddr_un& address) {
+  sockaddr_un expected;
+  for (uint32_t i = 0; i < page->door_count; ++i) {
+    address_of_door(static_cast<int>(i), &expected);
+    if (strncmp(expected.sun_path, address.sun_path, sizeof address.sun_path) == 0)
+      return static_cast<int>(i);
+  }
+  return -1;
+}
 
 int64_t now_ns() { return __atomic_load_n(&page->now_ns, __ATOMIC_ACQUIRE); }
 
@@ -254,7 +276,8 @@ namespace {
 /// Returns true if the bench has ended the wait.
 bool is_over(int descriptor, const Message& message) {
   Message answer;
-  while (recv(descriptor, &answer, sizeof answer, MSG_DONTWAIT) == static_cast<ssize_t>(sizeof answer)) {
+  while (UNDERSTUDY_REAL(recv)(descriptor, &answer, sizeof answer, MSG_DONTWAIT) ==
+         static_cast<ssize_t>(sizeof answer)) {
     if (answer.what == Said::go && answer.sequence == message.sequence) return true;
   }
   return false;

@@ -51,7 +51,7 @@ class Sorted {
   void add(int descriptor, short events, Wait& wait) {
     if (descriptor < 0) return;
     int number = -1;
-    if (is_line(descriptor, &number)) {
+    if (is_line(descriptor, &number) || is_door(descriptor, &number)) {
       wait.add_line(number);
       is_all_outside_ = false;
       return;

@@ -10,11 +10,13 @@
 namespace understudy::host_time {
 
 /// The library and the bench must be of one version: the library's greeting has this number.
-inline constexpr uint32_t kVersion = 1;
+inline constexpr uint32_t kVersion = 2;
 
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
 inline constexpr const char* kPageEnding = ".page";
+/// What follows in the paths of the sockets that stand for the TCP addresses of the bench, before a number.
+inline constexpr const char* kDoorEnding = ".door";
 
 /// The dates that a host sees at simulated time 0. They are always the same, so that a host that writes dates
 /// does the same in each run: 2026-01-01 00:00:00 UTC, and an hour after the machine was started.
@@ -25,11 +27,20 @@ inline constexpr int64_t kNever = INT64_MAX;
 
 inline constexpr uint32_t kMaxLines = 256;  // of a bench, which a host can distinguish from other terminals
 inline constexpr uint32_t kLinesInMessage = 6;
+inline constexpr uint32_t kMaxDoors = 64;
+/// Messages name a door by this and its number: no pseudo-terminal has such a number.
+inline constexpr int kFirstDoor = 1 << 20;
 inline constexpr uint32_t kAnyLine = UINT32_MAX;
 
 /// Threads that wait for each other cannot watch their connection. The bench increments such a word, and
 /// wakes it, when it ends the wait of a thread whose number has it.
 inline constexpr uint32_t kWords = 1024;
+
+/// A TCP address of the bench. Without an address it is this machine itself.
+struct Door {
+  uint16_t port;
+  char address[46];  // as inet_ntop writes it
+};
 
 /// The page. The bench writes it while all threads of the host wait.
 struct Page {
@@ -38,6 +49,8 @@ struct Page {
   int64_t now_ns;  // simulated time; read it atomically
   uint32_t words[kWords];
   int32_t lines[kMaxLines];  // the numbers of the pseudo-terminals; -1: a line without one
+  uint32_t door_count;
+  Door doors[kMaxDoors];
 };
 
 enum class Said : uint32_t {
@@ -68,7 +81,7 @@ struct Message {
   uint32_t is_on_word;             // it watches its word of the page, not its connection
   uint32_t has_others;             // the thread also waits for descriptors that are not lines
   uint32_t line_count;             // how many of `lines` it waits for, or kAnyLine
-  int32_t lines[kLinesInMessage];  // numbers of pseudo-terminals
+  int32_t lines[kLinesInMessage];  // numbers of pseudo-terminals and doors
 };
 
 }  // namespace understudy::host_time

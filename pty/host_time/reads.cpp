@@ -1,4 +1,5 @@
-// Reads that wait for a line of the bench, by the terminal's VMIN and VTIME, and tcdrain.
+// Reads that wait for a line of the bench, by the terminal's VMIN and VTIME, writes that wait until it has
+// room, and tcdrain.
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -91,6 +92,7 @@ UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
   int number = -1;
   Patience patience;
   if (is_active() && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
+  if (is_active() && !wait_for_door(descriptor)) return -1;
   if (!is_active() || !take_patience(descriptor, size, &number, patience))
     return UNDERSTUDY_REAL(read)(descriptor, place, size);
   const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
@@ -107,6 +109,7 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   for (int i = 0; i < count; ++i) size += parts[i].iov_len;
   int number = -1;
   Patience patience;
+  if (is_active() && !wait_for_door(descriptor)) return -1;
   if (is_active() && take_patience(descriptor, size, &number, patience)) {
     const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
     if (most <= 0) return most;
@@ -119,6 +122,54 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
     }
   }
   return UNDERSTUDY_REAL(readv)(descriptor, parts, count);
+}
+
+namespace {
+
+// A line that takes anything takes this much, so only longer writes may wait.
+constexpr size_t kSurelyTaken = 1024;
+
+/// Returns true if a write may wait for the line.
+bool may_wait_to_write(int descriptor, size_t size, int* number) {
+  if (!is_active() || size == 0 || !is_line(descriptor, number)) return false;
+  const int flags = fcntl(descriptor, F_GETFL);
+  if (flags < 0 || (flags & O_NONBLOCK) != 0) return false;
+  pollfd entry = {descriptor, POLLOUT, 0};
+  return size > kSurelyTaken || UNDERSTUDY_REAL(poll)(&entry, 1, 0) == 0;
+}
+
+/// Writes without waiting in the kernel, where the bench could not see it.
+ssize_t write_some(int descriptor, const void* place, size_t size) {
+  const int flags = fcntl(descriptor, F_GETFL);
+  fcntl(descriptor, F_SETFL, flags | O_NONBLOCK);
+  const ssize_t count = UNDERSTUDY_REAL(write)(descriptor, place, size);
+  const int error = errno;
+  fcntl(descriptor, F_SETFL, flags);
+  errno = error;
+  return count;
+}
+
+}  // namespace
+
+UNDERSTUDY_EXPORT ssize_t write(int descriptor, const void* place, size_t size) {
+  int number = -1;
+  if (!may_wait_to_write(descriptor, size, &number)) return UNDERSTUDY_REAL(write)(descriptor, place, size);
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t count = write_some(descriptor, static_cast<const char*>(place) + done, size - done);
+    if (count > 0) {
+      done += static_cast<size_t>(count);
+      continue;
+    }
+    if (count < 0 && errno != EAGAIN) return done > 0 ? static_cast<ssize_t>(done) : -1;
+    Wait wait;
+    wait.add_line(number);
+    wait.is_restartable = true;
+    if (wait_for(wait) != Woken::by_signal) continue;
+    errno = EINTR;
+    return done > 0 ? static_cast<ssize_t>(done) : -1;
+  }
+  return static_cast<ssize_t>(done);
 }
 
 UNDERSTUDY_EXPORT int tcdrain(int descriptor) {

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdint.h>
+#include <sys/un.h>
 #include <time.h>
 
 #include "pty/host_time/protocol.h"
@@ -43,8 +44,20 @@ int64_t ns_of(const timeval& time);
 /// now + length, or kNever.
 int64_t after(int64_t length_ns);
 
-/// Returns true if the descriptor is a line of the bench. `number` is that of its pseudo-terminal.
+const Page& the_page();
+
+/// Returns true if the descriptor is a terminal of the bench. `number` is that of its pseudo-terminal.
 bool is_line(int descriptor, int* number);
+
+/// Returns true if the descriptor is a connection with a TCP address of the bench. `number`, which may be
+/// null, is that of its door in messages.
+bool is_door(int descriptor, int* number);
+/// Before a read: if it would wait for such a connection, the bench does. Returns false, with the error, if
+/// the read must not be tried.
+bool wait_for_door(int descriptor);
+void address_of_door(int door, sockaddr_un* address);
+/// Returns the number of the door that has this address, or -1.
+int number_of_door(const sockaddr_un& address);
 
 enum class Woken : uint8_t { by_bench, by_descriptor, by_signal };
 

@@ -197,6 +197,17 @@ UNDERSTUDY_EXPORT int pthread_rwlock_timedwrlock(pthread_rwlock_t* lock, const t
   return try_until(CLOCK_REALTIME, time, [&] { return pthread_rwlock_trywrlock(lock); });
 }
 
+UNDERSTUDY_EXPORT int pthread_clockjoin_np(pthread_t thread, void** result, clockid_t clock,
+                                           const timespec* time) {
+  if (!is_active()) return UNDERSTUDY_REAL(pthread_clockjoin_np)(thread, result, clock, time);
+  return try_until(clock, time, [&] { return pthread_tryjoin_np(thread, result); });
+}
+
+UNDERSTUDY_EXPORT int pthread_timedjoin_np(pthread_t thread, void** result, const timespec* time) {
+  if (!is_active()) return UNDERSTUDY_REAL(pthread_timedjoin_np)(thread, result, time);
+  return pthread_clockjoin_np(thread, result, CLOCK_REALTIME, time);
+}
+
 // --- the kernel's own call, as the libraries of C++ and Rust make it ---------------------------------
 
 namespace {

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <string.h>
 #include <sys/eventfd.h>
+#include <sys/signalfd.h>
 #include <sys/time.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
@@ -186,6 +187,37 @@ UNDERSTUDY_EXPORT unsigned alarm(unsigned seconds) noexcept {
   set_alarm(seconds == 0 ? Setting{0, 0} : Setting{after(int64_t{seconds} * kBillion), 0});
   const unsigned whole = static_cast<unsigned>(rest.tv_sec);
   return whole == 0 && rest.tv_nsec > 0 ? 1 : whole + (rest.tv_nsec >= kBillion / 2 ? 1 : 0);
+}
+
+// --- signals that are waited for with an end -------------------------------------------------------
+
+UNDERSTUDY_EXPORT int sigtimedwait(const sigset_t* set, siginfo_t* info, const timespec* time) {
+  if (!is_active() || time == nullptr) return UNDERSTUDY_REAL(sigtimedwait)(set, info, time);
+  const int64_t length = ns_of(*time);
+  const timespec nothing = {0, 0};
+  if (length < 0) {
+    errno = EINVAL;
+    return -1;
+  }
+  const int64_t until = after(length);
+  const int pending = signalfd(-1, set, SFD_CLOEXEC);  // readable while one of them is there
+  pollfd entry = {pending, POLLIN, 0};
+  int result = -1;
+  while (true) {
+    result = UNDERSTUDY_REAL(sigtimedwait)(set, info, &nothing);
+    if (result >= 0 || errno != EAGAIN || now_ns() >= until) break;
+    Wait wait;
+    wait.until_ns = until;
+    wait.others = &entry;
+    wait.other_count = pending >= 0 ? 1 : 0;
+    if (wait_for(wait) != Woken::by_signal) continue;
+    errno = EINTR;
+    break;
+  }
+  const int error = errno;
+  if (pending >= 0) close(pending);
+  errno = error;
+  return result;
 }
 
 // --- timers by timer_create ----------------------------------------------------------------------

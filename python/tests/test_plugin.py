@@ -48,6 +48,49 @@ def test_it_works_beside_itself(pytester):
     check(pytester, run(pytester, "-n", "2"))
 
 
+HOST_SUITE = '''
+import sys, time
+BENCH = "understudy: 1\\nlines: { line: { stations: [ { name: feeder, model: simple2-r3 } ] } }\\n"
+HOST = """
+import os, time
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+began = time.time()
+time.sleep(SECONDS)
+print(time.strftime("%Y", time.gmtime(began)))
+"""
+def host(run_host, tmp_path, seconds, **arguments):
+    (tmp_path / "bench.yaml").write_text(BENCH)
+    return run_host(tmp_path / "bench.yaml", [sys.executable, "-c", HOST.replace("SECONDS", str(seconds))], **arguments)
+def test_hour(run_host, tmp_path):
+    result = host(run_host, tmp_path, 3600)
+    assert (result.returncode, result.stdout) == (0, "2026\\n"), result.stderr
+def test_same_each_time(run_host, tmp_path):
+    assert "2 runs, all the same" in host(run_host, tmp_path, 60, repeat=2).stderr
+def test_as_in_life(run_host, tmp_path):
+    assert host(run_host, tmp_path, 0.1, host_time=False).stdout == time.strftime("%Y\\n")
+def test_fails(run_host, tmp_path):
+    host(run_host, tmp_path, 1)
+    assert False
+'''
+
+
+def test_a_host_runs_in_simulated_time(pytester):
+    pytester.makepyfile(HOST_SUITE)
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept")
+    result.assert_outcomes(passed=3, failed=1)
+    named = [line.strip() for line in result.outlines if "/understudy-1/" in line]
+    assert {os.path.basename(path) for path in named} == {"frames.txt", "understudy.rec", "report.html"}
+
+
+@pytest.mark.parametrize("ini, flags", [("understudy_host_time = false", []), ("", ["--understudy-real-time"])])
+def test_a_host_runs_in_real_time(pytester, ini, flags):
+    pytester.makeini(f"[pytest]\n{ini}\n")
+    pytester.makepyfile(HOST_SUITE)
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "-k", "life or same", *flags)
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(["*--repeat: runs differ in real time*"])
+
+
 FIRMWARE_SUITE = """
 import pytest
 @pytest.mark.parametrize("bench, version", [({"firmware": "1.40"}, 140), ({"firmware": "1.52"}, 152)], indirect=["bench"])

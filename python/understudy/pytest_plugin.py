@@ -8,13 +8,14 @@ import itertools
 import os
 import subprocess
 from pathlib import Path
-from typing import Any, Callable, Dict, Generator, List, Mapping, Optional
+from typing import Any, Callable, Dict, Generator, List, Mapping, Optional, Sequence
 from weakref import WeakKeyDictionary
 
 import pytest
 
 from .bench import Bench, start
 from .daemon import program_path
+from .host import exec as exec_host
 
 REPLAYED_WITHIN_S = 60.0
 # What this plugin knows of the tests and runs that are under way; pytest's own place for such things came with 7.0.
@@ -30,6 +31,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.getgroup("understudy").addoption("--understudy-coverage", metavar="FILE",
                                             help="write which lines of the controllers' programs have run to this "
                                                  "file: FILE.info for lcov, FILE.xml for Cobertura, or FILE.html")
+    parser.addini("understudy_host_time", "run_host puts host programs into simulated time", type="bool", default=True)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -150,6 +152,26 @@ def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -
         arguments.setdefault("model", "simple2-r3")
     named = positional[0] if positional else arguments.pop("bench", None)
     return bench_factory(named, *positional[1:], **arguments)
+
+
+@pytest.fixture
+def run_host(request: pytest.FixtureRequest,
+             tmp_path: Path) -> "Callable[..., subprocess.CompletedProcess[str]]":
+    """Runs a host program like `understudy.exec`, in simulated time unless `host_time=False`, the setting
+    `understudy_host_time` or --understudy-real-time says otherwise. A failed test keeps the recordings."""
+    kept = KEPT.setdefault(request.node, [])
+    is_real = request.config.getoption("--understudy-real-time") or not request.config.getini("understudy_host_time")
+
+    def run(bench: Any, command: Sequence[str], *flags: str,
+            **arguments: Any) -> "subprocess.CompletedProcess[str]":
+        folder = tmp_path / f"understudy-{len(kept) + 1}"
+        folder.mkdir()
+        if "record" not in arguments:
+            kept.append(folder)
+        settings: Dict[str, Any] = {"host_time": not is_real, "record": str(folder / "understudy.rec"), **arguments}
+        return exec_host(bench, command, *flags, **settings)
+
+    return run
 
 
 @pytest.fixture

@@ -10,51 +10,11 @@
 #include <iterator>
 #include <string>
 
+#include "tests/acceptance/host_time_rig.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
 namespace host_time_test {
-
-constexpr const char* kPython = "/usr/bin/python3";
-constexpr const char* kBench =
-    "understudy: 1\nlines:\n  rs485: { stations: [ { name: feeder, model: simple2-r3, address: 1 } ] }\n";
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class HostTime : public testing::Test {
- protected:
-  Finished exec(const Words& command, const Words& flags = {}) const {
-    Words words{"exec", bench_, "--host-time"};
-    words.insert(words.end(), flags.begin(), flags.end());
-    words.emplace_back("--");
-    words.insert(words.end(), command.begin(), command.end());
-    return understudy(words);
-  }
-  Finished python(const std::string& script, const Words& flags = {}) const {
-    return exec({kPython, "-c", script}, flags);
-  }
-  /// Runs it twice while the machine is loaded. Its output and the recording must be the same.
-  Finished python_twice(const std::string& script) const {
-    const std::string spin = "while :; do :; done";
-    const Process first_load({"sh", "-c", spin});
-    const Process second_load({"sh", "-c", spin});
-    const Finished first = python(script, {"--record", folder_ / "first"});
-    const Finished second = python(script, {"--record", folder_ / "second"});
-    EXPECT_EQ(first.exit_code, 0) << first.errors;
-    EXPECT_EQ(second.output, first.output);
-    EXPECT_FALSE(text_of(folder_ / "first").empty());
-    EXPECT_EQ(text_of(folder_ / "second"), text_of(folder_ / "first"));
-    return first;
-  }
-  const PrivateFolder& folder() const { return folder_; }
-
- private:
-  PrivateFolder folder_;
-  std::string bench_ = folder_.write("bench.yaml", kBench);
-};
 
 bool has_module(const std::string& name) {
   return std::filesystem::exists("/usr/lib/python3/dist-packages/" + name);
@@ -135,68 +95,6 @@ asked(0, 15, 100, False)   # nothing comes for a second and a half
 asked(0, 15, 100)          # the first byte
 )");
   EXPECT_EQ(host.output, "7 0.0\n7 0.5\n0 1.5\n1 0.0\n");
-}
-
-// The scenario beside it drops the host's second request from 0.538 s on, and ends long after the host.
-constexpr const char* kScenarioBeside = R"(understudy: 1
-name: beside
-bench: bench.yaml
-steps:
-  - advance: 37ms
-  - input: { feeder.DIN_3: on }
-  - wait: { until: feeder.DIN_3 == 1, within: 5s }
-  - advance: 500ms
-  - inject: { drop: feeder, nth: 2 }
-  - advance: 60s
-  - input: { feeder.DIN_3: off }
-  - wait: { until: feeder.A.pulses == 1, within: 5s }
-)";
-
-TEST_F(HostTime, MeetsAScenarioAtTheSameMomentsInEachRun) {
-  const std::string beside = folder().write("beside.yaml", kScenarioBeside);
-  const std::string spin = "while :; do :; done";
-  const Process load({"sh", "-c", spin});
-  const std::string script = R"(
-import os, select, termios, time, tty
-port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
-tty.setraw(port)
-settings = termios.tcgetattr(port)
-settings[4] = settings[5] = termios.B19200
-termios.tcsetattr(port, termios.TCSANOW, settings)
-before = None
-for i in range(150):
-    os.write(port, bytes.fromhex("010300010001D5CA"))
-    answer = b""
-    while len(answer) < 7 and select.select([port], [], [], 0.1)[0]:
-        answer += os.read(port, 7)
-    if answer != before:
-        print(f"{time.monotonic() - 3600:.4f} {answer.hex()}")
-    before = answer
-    time.sleep(0.01)
-)";
-  std::string first;
-  for (const char* const name : {"first", "second"}) {
-    const std::string recording = folder() / name;
-    const Finished host = python(script, {"--with", beside, "--record", recording});
-    EXPECT_EQ(host.exit_code, 1);  // nobody moves the axis
-    EXPECT_NE(host.errors.find("FAIL"), std::string::npos) << host.errors;
-    EXPECT_NE(host.errors.find("beside.yaml: beside (at 65.538s)"), std::string::npos) << host.errors;
-    const std::string all = host.output + text_of(recording);
-    if (first.empty()) first = all;
-    EXPECT_EQ(all, first);
-    // The first answer, silence, and the answer again.
-    EXPECT_EQ(std::ranges::count(host.output, '\n'), 3) << host.output;
-  }
-}
-
-TEST_F(HostTime, GivesUpAScenarioWithTheHost) {
-  const std::string beside = folder().write("beside.yaml", kScenarioBeside);
-  const Finished killed = exec({"sh", "-c", "sleep 1; kill -KILL $$"}, {"--with", beside});
-  EXPECT_EQ(killed.exit_code, 128 + 9);
-  EXPECT_NE(killed.errors.find("beside.yaml: did not run to its end"), std::string::npos) << killed.errors;
-  const Finished late = python("while True: pass", {"--with", beside, "--timeout", "1s"});
-  EXPECT_EQ(late.exit_code, 124);
-  EXPECT_NE(late.errors.find("beside.yaml: did not run to its end"), std::string::npos) << late.errors;
 }
 
 TEST_F(HostTime, TakesTcdrainForAsLongAsTheWire) {
@@ -309,7 +207,11 @@ TEST_F(HostTime, EndsEveryWaitOfAHostOfThreeThreads) {
             "itimer-three 900 good\n"
             "no-alarm-any-more 1000 good\n"
             "timer-ends-sleep 1500 good\n"
-            "beats 21\n");
+            "signal-timeout 500 good\n"
+            "c11-timeout 1000 good\n"
+            "drained-by-tcsetattr 110 good\n"
+            "long-write 5729 good\n"
+            "beats 29\n");
 }
 
 TEST_F(HostTime, TellsHowManyCoursesRunsHad) {
@@ -398,11 +300,16 @@ TEST_F(HostTime, RefusesFlagsThatDisagree) {
   EXPECT_EQ(speed.exit_code, 2);
   EXPECT_EQ(speed.errors,
             "understudy: --host-time: the host's waits decide how fast time goes; expected no --speed\n");
-  const Finished tcp = exec({"true"}, {"--listen", "rtu://127.0.0.1:0"});
-  EXPECT_EQ(tcp.exit_code, 2);
-  EXPECT_EQ(tcp.errors,
-            "understudy: --host-time: line rs485 listens on TCP; expected lines with "
-            "pseudo-terminals only\n");
+  const Finished name = exec({"true"}, {"--listen", "rtu://somewhere.example:5020"});
+  EXPECT_EQ(name.exit_code, 3);
+  EXPECT_NE(name.errors.find("rtu://somewhere.example:5020: a name's address is not known in simulated time"),
+            std::string::npos)
+      << name.errors;
+  const Finished twice =
+      exec({"true"}, {"--listen", "rtu://localhost:5020", "--listen", "rtu://127.0.0.1:5020"});
+  EXPECT_EQ(twice.exit_code, 3);
+  EXPECT_NE(twice.errors.find("are one address for a host on this machine"), std::string::npos)
+      << twice.errors;
 }
 
 }  // namespace host_time_test

@@ -1,11 +1,14 @@
 // A host of three threads that waits in every way that ends. For each it prints how long it took, by its own
 // clock, and whether it ended as it should.
+#include <fcntl.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <signal.h>
 #include <sys/epoll.h>
 #include <sys/time.h>
 #include <sys/timerfd.h>
+#include <termios.h>
+#include <threads.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -15,6 +18,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <future>
 #include <mutex>
@@ -156,6 +160,38 @@ void wait_for_timers() {
   timer_settime(posix, 0, &setting, nullptr);
   tell("timer-ends-sleep", [] { return sleep(10) == 8 && alarms == 5; });
   timer_delete(posix);
+  tell("signal-timeout", [] {
+    sigset_t set{};
+    sigaddset(&set, SIGUSR2);
+    const timespec length{0, 500'000'000};
+    return sigtimedwait(&set, nullptr, &length) == -1 && errno == EAGAIN;
+  });
+  tell("c11-timeout", [] {
+    cnd_t condition;
+    mtx_t mutex;
+    cnd_init(&condition);
+    mtx_init(&mutex, mtx_timed);
+    mtx_lock(&mutex);
+    const timespec end = in(CLOCK_REALTIME, 1);
+    return cnd_timedwait(&condition, &mutex, &end) == thrd_timedout &&
+           mtx_timedlock(&mutex, &end) == thrd_timedout;
+  });
+}
+
+/// The port is set as a host does that waits until everything is sent, and takes more than the kernel keeps.
+void wait_for_the_line() {
+  const int port = open(std::getenv("UNDERSTUDY_PORT"), O_RDWR | O_NOCTTY);
+  termios settings{};
+  tcgetattr(port, &settings);
+  cfmakeraw(&settings);
+  cfsetspeed(&settings, B19200);
+  tcsetattr(port, TCSANOW, &settings);
+  static char nothing[10'000];
+  tell("drained-by-tcsetattr",
+       [&] { return write(port, nothing, 192) == 192 && tcsetattr(port, TCSADRAIN, &settings) == 0; });
+  tell("long-write",
+       [&] { return write(port, nothing, sizeof nothing) == sizeof nothing && tcdrain(port) == 0; });
+  close(port);
 }
 
 }  // namespace
@@ -171,6 +207,7 @@ int main() {
   });
   wait_for_each_other();
   wait_for_timers();
+  wait_for_the_line();
   is_over = true;
   beating.join();
   std::printf("beats %d\n", beats.load() / 100);

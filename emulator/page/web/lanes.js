@@ -41,7 +41,7 @@ export function lanesOf(devices, { curves, spans }) {
       lanes.push({ kind: 'curve', label: `${label} speed`, name: `${name}.speed`, bands: [], height: 40, colour: '--c1', unit: 'pulses/s' });
     }
   }
-  const order = ['frame', 'program', 'fault', 'power', 'failed', 'event'];
+  const order = ['frame', 'wait', 'program', 'fault', 'power', 'failed', 'event'];
   const byLane = new Map();
   for (const line of store.bench?.lines ?? []) byLane.set(line.name, { kind: 'frame', spans: [] });
   for (const span of spans) {
@@ -72,6 +72,8 @@ function stepOf(rough_ns) {
 }
 const placesFor = (step_ns) => Math.max(0, Math.min(9, 9 - Math.floor(Math.log10(step_ns))));
 
+const lengthOf = (ns) => (ns < 1e9 ? `${+(ns / 1e6).toPrecision(3)} ms` : `${+(ns / 1e9).toFixed(3)} s`);
+
 /// How a span is told, in a line.
 export function wordsOf(span) {
   if (span.count > 1) return `${grouped(span.count)} ${span.kind}s${span.bad ? ', one of them: ' : ', the first: '}${wordsOf({ ...span, count: 1 })}`;
@@ -79,6 +81,7 @@ export function wordsOf(span) {
     return [span.text, span.reply && `${span.text ? '→ ' : ''}${span.reply}`, span.remark && `(${span.remark})`,
             span.latency_ns !== undefined && `${(span.latency_ns / 1e6).toFixed(2)} ms`].filter(Boolean).join(' ');
   }
+  if (span.kind === 'wait') return `${span.text}, ${lengthOf(span.end_ns - span.begin_ns)}`;
   if (span.kind === 'program') return `${span.line ? `line ${span.line}: ` : ''}${span.text.trim()}${span.waits_for ? ` waits for ${span.waits_for}` : ''}`;
   if (span.kind === 'event') {
     if (span.what === 'power') return `${span.device} ${Number(span.value) === 0 ? 'off' : 'on'} by ${span.by}`;
@@ -213,7 +216,7 @@ function drawCurve(lane, { context, course }, curve, colour, x) {
 const fits = (span, find) => find === '' || wordsOf(span).toLowerCase().includes(find.toLowerCase());
 
 function drawSpans(lane, { context, find, width }, colour, x) {
-  const fills = { frame: '--accent', program: '--c3', fault: '--bad', power: '--stop' };
+  const fills = { frame: '--accent', wait: '--c2', program: '--c3', fault: '--bad', power: '--stop' };
   lane.spans.forEach((span, i) => {
     const [begin, end] = [x(span.begin_ns), Math.max(x(span.begin_ns) + 1.5, x(span.end_ns))];
     const isBad = span.bad && span.kind !== 'power';

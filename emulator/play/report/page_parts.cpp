@@ -78,6 +78,9 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .picture .pointer { stroke: var(--dim); visibility: hidden; }
 .picture .line { fill: none; stroke-width: 1.7; stroke-linejoin: round; }
 .picture .dashed { stroke-dasharray: 5 4; }
+.picture .wait { fill: var(--k0); fill-opacity: 0.55; }
+.picture .sleep { fill: var(--k7); fill-opacity: 0.25; }
+.picture .vain { fill: var(--bad); }
 .picture .bit { stroke: var(--bit); stroke-width: 1.2; fill: var(--bit); fill-opacity: 0.22; }
 .k0 { stroke: var(--k0); } .k1 { stroke: var(--k1); } .k2 { stroke: var(--k2); } .k3 { stroke: var(--k3); }
 .k4 { stroke: var(--k4); } .k5 { stroke: var(--k5); } .k6 { stroke: var(--k6); } .k7 { stroke: var(--k7); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,12 @@ std::string text_at(double x, double y, const char* kind, const std::string& tex
 std::string line_between(double x1, double y1, double x2, double y2, const char* kind) {
   return "<line" + attribute("class", kind) + attribute("x1", number(x1)) + attribute("y1", number(y1)) +
          attribute("x2", number(x2)) + attribute("y2", number(y2)) + "/>\n";
+}
+
+/// Tells waits for a line from sleeps, and what was waited for in vain.
+const char* wait_class(const SeenWait& wait) {
+  if (wait.text.ends_with("in vain")) return "wait vain";
+  return wait.text == "sleeps" ? "wait sleep" : "wait";
 }
 
 /// A line in a panel.
@@ -177,6 +184,33 @@ class Drawing {
                attribute("data-name", xml_escaped(bit->name)) + attribute("data-base", "0") +
                attribute("transform", matrix(kBitHeight, base)) +
                attribute("points", "0,0 " + points_of(*bit, 0, true) + " " + at(end_ms_) + ",0") + "/>\n";
+    }
+    frame(top, y + 2);
+    y_ = y + 2 + kPanelGap;
+  }
+
+  /// Draws a row for each thread of a host in simulated time.
+  void add_waits(const std::vector<SeenWait>& waits) {
+    if (waits.empty()) return;
+    std::map<std::size_t, std::string> rows;
+    for (const SeenWait& wait : waits) rows[wait.thread];
+    body_ += text_at(kLeft, y_ + 15, "title", "what the host waits for");
+    const double top = y_ + kLegendHeight;
+    double y = top;
+    for (const auto& [thread, nothing] : rows) {
+      y += kRowHeight;
+      const double base = y - (kRowHeight - kBitHeight) / 2;
+      body_ += text_at(kLeft - 8, base - 1, "label end",
+                       thread == 1 ? "host" : "host, thread " + std::to_string(thread));
+      for (const SeenWait& wait : waits) {
+        if (wait.thread != thread) continue;
+        const double begin = x_of(std::clamp(ms_of(wait.begin), begin_ms_, end_ms_));
+        const double width = std::max(x_of(std::clamp(ms_of(wait.end), begin_ms_, end_ms_)) - begin, 0.5);
+        body_ += "<rect class=\"" + std::string(wait_class(wait)) + "\"" + attribute("x", number(begin)) +
+                 attribute("y", number(base - kBitHeight)) + attribute("width", number(width)) +
+                 attribute("height", number(kBitHeight)) + "><title>" + xml_escaped(words_of(wait)) +
+                 "</title></rect>\n";
+      }
     }
     frame(top, y + 2);
     y_ = y + 2 + kPanelGap;
@@ -316,13 +350,14 @@ std::string picture(const Stretch& stretch, const PictureMarks& marks) {
   for (const SeenSignal& signal : stretch.signals) {
     if (signal.kind == SignalKind::bit && signal.varies()) bits.push_back(&signal);
   }
-  if (panels.empty() && bits.empty()) {
+  if (panels.empty() && bits.empty() && stretch.waits.empty()) {
     if (!marks.failed_at) return "";
     panels = panels_of(stretch, true);
   }
   Drawing drawing(stretch);
   for (const Panel& panel : panels) drawing.add(panel);
   drawing.add_bits(bits);
+  drawing.add_waits(stretch.waits);
   drawing.add_time();
   drawing.add_strikes(stretch.frames);
   drawing.add_marks(marks);

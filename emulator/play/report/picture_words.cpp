@@ -1,5 +1,6 @@
 #include "emulator/play/report/picture_words.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,12 @@ std::string words_of(const SeenSignal& signal) {
 
 }  // namespace
 
+std::string words_of(const SeenWait& wait) {
+  const std::string longest = wait.text + ", " + format_duration(wait.longest);
+  if (wait.count == 1) return format_duration(wait.begin) + " " + longest;
+  return format_duration(wait.begin) + " " + std::to_string(wait.count) + " waits, the longest: " + longest;
+}
+
 std::string picture_name(const Stretch& stretch, std::string_view of) {
   return std::string(of) + ": motion and signals, from " + format_duration(stretch.begin) + " to " +
          format_duration(stretch.end);
@@ -53,6 +60,8 @@ std::string picture_words(const Stretch& stretch, std::optional<SimTime> failed_
     words += (words.empty() ? "" : "; ") + words_of(signal);
   }
   if (words.empty()) words = "nothing moved or switched";
+  const auto longest = std::ranges::max_element(stretch.waits, {}, &SeenWait::longest);
+  if (longest != stretch.waits.end()) words += "; the host's longest wait: " + words_of(*longest);
   if (failed_at) words += "; failed at " + format_duration(*failed_at);
   return words + ".";
 }

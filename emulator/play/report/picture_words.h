@@ -9,6 +9,9 @@
 
 namespace understudy::emulator::play {
 
+/// Returns "1.5s waits for a reply, 512ms".
+std::string words_of(const SeenWait& wait);
+
 /// Returns one line: "a move: what moved and switched, from 0s to 3.2s".
 std::string picture_name(const Stretch& stretch, std::string_view of);
 

@@ -41,12 +41,23 @@ struct SeenFrame {
   bool is_struck = false;  // by a fault; without bytes: on a message that was dropped or seen before
 };
 
+/// A wait of a host in simulated time, or several within a dot of the picture.
+struct SeenWait {
+  std::size_t thread = 1;
+  SimTime begin{0};
+  SimTime end{0};
+  std::string text;  // of the longest: "waits for a reply"
+  SimTime longest{0};
+  std::size_t count = 1;
+};
+
 /// A part of the run in which time only goes forward. Each `restore` begins another one.
 struct Stretch {
   std::size_t first_step = 0;  // of the result's
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
+  std::vector<SeenWait> waits;    // of each thread in chronological order
   std::vector<SeenFrame> frames;  // in chronological order; the first and the last ones if there were many
   std::size_t frames_left_out = 0;
   std::size_t left_out_at = 0;  // before this one

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,6 +29,31 @@ using SignalKind = SeenSignal::Kind;
 // A stretch keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
+// Waits are told apart only if the picture can show it.
+constexpr int kDots = 1000;
+
+/// Makes one of the waits of a thread that lie within one dot.
+void thin(Stretch& stretch) {
+  const SimTime dot = (stretch.end - stretch.begin) / kDots;
+  std::map<std::size_t, std::size_t> last;  // by thread
+  std::vector<SeenWait> some;
+  for (SeenWait& wait : stretch.waits) {
+    wait.longest = wait.end - wait.begin;
+    const auto [found, is_first] = last.try_emplace(wait.thread, some.size());
+    SeenWait* const before = is_first ? nullptr : &some[found->second];
+    if (before == nullptr || wait.end - before->begin > dot) {
+      found->second = some.size();
+      some.push_back(std::move(wait));
+      continue;
+    }
+    before->end = wait.end;
+    ++before->count;
+    if (wait.longest <= before->longest) continue;
+    before->longest = wait.longest;
+    before->text = std::move(wait.text);
+  }
+  stretch.waits = std::move(some);
+}
 
 }  // namespace
 
@@ -161,6 +187,7 @@ void RunLogger::end_stretch() {
     stretch.frames_left_out += more;
   }
   stretch.left_out_at = kFramesKept;
+  thin(stretch);
   // Bytes that are not a frame are reported once that is certain, which may be after the next frame.
   std::stable_sort(stretch.frames.begin(), stretch.frames.end(),
                    [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });

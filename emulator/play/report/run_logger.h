@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/play/performing/observer.h"
@@ -21,6 +22,8 @@ class RunLogger final : public Observer, private world::TickWatcher {
   RunLogger& operator=(const RunLogger&) = delete;
 
   void world_restored(std::size_t steps) override;
+  /// A host in simulated time has waited.
+  void add(SeenWait wait) { stretch_.waits.push_back(std::move(wait)); }
   /// Writes ScenarioResult::run_log.
   void finish(ScenarioResult& result) override;
 

@@ -15,6 +15,7 @@
 #include "emulator/world/events/story.h"
 #include "emulator/world/look/curves.h"
 #include "emulator/world/look/program_spans.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/timeline.h"
 #include "emulator/world/world.h"
 
@@ -147,6 +148,18 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
   }
 }
 
+/// What the threads of a host in simulated time waited for.
+void add_waits(std::vector<Span>& spans, const world::Timeline& timeline) {
+  for (const world::RecordedEvent& event : timeline.events()) {
+    if (event.what != world::RecordedEvent::What::wait) continue;
+    spans.push_back({.lane = event.where == 1 ? "host" : "host thread " + std::to_string(event.where),
+                     .begin = event.since,
+                     .end = event.at,
+                     .told = Json{{"kind", "wait"}, {"text", event.text}},
+                     .is_bad = event.text.ends_with("in vain")});
+  }
+}
+
 void add_programs(std::vector<Span>& spans, const Stretch& stretch, const world::Timeline& timeline,
                   world::World& other) {
   Tick programs = 0;
@@ -243,6 +256,7 @@ Json spans_message(const Json& message, const world::Timeline& timeline, world::
   std::vector<Span> spans;
   add_exchanges(spans, history);
   add_events(spans, history, timeline.end());
+  add_waits(spans, timeline);
   if (story != nullptr) {
     spans.push_back({.lane = "events",
                      .begin = story->at,

@@ -87,7 +87,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
   watch_posts();
   make_ports(bench);
   watch_presence();
-  make_doors(bench);
+  make_doors(bench, options.is_host_simulated ? TcpDoor::Service::on_demand : TcpDoor::Service::at_once);
   if (options.door) door_ = options.door(*this, log_);
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
   // This comes last: a run that cannot start must not touch the files of an earlier run.
@@ -120,6 +120,11 @@ void Daemon::watch_signals() {
   sigprocmask(SIG_BLOCK, &stop, nullptr);
   signals_ = signalfd(-1, &stop, SFD_NONBLOCK | SFD_CLOEXEC);
   loop_.watch(signals_, EventLoop::readable, [this](std::uint32_t) { stopping_ = true; });
+}
+
+void Daemon::record_wait(std::size_t thread, SimTime since, const std::string& text) {
+  using What = world::RecordedEvent::What;
+  if (recording_) recording_->note({.what = What::wait, .since = since, .where = thread, .text = text});
 }
 
 FileClaims Daemon::files() const {

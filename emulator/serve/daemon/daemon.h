@@ -33,6 +33,7 @@ namespace understudy::emulator::serve {
 
 struct DaemonOptions {
   Speed speed;
+  bool is_host_simulated = false;  // its host lives in simulated time: doors are served on demand
   bool strict_framing = false;
   std::optional<SimTime> patience{};  // with half a frame; if empty, as the speed requires
   bool enforce_settings = true;
@@ -77,6 +78,7 @@ class Daemon {
   const world::World& world() const { return world_; }
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
+  const std::vector<std::unique_ptr<TcpDoor>>& doors() const { return doors_; }
   /// Returns the path of its door, or an empty text if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
@@ -104,6 +106,8 @@ class Daemon {
     world_.advance_to(time);
     pacer_.moved_to(world_.now(), wall_now());
   }
+  /// Records that a thread of a host in simulated time has waited since then.
+  void record_wait(std::size_t thread, SimTime since, const std::string& text);
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
   /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.
@@ -127,7 +131,7 @@ class Daemon {
   void end_posts();
   void make_ports(const world::Bench& bench);
   void watch_presence();
-  void make_doors(const world::Bench& bench);
+  void make_doors(const world::Bench& bench, TcpDoor::Service service);
   void open_files(const world::Bench& bench, const DaemonOptions& options);
   void judge_stall(WallTime now);
   void catch_up(WallTime longest);

@@ -57,11 +57,21 @@ void Daemon::watch_presence() {
   });
 }
 
-/// Opens all doors before the log names any, because one may fail.
-void Daemon::make_doors(const world::Bench& bench) {
+/// Opens all doors before the log names any, because one may fail. On demand nobody listens, so that any port
+/// is free.
+void Daemon::make_doors(const world::Bench& bench, TcpDoor::Service service) {
+  constexpr int kFirstFree = 49'152;
+  const auto is_taken = [&](int number) {
+    return std::ranges::any_of(bench.lines, [&](const world::LineSetup& line) {
+      return std::ranges::find(line.tcp, number, &world::TcpAddress::port) != line.tcp.end();
+    });
+  };
+  int free = kFirstFree;
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
-    for (const world::TcpAddress& address : bench.lines[i].tcp) {
-      doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_));
+    for (world::TcpAddress address : bench.lines[i].tcp) {
+      while (is_taken(free)) ++free;
+      if (address.port == 0 && service == TcpDoor::Service::on_demand) address.port = free++;
+      doors_.push_back(std::make_unique<TcpDoor>(loop_, *ports_[i], address, log_, service));
     }
   }
   for (const auto& port : ports_) {

@@ -52,4 +52,12 @@ void HostPage::set_line(std::size_t line, int terminal) {
   page_->line_count = std::max(page_->line_count, static_cast<std::uint32_t>(line + 1));
 }
 
+void HostPage::set_door(std::size_t door, std::uint16_t port, const std::string& address) {
+  host_time::Door& place = page_->doors[door];
+  place.port = port;
+  const std::size_t size = std::min(address.size(), sizeof place.address - 1);
+  std::copy_n(address.begin(), size, place.address);
+  page_->door_count = std::max(page_->door_count, static_cast<std::uint32_t>(door + 1));
+}
+
 }  // namespace understudy::emulator::serve

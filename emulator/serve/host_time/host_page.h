@@ -1,6 +1,8 @@
 // The page of memory that a host in simulated time reads: the present time, and the terminals of the bench.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "base/simulated_time.h"
@@ -20,6 +22,8 @@ class HostPage {
   /// Wakes the threads that look at their word because they wait for each other.
   void wake(int thread);
   void set_line(std::size_t line, int terminal);
+  /// `address` is empty for this machine itself.
+  void set_door(std::size_t door, std::uint16_t port, const std::string& address);
 
  private:
   std::string path_;

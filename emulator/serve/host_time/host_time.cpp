@@ -4,7 +4,6 @@
 #include <sys/socket.h>
 #include <sys/timerfd.h>
 #include <sys/uio.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -63,19 +62,6 @@ void set_timer(const Descriptor& timer, WallTime after, WallTime interval = Wall
   timerfd_settime(timer.get(), 0, &setting, nullptr);
 }
 
-Descriptor listen_at(const std::string& place) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (place.size() >= sizeof address.sun_path)
-    throw std::system_error(ENAMETOOLONG, std::generic_category(), place);
-  std::memcpy(address.sun_path, place.c_str(), place.size() + 1);
-  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (!socket || ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(socket.get(), SOMAXCONN) != 0)
-    throw std::system_error(errno, std::generic_category(), place);
-  return socket;
-}
-
 /// Receives a message, and the descriptor sent with it, if any.
 ssize_t receive_message(int socket, host_time::Message& message, Descriptor& passed) {
   iovec part{&message, sizeof message};
@@ -109,17 +95,21 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       place_(place),
       tell_(std::move(tell)),
       page_(place + host_time::kPageEnding),
+      doors_(daemon, place, page_),
       waits_([this](int number, HostAnswer what, const HostWaits::Thread& thread) {
         answer(number, what, thread);
       }),
       tasks_(daemon.loop(),
              [this](int process) {
+               must_look_ = true;  // its end may have sent a signal
                if (silent_.contains(process)) hear_all();
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
                consider();
              }),
+      log_([this](int terminal) { return line_of(terminal); },
+           [this](const HostWait& wait) { daemon_.record_wait(wait.thread, wait.begin, wait.text); }),
       lines_(daemon.ports().size()),
       next_look_(make_timer()),
       watch_(make_timer()) {
@@ -129,7 +119,7 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
     lines_[i].terminal = terminal_of(*daemon_.ports()[i]);
     page_.set_line(i, lines_[i].terminal);
   }
-  Descriptor socket = listen_at(place_);
+  Descriptor socket = listen_locally(place_, SOCK_SEQPACKET);
   listening_ = socket.get();
   listener_ = std::make_unique<Listener>(daemon_.loop(), std::move(socket),
                                          [this](Descriptor client) { admit(std::move(client)); });
@@ -168,6 +158,7 @@ void HostTime::admit(Descriptor client) {
 /// A process closes its connections when it becomes another program, which greets anew if it has the library.
 void HostTime::drop(int number) {
   const int process = waits_.threads().at(number).process;
+  must_look_ = true;
   waits_.remove(number);
   daemon_.loop().unwatch(number);
   connections_.erase(number);
@@ -246,7 +237,8 @@ bool HostTime::is_host_asleep() {
     ++waiting;
     if (thread.wait.has_others == 0 && !must_look_) resting.insert(thread.thread);
   }
-  if (waiting == 1 && !must_look_ && tasks_.is_one_thread()) return true;
+  // A thread that has just ended may have woken one that waits for others too.
+  if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread()) return true;
   // A thread that has sent a message also sleeps until it is answered, so this comes last.
   if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
   must_look_ = false;
@@ -263,6 +255,7 @@ bool HostTime::has_unread_messages() const {
 /// Takes what the host has written, and learns who has opened and closed the ports.
 void HostTime::take_from_host() {
   for (const auto& port : daemon_.ports()) port->attend();
+  doors_.attend();
 }
 
 /// Gives the host what the lines have for it, and ends the waits for that. Returns true if one has ended.
@@ -270,6 +263,7 @@ bool HostTime::give_to_host() {
   const SimTime now = daemon_.world().now();
   page_.set_now(now);
   bool has_ended = false;
+  doors_.attend();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     Port& port = *daemon_.ports()[i];
     Seen& seen = lines_[i];
@@ -284,6 +278,7 @@ bool HostTime::give_to_host() {
     if (has_news) has_ended = waits_.line_has_news(before) || has_ended;
     if (port.line().save().input.empty()) has_ended = waits_.line_is_drained(terminal) || has_ended;
   }
+  has_ended = doors_.tell_news(waits_) || has_ended;
   return waits_.time_is(now) || has_ended;
 }
 
@@ -305,10 +300,11 @@ std::optional<SimTime> HostTime::next_stop() const {
     stop = std::min(stop.value_or(time), std::max(time, now + SimTime{1}));
   };
   if (const auto next = timers_.next()) not_beyond(*next);
+  if (const auto next = doors_.due()) not_beyond(*next);
   if (const auto next = companion_ != nullptr ? companion_->next_act() : std::nullopt) not_beyond(*next);
   for (const auto& port : daemon_.ports()) {
     if (const auto full = port->time_until_full()) not_beyond(now + *full);
-    if (!waits_.is_line_waited_for(terminal_of(*port))) continue;
+    if (!waits_.is_line_waited_for(terminal_of(*port)) && !doors_.is_waited_for(*port, waits_)) continue;
     if (const auto due = port->line().due()) not_beyond(*due);
     const bool may_change = port->world_line().speech.may_be_unasked() || !world.faults().empty();
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
@@ -329,7 +325,10 @@ void HostTime::consider() {
   const WallTime until = wall_now() + kSlice;
   while (true) {
     if (companion_ != nullptr) companion_->act(daemon_.world().now());  // before the host, in every run
-    if (give_to_host() || (is_host_over_ && !may_time_go())) return;
+    const bool goes_on = give_to_host();
+    if (!may_time_go()) return;
+    // No message tells if the thread that goes on waits next for one that waits already.
+    if (goes_on) return look_again();
     if (expire_timers()) return look_again();
     for (const auto& port : daemon_.ports()) {
       if (port->is_in_doubt()) return look_again();
@@ -337,7 +336,9 @@ void HostTime::consider() {
     const auto stop = next_stop();
     if (!stop) return;
     has_moved_ = true;
+    if (!is_host_over_) log_.begin(waits_, line_counts(), daemon_.world().now());
     daemon_.advance_at_once(*stop);
+    log_.end(daemon_.world().now());
     if (wall_now() >= until) {
       set_timer(next_look_, WallTime{1});
       return;
@@ -352,17 +353,41 @@ void HostTime::accompany(Companion* companion) {
 
 void HostTime::host_ended() {
   take_from_host();
+  log_.finish(line_counts());
   is_host_over_ = true;
   consider();
 }
 
-/// Reports a thread that does not wait, once.
+HostWaitLog::Lines HostTime::line_counts() const {
+  HostWaitLog::Lines counts;
+  for (const auto& port : daemon_.ports()) {
+    const auto& line = port->line();
+    counts.push_back({line.name(), line.counters().bytes_in, line.counters().bytes_out});
+  }
+  return counts;
+}
+
+std::size_t HostTime::line_of(int terminal) const {
+  if (terminal >= host_time::kFirstDoor) {
+    const auto door = static_cast<std::size_t>(terminal - host_time::kFirstDoor);
+    return door < daemon_.doors().size() ? daemon_.doors()[door]->port().line_number() : lines_.size();
+  }
+  const auto found = std::ranges::find(lines_, terminal, &Seen::terminal);
+  return static_cast<std::size_t>(found - lines_.begin());
+}
+
+/// Reports once that a thread does not wait, and once that all wait for what is outside.
 void HostTime::watch_over() {
   idle_looks_ = std::exchange(has_moved_, false) ? 0 : idle_looks_ + 1;
-  if (has_told_of_spinning_ || idle_looks_ < kLooksBeforeTelling) return;
+  if (idle_looks_ < kLooksBeforeTelling || is_host_over_) return;
   const auto running = tasks_.running_one();
-  if (!running) return;
-  has_told_of_spinning_ = true;
+  const bool is_outside = waits_.is_any_outside() || (!waits_.is_any_for_bench() && !timers_.next());
+  if (!running && is_outside && !std::exchange(has_told_of_outside_, true)) {
+    tell_(
+        "the host waits for something outside the bench, such as standard input or another machine, so the "
+        "clock is stopped");
+  }
+  if (!running || std::exchange(has_told_of_spinning_, true)) return;
   tell_(*running +
         " does not wait, so the clock is stopped; expected a wait that the bench can end, such as poll or "
         "sleep");

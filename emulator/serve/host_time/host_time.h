@@ -20,9 +20,11 @@
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/companion.h"
+#include "emulator/serve/host_time/host_doors.h"
 #include "emulator/serve/host_time/host_page.h"
 #include "emulator/serve/host_time/host_tasks.h"
 #include "emulator/serve/host_time/host_timers.h"
+#include "emulator/serve/host_time/host_wait_log.h"
 #include "emulator/serve/host_time/host_waits.h"
 #include "emulator/serve/loop/listener.h"
 
@@ -69,6 +71,8 @@ class HostTime {
   bool expire_timers();
   std::optional<SimTime> next_stop() const;
   void watch_over();
+  HostWaitLog::Lines line_counts() const;
+  std::size_t line_of(int terminal) const;
 
   /// The state of a line when the host was last notified.
   struct Seen {
@@ -84,9 +88,11 @@ class HostTime {
   std::string place_;
   std::function<void(const std::string&)> tell_;
   HostPage page_;
+  HostDoors doors_;
   HostWaits waits_;
   HostTasks tasks_;
   HostTimers timers_;
+  HostWaitLog log_;
   std::map<int, Descriptor> connections_;
   int listening_ = -1;  // the listener's socket
   std::unique_ptr<Listener> listener_;
@@ -94,7 +100,7 @@ class HostTime {
   Descriptor next_look_;    // a timer
   Descriptor watch_;        // a timer
   WallTime patience_{0};    // before the next check of a host that is not asleep
-  bool must_look_ = false;  // a timer may have woken a thread that the bench takes for waiting
+  bool must_look_ = false;  // a signal may have woken a thread that the bench takes for waiting
   bool was_greeted_ = false;
   int first_process_ = -1;
   std::set<int> silent_;  // processes that have become other programs, and have not greeted since
@@ -102,6 +108,7 @@ class HostTime {
   bool has_moved_ = true;  // since watch_over() looked last
   int idle_looks_ = 0;
   bool has_told_of_spinning_ = false;
+  bool has_told_of_outside_ = false;
 };
 
 }  // namespace understudy::emulator::serve

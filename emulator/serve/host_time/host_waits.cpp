@@ -84,6 +84,14 @@ bool HostWaits::is_any_waiting() const {
                      [](const auto& each) { return each.second.state == HostState::waiting; });
 }
 
+bool HostWaits::is_any_for_bench() const {
+  return std::any_of(threads_.begin(), threads_.end(), [](const auto& each) {
+    const host_time::Message& wait = each.second.wait;
+    return each.second.state == HostState::waiting &&
+           (wait.until_ns != host_time::kNever || wait.line_count != 0);
+  });
+}
+
 bool HostWaits::is_any_outside() const {
   return std::any_of(threads_.begin(), threads_.end(), [](const auto& each) {
     return each.second.is_outside && each.second.state == HostState::running;

@@ -110,6 +110,8 @@ class HostWaits {
 
   /// Returns true if a thread waits.
   bool is_any_waiting() const;
+  /// Returns true if a thread waits for a time or for a line.
+  bool is_any_for_bench() const;
   /// Returns true if a thread waits for what is not simulated.
   bool is_any_outside() const;
   /// Returns when the first wait ends, or nothing.

@@ -118,6 +118,7 @@ void Port::serve_on_demand() {
 }
 
 void Port::attend() {
+  if (terminal_ && guest_ != nullptr) ignore_terminal();
   if (!terminal_ || guest_ != nullptr) return flush();
   on_presence({});
   constexpr int kMaxReadings = 64;  // more than the kernel holds
@@ -396,7 +397,7 @@ void Port::plug_in() {
 
 bool Port::admit(Guest& guest) {
   if (is_unplugged()) return false;
-  if (terminal_ && is_watching_) on_presence({});  // it may have been opened just now
+  if (terminal_ && (is_watching_ || is_on_demand_)) on_presence({});  // it may have been opened just now
   if (host_present()) return false;
   catch_up_();
   guest_ = &guest;
@@ -407,7 +408,7 @@ bool Port::admit(Guest& guest) {
 }
 
 void Port::leave(std::span<const std::uint8_t> last) {
-  if (terminal_ && is_watching_) ignore_terminal();
+  if (terminal_ && (is_watching_ || is_on_demand_)) ignore_terminal();
   catch_up_();
   guest_ = nullptr;
   world_.host_closed(line_number_);

@@ -90,6 +90,7 @@ class Port {
   bool is_quiet() const { return left_behind_.empty() && !line().due() && line().output().empty(); }
   const pty::Line& line() const { return world_line().line; }
   const world::WorldLine& world_line() const { return world_.line(line_number_); }
+  SimTime now() const { return world_.now(); }
 
   /// Null: it has no pseudo-terminal, or is unplugged.
   const pty::PseudoTerminal* terminal() const { return terminal_ ? &*terminal_ : nullptr; }

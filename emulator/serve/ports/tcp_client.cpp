@@ -82,6 +82,7 @@ void TcpClient::send_out() {
     }
     const ssize_t count = send(socket_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
     if (count < 0 && is_for_later()) return;
+    sent_ += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
     unsent_.erase(unsent_.begin(), count < 0 ? unsent_.end() : unsent_.begin() + count);
   }
 }

@@ -45,6 +45,8 @@ class TcpClient {
 
   /// Sends as much as the network accepts. Reading shows whether the client has gone.
   void send_out();
+  /// How many bytes it was sent in all.
+  std::uint64_t sent() const { return sent_; }
   bool has_unsent() const { return !unsent_.empty(); }
 
   // Faults. Bytes given at once are an answer if the protocol `has_messages`, otherwise a part of one.
@@ -65,6 +67,7 @@ class TcpClient {
   Descriptor socket_;
   std::unique_ptr<TcpSpeech> speech_;
   TcpSpeech::Bytes unsent_;  // bytes it has not taken yet, at most as many as came at once
+  std::uint64_t sent_ = 0;
   bool has_said_all_ = false;
   void spoil_unsent();
 

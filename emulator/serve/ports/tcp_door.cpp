@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
@@ -49,16 +50,18 @@ constexpr int kLongestExchange_bits = 2 * 256 * 11;
 }  // namespace
 
 TcpDoor::TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
-                 std::function<void(const std::string&)> log)
+                 std::function<void(const std::string&)> log, Service service)
     : loop_(loop),
       port_(port),
       address_(address),
       log_(std::move(log)),
+      is_on_demand_(service == Service::on_demand),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
   if (!timer_)
     throw pty::PortError("--listen: no timer for " + world::to_string(address_) + ": " +
                          std::strerror(errno));
-  for (Descriptor& socket : listen_at(address_)) {
+  std::vector<Descriptor> sockets = is_on_demand_ ? std::vector<Descriptor>() : listen_at(address_);
+  for (Descriptor& socket : sockets) {
     listeners_.push_back(std::make_unique<Listener>(loop_, std::move(socket),
                                                     [this](Descriptor client) { admit(std::move(client)); }));
   }
@@ -112,6 +115,7 @@ void TcpDoor::admit(Descriptor socket) {
 }
 
 void TcpDoor::refuse() {
+  ++news_;
   if (port_.is_unplugged())
     return log_("a host tried to connect at " + world::to_string(address_) +
                 ", but a fault has unplugged the line; the connection was refused");
@@ -125,8 +129,10 @@ void TcpDoor::refuse() {
 void TcpDoor::let_in(Descriptor socket) {
   TcpClient& client =
       *clients_.emplace_back(std::make_unique<TcpClient>(std::move(socket), make_speech(), is_gateway()));
-  loop_.watch(client.socket(), EventLoop::readable,
-              [this, &client](std::uint32_t ready) { on_client(client, ready); });
+  if (!is_on_demand_) {
+    loop_.watch(client.socket(), EventLoop::readable,
+                [this, &client](std::uint32_t ready) { on_client(client, ready); });
+  }
   serve_line();
 }
 
@@ -155,11 +161,34 @@ bool TcpDoor::hear(TcpClient& client) {
   return false;
 }
 
+void TcpDoor::attend() {
+  if (due_ && port_.now() >= *due_) {
+    due_.reset();
+    expire();
+  }
+  bool has_heard = true;
+  while (has_heard) {
+    has_heard = false;
+    for (std::size_t i = 0; i < clients_.size(); ++i) {
+      TcpClient& client = *clients_[i];
+      if (!client.is_gone() && client.is_read()) has_heard = hear(client) || has_heard;
+    }
+    serve_line();
+  }
+}
+
+std::uint64_t TcpDoor::news() const {
+  std::uint64_t news = news_;
+  for (const auto& client : clients_) news += client->sent();
+  return news;
+}
+
 /// Disconnects a client. What it has sent is still served; in Modbus TCP, that is one request, because each
 /// waits for the one before.
 void TcpDoor::let_go(TcpClient& client) {
   loop_.unwatch(client.socket());
   if (!is_gateway()) return leave(take_rest(client));
+  ++news_;
   client.forget_socket();
   for (const auto& listener : listeners_) listener->try_again();
 }
@@ -238,6 +267,10 @@ void TcpDoor::await_reply(const TcpSpeech& speech) {
 }
 
 void TcpDoor::set_timer(std::chrono::nanoseconds time) {
+  if (is_on_demand_) {
+    due_ = port_.now() + time;
+    return;
+  }
   itimerspec when{};
   when.it_value.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(time).count();
   when.it_value.tv_nsec = (time % std::chrono::seconds(1)).count();
@@ -247,6 +280,10 @@ void TcpDoor::set_timer(std::chrono::nanoseconds time) {
 void TcpDoor::on_timer() {
   std::uint64_t times = 0;
   if (read(timer_.get(), &times, sizeof times) < 0) return;  // the timer was set again meanwhile
+  expire();
+}
+
+void TcpDoor::expire() {
   if (next_ && !clients_.empty()) let_go(*clients_.front());
   for (const auto& client : clients_) client->has_rest() ? client->send_rest() : client->speech().give_up();
   serve_line();
@@ -281,7 +318,9 @@ void TcpDoor::see_off() {
   };
   if (std::ranges::none_of(clients_, is_done)) return;
   for (const auto& client : clients_) {
-    if (is_done(client) && !client->is_gone()) loop_.unwatch(client->socket());
+    if (!is_done(client)) continue;
+    news_ += client->sent() + 1;
+    if (!client->is_gone()) loop_.unwatch(client->socket());
   }
   std::erase_if(clients_, is_done);
   if (clients_.empty()) return leave({});
@@ -317,6 +356,7 @@ void TcpDoor::hang_up() {
 
 /// Leaves the line after the last client has gone.
 void TcpDoor::leave(const TcpSpeech::Bytes& last) {
+  news_ = news() + 1;
   clients_.clear();
   port_.leave(last);
   for (const auto& listener : listeners_) listener->try_again();

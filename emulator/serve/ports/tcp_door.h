@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,9 +27,12 @@ class TcpDoor final : private Port::Guest {
  public:
   static constexpr std::size_t kMaxMasters = 32;
 
+  /// A door on demand serves a host in simulated time: nobody listens at the address, admit() is given the
+  /// clients, their bytes are taken only by attend(), and its times are simulated.
+  enum class Service : std::uint8_t { at_once, on_demand };
   /// The port must outlive it, and is given the address. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
-          std::function<void(const std::string&)> log);
+          std::function<void(const std::string&)> log, Service service = Service::at_once);
   /// After this, clients are not notified any more that they have gone.
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
@@ -36,6 +40,15 @@ class TcpDoor final : private Port::Guest {
 
   /// Takes a connected socket.
   void admit(Descriptor socket);
+
+  const world::TcpAddress& address() const { return address_; }
+  const Port& port() const { return port_; }
+  /// Takes what the clients have sent, and gives them what there is for them.
+  void attend();
+  /// Returns when attend() has something to do although nobody sends, or nothing.
+  std::optional<SimTime> due() const { return due_; }
+  /// Changes when a client was sent something or disconnected.
+  std::uint64_t news() const;
 
  private:
   std::size_t take(std::span<const std::uint8_t> bytes) override;
@@ -51,6 +64,7 @@ class TcpDoor final : private Port::Guest {
   bool hear(TcpClient& client);
   void let_go(TcpClient& client);
   void on_timer();
+  void expire();
   void set_timer(std::chrono::nanoseconds time);
   bool waits_for_reply() const;
   bool serve_next();
@@ -66,7 +80,10 @@ class TcpDoor final : private Port::Guest {
   Port& port_;
   world::TcpAddress address_;
   std::function<void(const std::string&)> log_;
-  Descriptor timer_;  // ends the time for a reply, or for a client that has sent everything
+  bool is_on_demand_;
+  Descriptor timer_;            // ends the time for a reply, or for a client that has sent everything
+  std::optional<SimTime> due_;  // the same on demand
+  std::uint64_t news_ = 0;      // of clients that are no longer there
   std::vector<std::unique_ptr<TcpClient>> clients_;
   std::size_t turn_ = 0;     // the client whose request is next
   Descriptor next_;          // a client that waits until a finished one has its replies

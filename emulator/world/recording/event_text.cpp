@@ -76,6 +76,7 @@ std::string text_of(const RecordedEvent& event, const World& world) {
     case What::departed:
     case What::nothing_more:
     case What::said:
+    case What::wait:
     case What::end: break;
   }
   return "";

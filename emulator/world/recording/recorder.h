@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/world/recording/recording.h"
@@ -23,6 +24,8 @@ class Recorder final : private OutsideListener {
   /// Writes, once, that the recording ends at this moment, with the state that a replay must also reach, and
   /// with the failure of a scenario if there was one. It must not be called from within World::advance_to().
   void finish(RecordedFailure failed = {});
+  /// Writes an event that the world does not know about.
+  void note(RecordedEvent event) { take(std::move(event)); }
 
  private:
   class LineRecorder;

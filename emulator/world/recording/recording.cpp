@@ -31,7 +31,7 @@ using What = RecordedEvent::What;
 constexpr const char* kRecordingKind = "recording";
 constexpr int kRecordingFormat = 1;
 
-constexpr std::array<std::pair<What, std::string_view>, 17> kEventWords{{
+constexpr std::array<std::pair<What, std::string_view>, 18> kEventWords{{
     {What::opened, "open"},
     {What::closed, "close"},
     {What::settings, "settings"},
@@ -48,6 +48,7 @@ constexpr std::array<std::pair<What, std::string_view>, 17> kEventWords{{
     {What::assign, "assign"},
     {What::program, "program"},
     {What::command, "command"},
+    {What::wait, "wait"},
     {What::end, "end"},
 }};
 
@@ -329,6 +330,11 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       if (event.value != 0) line.json("refused", Json(true));
       break;
     case What::command: line.json("text", Json(event.text)); break;
+    case What::wait:
+      line.number("since", event.since.count());
+      line.number("thread", where);
+      line.json("text", Json(event.text));
+      break;
     case What::end:
       if (!event.failed.what.empty()) add_failure(line, event.failed);
       if (!event.text.empty()) line.json("state", Json(event.text));
@@ -340,6 +346,16 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
   }
   return std::move(line).finished();
 }
+
+namespace {
+
+void take_wait(const Json& line, RecordedEvent& event) {
+  event.since = SimTime{number_at(line, "since", 0, event.at.count())};
+  event.where = static_cast<std::size_t>(number_at(line, "thread", 1, INT32_MAX));
+  event.text = text_at(line, "text");
+}
+
+}  // namespace
 
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count) {
   const Json line = parse_line(text);
@@ -389,6 +405,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
       event.value = line.contains("refused") && truth_at(line, "refused") ? 1 : 0;
       break;
     case What::command: event.text = text_at(line, "text"); break;
+    case What::wait: take_wait(line, event); break;
     case What::end:
       if (line.contains("state")) event.text = text_at(line, "state");
       if (line.contains("failed")) event.failed = failure_at(line, event.at);
@@ -399,43 +416,6 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::nothing_more: break;
   }
   return event;
-}
-
-namespace {
-
-/// Loads a program that was loaded in the recording. If it was refused then, it may be refused again.
-void load_as_recorded(World& world, const RecordedEvent& event) {
-  try {
-    world.load_program(event.where, event.text);
-  } catch (const ProgramError&) {
-    if (event.value == 0) throw;
-  }
-}
-
-}  // namespace
-
-void apply(World& world, const RecordedEvent& event) {
-  switch (event.what) {
-    case What::opened: world.host_opened(event.where); break;
-    case What::closed: world.host_closed(event.where); break;
-    case What::settings: world.host_settings(event.where, event.host); break;
-    case What::bytes: world.receive(event.where, event.bytes); break;
-    case What::departed: world.receive_departed(event.where, event.bytes); break;
-    case What::purged: world.host_purged(event.where); break;
-    case What::nothing_more: world.nothing_more(event.where); break;
-    case What::input:
-      world.set_external_input(event.where, event.place, static_cast<std::int32_t>(event.value));
-      break;
-    case What::power: world.switch_power(event.where, event.value != 0); break;
-    case What::inject: world.inject(event.fault); break;
-    case What::clear: world.clear_fault(static_cast<std::size_t>(event.value)); break;
-    case What::write: world.write(event.where, event.write); break;
-    case What::assign: world.assign(event.where, event.text, event.real); break;
-    case What::program: load_as_recorded(world, event); break;
-    case What::command: world.command(event.where, event.text); break;
-    case What::said:
-    case What::end: break;
-  }
 }
 
 }  // namespace understudy::emulator::world

@@ -54,9 +54,11 @@ struct RecordedEvent {
     assign,   // a device without registers was given the value `real` by the name `text`
     program,  // a device was given the program `text`; it refused it if `value` is not 0
     command,  // and the command `text`, bypassing the line
+    wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` says
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
   SimTime at{0};
+  SimTime since{0};
   std::size_t where = 0;
   int place = 0;
   std::int64_t value = 0;
@@ -80,7 +82,7 @@ struct RecordingError : std::runtime_error {
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Applies an event to the world at the world's present time. `said` and `end` have no effect.
+/// Applies an event to the world at the world's present time. `said`, `wait` and `end` have no effect.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

@@ -70,6 +70,10 @@ void RecordingSpool::finish(RecordedFailure failed) {
   if (recorder_) recorder_->finish(std::move(failed));
 }
 
+void RecordingSpool::note(RecordedEvent event) {
+  if (recorder_) recorder_->note(std::move(event));
+}
+
 std::string RecordingSpool::close() {
   recorder_.reset();
   for (const auto* const file : {&before_, &file_}) {

@@ -33,6 +33,9 @@ class RecordingSpool {
   /// World::advance_to(); nothing is recorded afterwards.
   void finish(RecordedFailure failed = {});
 
+  /// Writes an event that the world does not know about.
+  void note(RecordedEvent event);
+
   /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string close();
 

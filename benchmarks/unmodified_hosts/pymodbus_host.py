@@ -1,0 +1,12 @@
+"""Polls a register with pymodbus, and asks a station that is not there."""
+import os
+import time
+
+from pymodbus.client import ModbusSerialClient
+
+client = ModbusSerialClient(os.environ["UNDERSTUDY_PORT"], baudrate=19200, parity="E", timeout=1)
+client.connect()
+for poll in range(10):
+    print(poll, client.read_holding_registers(1, 1, slave=1).registers)
+    time.sleep(3)
+print(client.read_holding_registers(1, 1, slave=9).isError())

@@ -1,0 +1,50 @@
+// The TCP addresses of a bench for a host in simulated time. Nobody listens at them: the preloaded library
+// connects the host's socket to a local one instead, on which bytes arrive as soon as they are written. So
+// cases can run side by side with the same addresses, and any address and port number can be used.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/files/descriptor.h"
+#include "base/simulated_time.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_page.h"
+#include "emulator/serve/host_time/host_waits.h"
+
+namespace understudy::emulator::serve {
+
+class HostDoors {
+ public:
+  /// `place` is the beginning of the sockets' paths. Throws pty::PortError, std::system_error.
+  HostDoors(Daemon& daemon, const std::string& place, HostPage& page);
+  ~HostDoors();
+  HostDoors(const HostDoors&) = delete;
+  HostDoors& operator=(const HostDoors&) = delete;
+
+  /// Admits hosts that have connected, and takes what they have written.
+  void attend();
+  /// Ends the waits of threads whose door has sent something. Returns true if there was one.
+  bool tell_news(HostWaits& waits);
+  /// Returns when the time of a door is up, such as a gateway's for an answer, or nothing.
+  std::optional<SimTime> due() const;
+  /// Returns true if a thread waits for a door of the port.
+  bool is_waited_for(const Port& port, const HostWaits& waits) const;
+
+ private:
+  struct Entrance {
+    std::string path;
+    Descriptor listening;
+    std::uint64_t news = 0;  // when the host was last notified
+  };
+  Daemon& daemon_;
+  std::vector<Entrance> entrances_;  // of the daemon's doors
+};
+
+/// Returns a socket that listens at a path: of packets, or of a stream of bytes. Throws std::system_error.
+Descriptor listen_locally(const std::string& path, int type);
+
+}  // namespace understudy::emulator::serve

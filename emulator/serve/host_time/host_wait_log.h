@@ -1,0 +1,77 @@
+// Tells what the threads of a host wait for, and how long, so that recordings show it: "waits for a reply,
+// 512 ms". Waits that follow each other without a pause, as for each byte of a reply, are told as one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/host_time/host_waits.h"
+
+namespace understudy::emulator::serve {
+
+/// A wait of a thread. Threads are numbered from 1, in the order in which they greeted.
+struct HostWait {
+  std::size_t thread = 0;
+  SimTime begin{0};
+  SimTime end{0};
+  std::string text{};
+  bool operator==(const HostWait&) const = default;
+};
+
+class HostWaitLog {
+ public:
+  /// A line of the bench as the log needs it.
+  struct LineCount {
+    std::string name{};
+    std::uint64_t bytes_in = 0;
+    std::uint64_t bytes_out = 0;
+  };
+  using Lines = std::vector<LineCount>;
+
+  /// `line_of` returns the line for the number of a terminal or a door, or a number beyond the lines.
+  HostWaitLog(std::function<std::size_t(int)> line_of, std::function<void(const HostWait&)> tell)
+      : line_of_(std::move(line_of)), tell_(std::move(tell)) {}
+
+  /// All threads wait, and time is about to go on.
+  void begin(const HostWaits& waits, const Lines& lines, SimTime now);
+  /// It has gone on.
+  void end(SimTime now);
+  /// Tells what is not told yet.
+  void finish(const Lines& lines);
+
+ private:
+  enum class Kind : std::uint8_t { reply, data, drain, thread, sleep, other };
+  struct Open {
+    Kind kind = Kind::other;
+    std::vector<std::size_t> lines{};
+    std::uint64_t asked = 0;     // bytes that the host had written to these lines
+    std::uint64_t answered = 0;  // bytes that it had received from them
+    std::int64_t until_ns = 0;
+    std::uint32_t sequence = 0;
+    SimTime begin{0};
+    SimTime end{0};
+  };
+  /// When a line answered last.
+  struct Answer {
+    std::uint64_t bytes_out = 0;
+    std::uint64_t bytes_in = 0;
+  };
+
+  Open open_for(const HostWaits::Thread& thread, const Lines& lines, SimTime now) const;
+  void tell(int number, const Open& open, const Lines& lines);
+
+  std::function<std::size_t(int)> line_of_;
+  std::function<void(const HostWait&)> tell_;
+  std::map<int, Open> open_;  // by the thread's connection
+  std::map<int, std::size_t> numbers_;
+  std::size_t next_number_ = 1;
+  std::vector<Answer> answers_;
+};
+
+}  // namespace understudy::emulator::serve

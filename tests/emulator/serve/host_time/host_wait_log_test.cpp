@@ -1,0 +1,143 @@
+// Tests how the waits of a host in simulated time are told.
+#include "emulator/serve/host_time/host_wait_log.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/host_time/host_waits.h"
+#include "pty/host_time/protocol.h"
+
+namespace understudy::emulator::serve {
+namespace host_wait_log_test {
+
+using host_time::Message;
+using host_time::Said;
+using std::chrono::milliseconds;
+
+constexpr int kTerminal = 7;
+
+/// A thread that waits as the tests say, on a bench of one line.
+class HostWaitLogTest : public testing::Test {
+ protected:
+  HostWaitLogTest() {
+    waits_.add(1);
+    Message hello{};
+    hello.what = Said::hello;
+    waits_.heard(1, hello);
+  }
+  /// Waits from now on for this long; the line has then counted so many bytes.
+  void wait(Message message, milliseconds length) {
+    message.what = Said::wait;
+    message.sequence = ++sequence_;
+    waits_.heard(1, message);
+    log_.begin(waits_, lines_, now_);
+    now_ += length;
+    log_.end(now_);
+  }
+  static Message message_for_line() {
+    Message message{};
+    message.until_ns = host_time::kNever;
+    message.line_count = 1;
+    message.lines[0] = kTerminal;
+    return message;
+  }
+  void wait_for_line(milliseconds length) { wait(message_for_line(), length); }
+  void sleep(milliseconds length) {
+    Message message{};
+    message.until_ns = SimTime(now_ + length).count();
+    wait(message, length);
+  }
+  void host_writes(std::uint64_t bytes) { lines_[0].bytes_in += bytes; }
+  void line_sends(std::uint64_t bytes) { lines_[0].bytes_out += bytes; }
+  const std::vector<HostWait>& told() {
+    log_.finish(lines_);
+    return told_;
+  }
+
+ private:
+  HostWaits waits_{[](int, HostAnswer, const HostWaits::Thread&) {}};
+  std::vector<HostWait> told_;
+  HostWaitLog log_{[](int terminal) { return std::size_t{terminal == kTerminal ? 0U : 1U}; },
+                   [this](const HostWait& wait) { told_.push_back(wait); }};
+  HostWaitLog::Lines lines_{{.name = "rs485"}};
+  std::uint32_t sequence_ = 0;
+  SimTime now_{0};
+};
+
+HostWait told_wait(milliseconds begin, milliseconds end, const char* text) {
+  return {.thread = 1, .begin = begin, .end = end, .text = text};
+}
+
+TEST_F(HostWaitLogTest, TellsTheBytesOfAReplyAsOneWait) {
+  host_writes(8);
+  wait_for_line(milliseconds(5));
+  line_sends(1);
+  wait_for_line(milliseconds(1));
+  line_sends(1);
+  wait_for_line(milliseconds(1));
+  line_sends(1);
+  sleep(milliseconds(20));
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        told_wait(milliseconds(0), milliseconds(7), "waits for a reply"),
+                        told_wait(milliseconds(7), milliseconds(27), "sleeps"),
+                    }));
+}
+
+TEST_F(HostWaitLogTest, TellsTimeoutsApart) {
+  host_writes(8);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    Message message = message_for_line();
+    message.until_ns = SimTime(milliseconds(300 * (attempt + 1))).count();
+    wait(message, milliseconds(300));
+  }
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        told_wait(milliseconds(0), milliseconds(300), "waits for a reply in vain"),
+                        told_wait(milliseconds(300), milliseconds(600), "waits for a reply in vain"),
+                    }));
+}
+
+TEST_F(HostWaitLogTest, TellsRequestsApart) {
+  host_writes(8);
+  wait_for_line(milliseconds(500));
+  host_writes(8);
+  wait_for_line(milliseconds(4));
+  line_sends(7);
+  wait_for_line(milliseconds(3));
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        told_wait(milliseconds(0), milliseconds(500), "waits for a reply in vain"),
+                        told_wait(milliseconds(500), milliseconds(507), "waits for a reply"),
+                    }));
+}
+
+TEST_F(HostWaitLogTest, TellsSleepsApartAndWaitsByTheirKind) {
+  sleep(milliseconds(10));
+  sleep(milliseconds(10));
+  wait_for_line(milliseconds(1));
+  Message message{};
+  message.until_ns = host_time::kNever;
+  message.has_others = message.is_on_word = 1;
+  wait(message, milliseconds(2));
+  message = message_for_line();
+  message.is_for_drain = 1;
+  wait(message, milliseconds(3));
+  message = message_for_line();
+  message.line_count = host_time::kAnyLine;
+  message.has_others = 1;
+  wait(message, milliseconds(4));
+  wait(message, milliseconds(0));
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        told_wait(milliseconds(0), milliseconds(10), "sleeps"),
+                        told_wait(milliseconds(10), milliseconds(20), "sleeps"),
+                        told_wait(milliseconds(20), milliseconds(21), "waits for data"),
+                        told_wait(milliseconds(21), milliseconds(23), "waits for another thread"),
+                        told_wait(milliseconds(23), milliseconds(26), "waits until its bytes are sent"),
+                        told_wait(milliseconds(26), milliseconds(30), "waits"),
+                    }));
+}
+
+}  // namespace host_wait_log_test
+}  // namespace understudy::emulator::serve
