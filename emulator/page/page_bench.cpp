@@ -54,10 +54,12 @@ std::uint64_t first_of(const Json& look, const char* key, const char* next_key) 
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
-/// Takes the frames or events from a look, if it has any.
+/// Takes the frames or events from a look, if it has any. If they were forgotten since it was asked for, its
+/// list would not begin where they begin now.
 template <class Ring>
-void take_list(const Json& look, const char* key, const char* next_key, Ring& ring, std::uint64_t& next) {
-  if (!look.contains(key)) return;
+void take_list(const Json& look, const char* key, const char* next_key, std::uint64_t asked, Ring& ring,
+               std::uint64_t& next) {
+  if (!look.contains(key) || asked != next) return;
   for (const Json& one : look[key]) ring.push_back({one.at("number").get<std::uint64_t>(), text_of(one)});
   while (ring.size() > PageBench::kFramesKept) ring.pop_front();
   next = look.at(next_key).get<std::uint64_t>();
@@ -166,15 +168,17 @@ void PageBench::look() {
       }
     }
     const bool is_last = i + 1 == lists_.size();
-    wire_->ask(text_of(message), [this, list, is_last](const std::optional<std::string>& reply) {
+    const Asked asked{.frames = next_frame_, .events = next_event_};
+    wire_->ask(text_of(message), [this, list, asked, is_last](const std::optional<std::string>& reply) {
       if (looks_under_way_ > 0) --looks_under_way_;
       if (!reply) return lose();
-      take_look(*reply, list, is_last);
+      take_look(*reply, list, asked, is_last);
     });
   }
 }
 
-void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameList>& list, bool is_last) {
+void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameList>& list, const Asked& asked,
+                          bool is_last) {
   Json look;
   const std::vector<std::string>& names = list->names;
   try {
@@ -218,8 +222,8 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       if (text == known->second.text && known->second.changed != 0) continue;
       known->second = {std::move(text), looks_};
     }
-    take_list(look, "frames", "next_frame", frames_, next_frame_);
-    take_list(look, "events", "next_event", events_, next_event_);
+    take_list(look, "frames", "next_frame", asked.frames, frames_, next_frame_);
+    take_list(look, "events", "next_event", asked.events, events_, next_event_);
     if (look.contains("status")) {
       status_ = text_of(look["status"]);
       status_changed_ = looks_;

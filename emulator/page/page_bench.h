@@ -96,7 +96,13 @@ class PageBench {
   void plan(std::chrono::milliseconds time);
   void look();
   void send_asks();
-  void take_look(const std::string& reply, const std::shared_ptr<NameList>& list, bool is_last);
+  /// From where on a look was asked for.
+  struct Asked {
+    std::uint64_t frames = 0;
+    std::uint64_t events = 0;
+  };
+  void take_look(const std::string& reply, const std::shared_ptr<NameList>& list, const Asked& asked,
+                 bool is_last);
   void begin_anew(std::uint64_t who);
   void divide_names();
   void be(State state);

@@ -40,6 +40,10 @@ class TextProtocol {
   /// busy if the device would not take a line as a command at this moment.
   virtual DeviceAnswer take_command(std::string_view /*line*/) { return Refusal::failure; }
 
+  /// Returns what a line of its own means that refuses something: "ERR 2": "a value or an index is out of
+  /// range"; or an empty text.
+  virtual std::string_view meaning_of(std::string_view /*line*/) const { return {}; }
+
   // --- what it says ------------------------------------------------------------------------------
   /// Returns true if there is text to send. Asked after anything that may produce text: a line, a tick, an
   /// act from outside.

@@ -21,6 +21,7 @@
 #include "emulator/models/slim/chain/chain.h"
 #include "emulator/models/slim/dialogue.h"
 #include "emulator/models/slim/error_log.h"
+#include "emulator/models/slim/error_words.h"
 #include "emulator/models/slim/model.h"
 #include "emulator/models/slim/parameters_set.h"
 #include "emulator/models/slim/power.h"
@@ -59,6 +60,8 @@ void Slim::hear_line(std::string_view line) {
   wake();
   slim::hear_line(state_, setup_, *this, line);
 }
+
+std::string_view Slim::meaning_of(std::string_view line) const { return meaning_of_reply(setup_, line); }
 
 void Slim::hear_overlong() {
   wake();

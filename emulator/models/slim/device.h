@@ -50,6 +50,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   // --- the dialogue ---
   TextRules text_rules() const override;
   void hear_line(std::string_view line) override;
+  std::string_view meaning_of(std::string_view line) const override;
   void hear_overlong() override;
   DeviceAnswer take_command(std::string_view line) override;
   void hear_escape() override;

@@ -99,6 +99,21 @@ function Axis({ device, axis }) {
   </section>`;
 }
 
+/// For somebody without a host yet: what a first move of the model takes, done one after the other.
+function FirstMove({ device }) {
+  const isNew = store.frames.length === 0 && !store.timeline;
+  if (!device.first_move || !isNew) return null;
+  const wordsOf = ({ set, command }) => command ?? Object.entries(set).map(([name, value]) => `${name} = ${value}`).join(', ');
+  const move = async () => {
+    for (const { set, command } of device.first_move) {
+      const message = command !== undefined ? { do: 'command', device: device.name, text: command }
+        : { do: 'set', values: Object.fromEntries(Object.entries(set).map(([name, value]) => [`${device.name}.${name}`, value])) };
+      if (!(await ask(message)).ok) return;
+    }
+  };
+  return html` <${Button} kind="small" title=${`a first move without a host: ${device.first_move.map(wordsOf).join('; ')}`} disabled=${isLocked()} does=${move}>try a first move<//>`;
+}
+
 export function Axes() {
   const [devices, choice] = useDevices('axes', (device) => device.axes.length, kMaxAxes);
   const shown = devices.map((device) => device.name).join();
@@ -115,7 +130,7 @@ export function Axes() {
   }, [store.bench, shown]);
   return html`${choice && html`<div class="bar">${choice}</div>`}
     ${devices.map((device) => html`<section class="device" key=${device.name}>
-    <h2>${device.name}</h2>
+    <h2>${device.name}<${FirstMove} device=${device} /></h2>
     ${device.axes.length === 0 && html`<p>This device drives no axis.</p>`}
     <div class="with_plane">
       <div class="rails">${device.axes.map((axis) => html`<${Axis} key=${axis.name} device=${device} axis=${axis} />`)}</div>

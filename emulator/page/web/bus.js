@@ -5,6 +5,7 @@ import { ask, isLocked, store, withHoles } from './store.js';
 import { Button, Choice, Field, Missed, grouped, save, seconds } from './small.js';
 import { useKept } from './kept.js';
 import { pcapng } from './pcapng.js';
+import { kBounds_ms } from './heard.js';
 
 const kShown = 200;
 
@@ -81,6 +82,29 @@ function Connections({ isFirst }) {
   })}</ul></details>`;
 }
 
+/// Bars of how often a duration lies between two bounds.
+function Bars({ title, counts, least, greatest }) {
+  const most = Math.max(1, ...counts);
+  const sum = counts.reduce((all, one) => all + one, 0);
+  if (sum === 0) return null;
+  const ms = (ns) => `${(ns / 1e6).toFixed(2)} ms`;
+  const label = (i) => (i < kBounds_ms.length ? `below ${kBounds_ms[i]} ms` : `${kBounds_ms.at(-1)} ms and more`);
+  return html`<figure class="bars"><figcaption>${title}: ${ms(least)} to ${ms(greatest)}</figcaption>
+    <div role="img" aria-label=${`${title}: ${counts.map((count, i) => count > 0 && `${count} ${label(i)}`).filter(Boolean).join(', ')}`}>${counts.map((count, i) =>
+      html`<i key=${i} title=${`${grouped(count)} ${label(i)}`} style=${{ height: `${count === 0 ? 0 : 6 + 94 * count / most}%` }}></i>`)}</div>
+    <small>${counts.map((_, i) => html`<span key=${i}>${i < kBounds_ms.length ? kBounds_ms[i] : ''}</span>`)}</small></figure>`;
+}
+
+/// Of each line, counters and how long answers and the host's pauses take.
+function Traffic() {
+  if (store.heard.lines.size === 0) return null;
+  return html`<details class="traffic"><summary>counters and durations</summary>${[...store.heard.lines].map(([name, line]) => html`<section key=${name}>
+    <p><b>${name}</b> ${grouped(line.requests)} requests, ${grouped(line.replies)} replies, ${grouped(line.exceptions)} with an exception, ${grouped(line.dropped)} dropped or with a remark</p>
+    <${Bars} title="latency" counts=${line.latency} least=${line.least.latency} greatest=${line.greatest.latency} />
+    <${Bars} title="from a reply to the next request" counts=${line.gaps} least=${line.least.gaps} greatest=${line.greatest.gaps} /></section>`)}
+    <small>since the page was opened, and in what the daemon had kept by then</small></details>`;
+}
+
 export function Bus() {
   const [filter, setFilter] = useKept('filter of frames', '');
   const [what, setWhat] = useKept('which frames', 'all');
@@ -102,6 +126,7 @@ export function Bus() {
     ${!store.timeline && html`<${ByHand} />`}<${Drops} />
     ${frames.length === 0 && html`<p>No traffic on the lines yet.</p>`}
     ${!store.timeline && html`<${Connections} isFirst=${frames.length === 0} />`}
+    <${Traffic} />
     ${frames.length > 0 && html`<div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
       <tbody>${shown.slice(-kShown).reverse().map((frame) => (frame.key
         ? html`<${Missed} key=${frame.key} count=${frame.missed} what="frames" columns="6" />` : html`<${Frame} key=${frame.number} frame=${frame} />`))}</tbody></table></div>`}

@@ -16,7 +16,7 @@ import { Timeline } from './timeline.js';
 import { isTold } from './told.js';
 import { Travel } from './travel.js';
 import { keepPaths } from './plane.js';
-import { keep, kept } from './kept.js';
+import { keep, kept, useKept } from './kept.js';
 
 const kAllPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Timeline', Timeline], ['Registers', Registers], ['Bus', Bus],
                     ['Program', Program], ['Events', Events], ['Faults', Faults]];
@@ -45,6 +45,7 @@ async function runUntil(condition) {
 
 function Time() {
   const { look } = store;
+  const [isOpen, open] = useKept('more about time', false);
   if (!look) return null;
   const stands = look.paused || look.speed === 'manual';
   const isExact = stands && !look.advancing && look.time_ns % 1e6 !== 0;
@@ -56,10 +57,11 @@ function Time() {
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
   const step = (ticks, name) => html`<${Button} kind="small" title=${`advance by ${name}`} disabled=${locked || isRunning}
     does=${() => ask({ do: 'step', ticks })}>+${name}<//>`;
-  return html`<div class="time" role="group" aria-label="time">
+  return html`<div class=${isOpen ? 'time open' : 'time'} role="group" aria-label="time">
     ${clock}${store.timeline && html`<${WhatIf} />`}
     <${Button} kind="pause" title=${isRunning ? 'stop time' : 'resume time'} pressed=${look.paused} disabled=${locked}
       does=${() => ask({ do: isRunning ? 'pause' : 'resume' })}>${isRunning ? '❚❚ pause' : '▶ resume'}<//>
+    <${Button} kind="small more" title="more about time" pressed=${isOpen} does=${() => open(!isOpen)}>⋯<//>
     <span class="joined">${step(1, '1 ms')}${step(10, '10 ms')}${step(1000, '1 s')}</span>
     <${Choice} label="speed of time" value=${look.speed} options=${speeds.map((to) => [to, /\d/.test(to) ? `× ${to}` : to])}
       disabled=${locked} takes=${(to) => ask({ do: 'speed', to })} />
@@ -99,11 +101,31 @@ function panelShown() {
   return kPanels.some(([name]) => name === wanted) ? wanted : 'Axes';
 }
 
+const kWide = 1150;    // dots from which on two panels fit side by side,
+const kWidest = 1750;  // and three
+
+/// The panels beside the one in view, as far as there is room.
+function besideShown(panel) {
+  const room = innerWidth >= kWidest ? 2 : innerWidth >= kWide ? 1 : 0;
+  return kept('panels beside', [], '').filter((name) => name !== panel && kPanels.some(([known]) => known === name)).slice(0, room);
+}
+
+/// Chooses a panel to see beside the others.
+function Beside({ panel, beside }) {
+  if (innerWidth < kWide) return null;
+  const choose = (i, name) => keep('panels beside', [...beside.slice(0, i), name, ...beside.slice(i + 1)].filter(Boolean), { of: '' });
+  const places = innerWidth >= kWidest && beside.length > 0 ? [0, 1] : [0];
+  return html`<span class="beside">${places.map((i) => html`<${Choice} key=${i} label=${i === 0 ? 'a panel beside this one' : 'a third panel'} value=${beside[i] ?? ''}
+    options=${[['', i === 0 ? 'side by side ...' : 'a third ...'], ...kPanels.map(([name]) => name).filter((name) => name !== panel && (name === beside[i] || !beside.includes(name)))]}
+    takes=${(name) => choose(i, name)} />`)}</span>`;
+}
+
 function Page() {
   const panel = panelShown();
   const setPanel = (name) => keep('panel', name, { of: '' });
   const benches = store.hello?.benches ?? [];
-  const Shown = kPanels.find(([name]) => name === panel)[1];
+  const beside = besideShown(panel);
+  const panelOf = (name) => kPanels.find(([known]) => known === name)[1];
   const move = (event) => {
     const at = kPanels.findIndex(([name]) => name === panel);
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: kPanels.length - 1 }[event.key];
@@ -124,12 +146,13 @@ function Page() {
       <${Button} kind="small" title="copy a link to this moment (key: c)" does=${copyMoment}>link<//>
     </header>
     <${Travel} />
-    <nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
+    <div class="tabs"><nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
       key=${name} id=${`tab_${name}`} aria-selected=${name === panel} aria-controls="panel" tabindex=${name === panel ? 0 : -1}
-      onClick=${() => setPanel(name)}>${name}</button>`)}</nav></div>
+      onClick=${() => setPanel(name)}>${name}</button>`)}</nav><${Beside} panel=${panel} beside=${beside} /></div></div>
     <${Said} /><${Story} />
-    <div id="panel" class=${isLost ? 'stale' : ''} role="tabpanel" aria-labelledby=${`tab_${panel}`}>
-      ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>${store.link.includes('too many') ? 'Too many browsers look at this page: close one of them, and this one comes by itself.' : 'Looking for the bench...'}</p>`}</div>`;
+    <div class=${`panels n${1 + beside.length} ${isLost ? 'stale' : ''}`}><div id="panel" role="tabpanel" aria-labelledby=${`tab_${panel}`}>
+      ${store.bench ? html`<${panelOf(panel)} key=${`${store.number}/${panel}`} />` : html`<p>${store.link.includes('too many') ? 'Too many browsers look at this page: close one of them, and this one comes by itself.' : 'Looking for the bench...'}</p>`}</div>
+      ${store.bench && beside.map((name) => html`<section key=${`${store.number}/${name}`} aria-label=${name}><h2>${name}</h2><${panelOf(name)} /></section>`)}</div>`;
 }
 
 store.number = kept('bench', 0, '');

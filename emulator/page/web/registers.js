@@ -4,7 +4,7 @@ import { html, useEffect, useState } from './preact.js';
 import { ask, askQuietly, complain, flashOf, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, exactly, grouped, nameOfBench, save, seconds } from './small.js';
 import { keep, useKept } from './kept.js';
-import { isHeard } from './heard.js';
+import { useOf } from './heard.js';
 
 const kPage = 100;
 const kMaxHeard = 400;
@@ -36,7 +36,26 @@ function Writer({ name }) {
   return html`<button type="button" class="link" title=${`list what has happened to ${name}`} onClick=${list}><small>${last.by} ${seconds(last.time_ns)}</small></button>`;
 }
 
-function Row({ device, row, explain, section }) {
+/// How often a host uses it, and since when.
+function Use({ use }) {
+  const seconds_used = Math.max((use.last_ns - use.since_ns) / 1e9, 1e-3);
+  const rate = (count, what) => count > 0 && `${what} ${count === 1 ? 'once' : count < 4 ? `${count} times` : `${grouped(Math.round(count / seconds_used * 10) / 10)}/s`}`;
+  return html`<small class="use">${[rate(use.reads, 'read'), rate(use.writes, 'written')].filter(Boolean).join(', ')}, since ${seconds(use.since_ns)}
+    ${use.exceptions > 0 && html` <b class="bad">${grouped(use.exceptions)} ${use.exceptions === 1 ? 'exception' : 'exceptions'}</b>`}</small>`;
+}
+
+/// The registers that hosts use, as a map: a cell each, the darker the more often. A click finds it.
+function UseMap({ rows, words, find }) {
+  const uses = rows.map((row) => [row, useOf(words, row)]).filter(([, use]) => use);
+  const most = Math.max(1, ...uses.map(([, use]) => use.reads + use.writes));
+  return html`<div class="map" role="group" aria-label="registers that hosts use">${uses.map(([row, use]) => {
+    const share = Math.log1p(use.reads + use.writes) / Math.log1p(most);
+    return html`<button type="button" key=${row.name} class=${`${use.writes > 0 ? 'written' : ''} ${use.exceptions > 0 ? 'refused' : ''}`} style=${{ '--share': `${Math.round(20 + 80 * share)}%` }}
+      title=${`${row.name}: read ${use.reads}, written ${use.writes}, exceptions ${use.exceptions}`} aria-label=${row.name} onClick=${() => find(row.name)}></button>`;
+  })}</div>`;
+}
+
+function Row({ device, row, explain, section, use }) {
   const name = `${device}.${row.name}`;
   const value = valueOf(name);
   const flash = flashOf(name, device, row.access !== 'R');
@@ -52,7 +71,7 @@ function Row({ device, row, explain, section }) {
     <td class="access"><small>${row.access}${row.kept ? html`, <b>kept</b>` : ''}</small></td>
     <td class="range"><small>${rangeOf(row)}</small></td>
     <td class="factory"><small class=${isOther ? 'other' : ''} title=${isOther ? 'the value differs from the factory value' : ''}>${row.factory ?? ''}</small></td>
-    <td class="more">${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small> `}
+    <td class="more">${use && html`<${Use} use=${use} />`}${bitsOf(row, value)}${row.not_modelled && html`<small class="bad" title=${row.not_modelled}>not modelled</small> `}
       ${(row.choices ?? []).map((id) => html`<${Button} kind="small" key=${id} title=${`the choice ${id}`}
         does=${() => explain(id)}>${id}<//>`)}</td>
   </tr>`;
@@ -98,7 +117,7 @@ export function Registers() {
         const where = find !== '' ? { find } : { section: Number(section) };
         return askQuietly({ do: 'registers', device: device.name, from, count: kPage, ...where });
       }
-      const rows = (await tableOf(device)).filter((row) => isHeard(words, row) &&
+      const rows = (await tableOf(device)).filter((row) => useOf(words, row) &&
         (find === '' || `${row.name} ${row.address ?? row.number}`.toLowerCase().includes(find.toLowerCase())));
       return { ok: true, registers: rows.slice(0, kMaxHeard), of: rows.length };
     };
@@ -136,9 +155,10 @@ export function Registers() {
     ${choice && html`<aside class="choice"><strong>${choice.id}</strong> (section ${englishOf(choice.section)}): ${choice.question}
       <p>Chosen: <b>${spacedChoice(choice.chosen)}</b> of ${choice.options.map(spacedChoice).join('; ')}. ${choice.why} <small>${choice.confidence}</small></p>
       <${Button} title="close" does=${() => setChoice(null)}>close<//></aside>`}
+    ${onlyHeard && html`<${UseMap} rows=${page.registers} words=${words} find=${(name) => { setFind(name); setFrom(0); }} />`}
     <div class="scroll"><table class="registers">
       <thead><tr><th>name</th><th class="value">value</th><th>changed by</th><th>write</th><th>access</th><th>range</th><th>factory</th><th>bits, choices</th></tr></thead>
-      <tbody>${page.registers.map((row) => html`<${Row} key=${row.name} device=${device.name} row=${row} explain=${explain} section=${sectionOf(row)} />`)}</tbody>
+      <tbody>${page.registers.map((row) => html`<${Row} key=${row.name} device=${device.name} row=${row} explain=${explain} section=${sectionOf(row)} use=${onlyHeard ? useOf(words, row) : undefined} />`)}</tbody>
     </table></div>
     ${onlyHeard && page.of === 0 && html`<p>No host has used a register yet, or none that matches.</p>`}
     <div class="bar"><small>${grouped(from + Math.min(1, page.of))} to ${grouped(from + page.registers.length)} of ${grouped(page.of)}</small>

@@ -1,7 +1,7 @@
 // The page's knowledge of the bench that it shows. Panels read it; only this file writes what the server sends.
 import { Wire } from './wire.js';
 import { Told, isTold } from './told.js';
-import { hear } from './heard.js';
+import { Heard } from './heard.js';
 
 const kMaxFrames = 1024;
 const kMaxEvents = 500;
@@ -27,7 +27,7 @@ export const store = {
   look: null,       // time_ns, paused, speed, advancing
   changes: {},      // by name: time and author of the last change
   writers: {},      // by name: the last event that wrote it
-  heard: new Map(), // by device: what its hosts have used (heard.js)
+  heard: new Heard(),  // what hosts use
   said: null,       // the last error: { text, at }
   timeline: null,   // of a recording: { begin_ns, end_ns, marks, story }
 };
@@ -105,7 +105,7 @@ function take(look) {
   // its past again.
   const moved = store.look ? look.time_ns - store.look.time_ns : 0;
   const isTravel = store.timeline && look.altered_at_ns === undefined && moved !== 0;
-  if (moved < 0 || isTravel) Object.assign(store, { frames: [], events: [], changes: {}, writers: {} });
+  if (moved < 0 || isTravel) Object.assign(store, { frames: [], events: [], changes: {}, writers: {}, heard: new Heard() });
   store.look = look;
   for (const [name, value] of Object.entries(look.values ?? {})) {
     if (!watched.has(name)) continue;
@@ -135,7 +135,7 @@ function take(look) {
 let unheard = [];
 function hearAll() {
   if (!store.bench) return;
-  for (const frame of unheard) hear(store.heard, store.bench, frame);
+  for (const frame of unheard) store.heard.take(store.bench, frame);
   unheard = [];
 }
 
@@ -179,7 +179,7 @@ let isKnown = false;  // whether messages continue the previous ones of this dae
 function forget() {
   unheard = [];
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
-                         changes: {}, writers: {}, framesLost: 0, eventsLost: 0, heard: new Map(), timeline: null });
+                         changes: {}, writers: {}, framesLost: 0, eventsLost: 0, heard: new Heard(), timeline: null });
 }
 
 /// Finds a label for each of several benches.

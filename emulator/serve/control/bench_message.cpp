@@ -15,6 +15,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"
+#include "emulator/serve/control/first_move.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/reply_task.h"
@@ -242,6 +243,7 @@ ReplyTask device_message(Daemon& daemon, std::size_t number) {
     if (model.language->parts_run_at_once()) program["at_once"] = true;
     text.member("program", program);
   }
+  if (Json moves = first_move_of(model); !moves.empty()) text.member("first_move", moves);
   text.member("gaps", names_json(model.gaps));
   text.close_object();
   co_return text.take();

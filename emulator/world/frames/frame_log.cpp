@@ -94,7 +94,7 @@ FrameLog::Told FrameLog::told(std::size_t place) const {
   }
   const Frame* const request = request_before(place);
   const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
-  told.is_refusal = line.speech.is_refusal(frame.bytes);
+  told.is_refusal = line.speech.refuses(line.stations, frame.bytes);
   if (request != nullptr) told.latency = frame.time - request->time;
   told.text = line.reply_text(bytes, frame.bytes);
   return told;

@@ -53,6 +53,12 @@ class LineProtocol {
   /// Returns true if an answer says that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
+  /// The same for an answer of these stations, which may be a refusal only to people: something may have been
+  /// changed.
+  virtual bool refuses(const LineStations& /*stations*/, std::span<const std::uint8_t> answer) const {
+    return is_refusal(answer);
+  }
+
   // --- observers ---------------------------------------------------------------------------------
   /// Makes packets of the traffic on the line with that number.
   virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,

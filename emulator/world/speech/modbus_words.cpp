@@ -15,6 +15,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
+#include "emulator/world/speech/refusal_words.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
@@ -169,6 +170,18 @@ std::vector<std::uint16_t> words_in(std::span<const std::uint8_t> bytes) {
   return words;
 }
 
+/// Returns "exception 3 (illegal data value): feeder.Aaxis_Speed takes 0 to 32768, not 65000".
+std::string refusal_text(const LineStations& stations, std::span<const std::uint8_t> request,
+                         std::span<const std::uint8_t> reply) {
+  const std::string text = "exception " + exception_text(reply[2]);
+  const Device* const device = device_at(stations, reply[0]);
+  const bool is_asked =
+      request.size() >= 4 && request[0] == reply[0] && (request[1] | kExceptionBit) == reply[1];
+  if (device == nullptr || !is_asked) return text;
+  const std::string why = why_refused(*device, request, reply[2]);
+  return why.empty() ? text : text + ": " + why;
+}
+
 }  // namespace
 
 std::string hex_text(std::span<const std::uint8_t> bytes) {
@@ -240,7 +253,7 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply) {
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
-  if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
+  if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return refusal_text(stations, request, reply);
   const FunctionRow* const function = function_of(reply);
   if (function == nullptr) return hex_text(reply);
   if (function->kind != FunctionRow::Kind::read) return reply.size() == 8 ? "done" : hex_text(reply);

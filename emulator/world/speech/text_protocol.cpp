@@ -54,9 +54,13 @@ class TextLineProtocol final : public LineProtocol {
                            std::span<const std::uint8_t> request) const override {
     return quoted(request);
   }
-  std::string reply_text(const LineStations& /*stations*/, std::span<const std::uint8_t> /*request*/,
+  std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> /*request*/,
                          std::span<const std::uint8_t> reply) const override {
-    return quoted(reply);
+    const std::string meaning = meaning_of(stations, reply);
+    return quoted(reply) + (meaning.empty() ? "" : ": " + meaning);
+  }
+  bool refuses(const LineStations& stations, std::span<const std::uint8_t> answer) const override {
+    return !meaning_of(stations, answer).empty();
   }
 
   /// Returns the time only, because text lines have neither station nor function.
@@ -85,6 +89,19 @@ class TextLineProtocol final : public LineProtocol {
   }
 
  private:
+  /// Returns why a station's answer refuses something, or an empty text.
+  static std::string meaning_of(const LineStations& stations, std::span<const std::uint8_t> answer) {
+    const std::string text(answer.begin(), answer.end());
+    for (const auto& station : stations) {
+      const Device& device = station->device();
+      if (device.speaker() == nullptr) continue;
+      for (const std::string& line : lines_in(text).lines) {
+        const std::string_view meaning = device.speaker()->meaning_of(line);
+        if (!meaning.empty()) return std::string(meaning);
+      }
+    }
+    return {};
+  }
   /// Returns the lines side by side, each in quotes.
   static std::string quoted(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kMaxCharacters = 200;

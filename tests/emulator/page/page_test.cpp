@@ -332,6 +332,39 @@ TEST(PageLooks, TellEveryFrameOnce) {
 /// From a bench that has forgotten some before the first request: frames 5 to 8, then 20 to 22, then 23.
 class PageLosses : public testing::TestWithParam<const char*> {};
 
+/// The daemon may still answer for a browser that has left when the next one comes.
+TEST(PageLooks, UnderWayTakeNothingFromTheNextBrowser) {
+  PageRig rig;
+  std::atomic<bool> is_held = false;
+  std::atomic<bool> is_under_way = false;
+  const MadeUpBench bench(rig.socket(), [&](const TestJson& message) {
+    while (is_held && message["do"] == "look") {
+      is_under_way = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return counting(message);
+  });
+  const TestJson watch{{"do", "watch"}, {"bench", 0}, {"frames", true}};
+  const auto first = rig.browser();
+  first->say(watch);
+  for (std::size_t heard = 0; heard < 300;)
+    heard += first->hear_one("look").value("frames", TestJson::array()).size();
+  is_held = true;
+  while (!is_under_way) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  first->say({{"do", "watch"}, {"bench", 0}});
+  first->say({{"do", "nonsense"}});
+  first->hear_one("error");
+  const auto second = rig.browser();
+  is_held = false;
+  second->say(watch);
+  TestJson look = second->hear_one("look");
+  while (!look.contains("frames")) {
+    ASSERT_TRUE(look.is_object());
+    look = second->hear_one("look");
+  }
+  EXPECT_EQ(look["frames"][0]["number"], 1);
+}
+
 TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   const std::string key = GetParam();
   const std::string next_key = key == "frames" ? "next_frame" : "next_event";

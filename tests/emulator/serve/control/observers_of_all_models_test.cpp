@@ -266,5 +266,56 @@ TEST(KeptWrites, AreCountedWhenTheyAreDone) {
   EXPECT_EQ(writes(), before + 3);
 }
 
+// --- what one does, and why one is refused
+
+/// Somebody without a host can try these, so every message must be accepted and something must move.
+TEST(FirstMoves, AreAcceptedAndMoveAnAxis) {
+  for (const std::string model : {"simple2-r3", "rs-m8194h", "slim"}) {
+    OneDevice one(model);
+    const Json device = one.ask({{"do", "bench"}, {"device", "d"}})["device"];
+    ASSERT_TRUE(device.contains("first_move")) << model;
+    for (const Json& message : device["first_move"]) {
+      if (message.contains("command")) {
+        one.ask({{"do", "command"}, {"text", message["command"]}});
+      } else {
+        Json values = Json::object();
+        for (const auto& [name, value] : message["set"].items()) values["d." + name] = value;
+        one.ask({{"do", "set"}, {"values", values}});
+      }
+      one.run(100);
+    }
+    one.run(5000);
+    double moved = 0;
+    for (const Json& axis : device["axes"])
+      moved += std::abs(one.value("d." + axis["name"].get<std::string>() + ".position").get<double>());
+    EXPECT_GT(moved, 0) << model << device["first_move"];
+  }
+  OneDevice mill("super-40nc");
+  EXPECT_EQ(mill.ask({{"do", "bench"}, {"device", "d"}})["device"]["first_move"],
+            Json::parse(R"([{"set":{"M8100":1}}])"));
+}
+
+/// Takes the last frame that the device has sent.
+Json last_reply(OneDevice& one) {
+  const Json frames = one.ask({{"do", "frames"}, {"raw", true}})["frames"];
+  return frames.empty() ? Json() : frames.back();
+}
+
+TEST(ErrorLines, HaveTheirMeaningAndAreRefusals) {
+  OneDevice one("slim");
+  one.act("text NONSENSE");
+  const Json reply = last_reply(one);
+  EXPECT_EQ(reply.value("text", ""),
+            "\"ERR 1\": this is not a command here: check its spelling and its operands");
+  EXPECT_EQ(reply.value("exception", false), true);
+  const Json events = one.ask({{"do", "events"}})["events"];
+  EXPECT_EQ(events.back().value("what", ""), "exception") << events;
+  one.act("text ?PE");
+  EXPECT_EQ(last_reply(one).value("exception", false), false) << last_reply(one);
+  OneDevice same("slim", ", choices: { error_codes: 1_for_all }");
+  same.act("text NONSENSE");
+  EXPECT_NE(last_reply(same).value("text", "").find("error_codes"), std::string::npos) << last_reply(same);
+}
+
 }  // namespace observers_of_all_models_test
 }  // namespace understudy::emulator::serve

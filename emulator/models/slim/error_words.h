@@ -1,0 +1,43 @@
+// What the numbers of error replies mean, in words.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "emulator/models/slim/setup.h"
+
+namespace understudy::emulator::models::slim {
+
+/// By the number of an error (rules/errors.h).
+inline constexpr std::array<std::string_view, 14> kErrorWords{
+    "",
+    "this is not a command here: check its spelling and its operands",
+    "a value or an index is out of range",
+    "this command is not allowed now: typed, in a program, or while one runs",
+    "that axis is not assigned, or its module belongs to an axis",
+    "PN50 names no such module",
+    "the chain pauses, and takes no move",
+    "PR2 or PR3 differ between the axes of the command",
+    "the buffer of moves, or the program, is full",
+    "the servo is off (HOFF)",
+    "the following error is too large",
+    "overload",
+    "the temperature is too high",
+    "there is no such line or label, or the stack is full"};
+
+/// Returns the meaning of a reply such as "ERR 2", or an empty text for another line.
+inline std::string_view meaning_of_reply(const Setup& setup, std::string_view line) {
+  constexpr std::string_view kBegin = "ERR ";
+  if (!line.starts_with(kBegin)) return {};
+  std::size_t number = 0;
+  for (const char digit : line.substr(kBegin.size())) {
+    if (digit < '0' || digit > '9' || number >= kErrorWords.size()) return {};
+    number = number * 10 + static_cast<std::size_t>(digit - '0');
+  }
+  if (setup.code_of(Error::range) != static_cast<int>(Error::range))
+    return "it is refused (by the choice error_codes, every error has the number 1)";
+  return number < kErrorWords.size() ? kErrorWords[number] : std::string_view();
+}
+
+}  // namespace understudy::emulator::models::slim

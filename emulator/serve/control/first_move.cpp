@@ -1,0 +1,65 @@
+#include "emulator/serve/control/first_move.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/text/parse_integer.h"
+#include "emulator/device/model.h"
+#include "emulator/serve/control/message_fields.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+/// Returns what stands between the braces of "  - write: { ... }", or an empty text for another step.
+std::string_view inside(std::string_view line, std::string_view step) {
+  const std::size_t at = line.find(step);
+  const std::size_t end = line.rfind(" }");
+  if (at == std::string_view::npos || end == std::string_view::npos) return {};
+  const std::size_t begin = line.find("{ ", at);
+  return begin == std::string_view::npos ? std::string_view() : line.substr(begin + 2, end - begin - 2);
+}
+
+/// Returns {"Aaxis_Pulse":3200} for "feeder.Aaxis_Pulse: 3200"; null if a value is not a number.
+Json values_in(std::string_view pairs) {
+  Json values = Json::object();
+  while (!pairs.empty()) {
+    const std::string_view pair = pairs.substr(0, pairs.find(", "));
+    pairs.remove_prefix(std::min(pairs.size(), pair.size() + 2));
+    const std::size_t dot = pair.find('.');
+    const std::size_t colon = pair.find(": ");
+    if (dot == std::string_view::npos || colon == std::string_view::npos || dot > colon) return {};
+    const auto value = parse_integer(pair.substr(colon + 2));
+    if (!value) return {};
+    values[std::string(pair.substr(dot + 1, colon - dot - 1))] = *value;
+  }
+  return values;
+}
+
+}  // namespace
+
+Json first_move_of(const Model& model) {
+  Json messages = Json::array();
+  std::string_view steps = model.first_files == nullptr ? std::string_view() : model.first_files->steps;
+  while (!steps.empty()) {
+    const std::string_view line = steps.substr(0, steps.find('\n'));
+    steps.remove_prefix(std::min(steps.size(), line.size() + 1));
+    if (const std::string_view pairs = inside(line, "- write:"); !pairs.empty()) {
+      if (Json values = values_in(pairs); values.is_object())
+        messages.push_back({{"set", std::move(values)}});
+    } else if (const std::string_view command = inside(line, "- command:"); !command.empty()) {
+      messages.push_back({{"command", command.substr(std::min(command.size(), command.find(": ") + 2))}});
+    } else if (std::string_view text = inside(line, "- send: { text:"); text.starts_with("text: ")) {
+      if (text.find("reply:") != std::string_view::npos) continue;
+      text.remove_prefix(std::string_view("text: ").size());
+      if (text.starts_with('"') && text.ends_with('"')) text = text.substr(1, text.size() - 2);
+      messages.push_back({{"command", text}});
+    }
+  }
+  return messages;
+}
+
+}  // namespace understudy::emulator::serve

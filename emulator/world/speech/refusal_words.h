@@ -1,0 +1,17 @@
+// Says why a device has refused a Modbus request, from its tables: "feeder.Aaxis_Speed takes 0 to 32768, not
+// 65000".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "emulator/device/device.h"
+
+namespace understudy::emulator::world {
+
+/// Returns the reason, or an empty text if the tables do not have it: the device has refused for what it was
+/// doing. `request` is the whole frame, and `exception` the code of the answer.
+std::string why_refused(const Device& device, std::span<const std::uint8_t> request, int exception);
+
+}  // namespace understudy::emulator::world
