@@ -50,6 +50,8 @@ struct CommandLine {
   DapArguments dap;
   PollArguments poll;
   PhotographArguments photograph;
+  CompareArguments compare;
+  CalibrateArguments calibrate;
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
@@ -73,7 +75,7 @@ struct CommandLine {
     const char* help;
     void (CommandLine::*fill)(CLI::App& command);
   };
-  static const std::array<Command, 21> kCommands;
+  static const std::array<Command, 23> kCommands;
   static const std::array<Command, 3> kCommandsOfControl;  // the commands that are not a single message
   std::optional<Words> among_;
 
@@ -259,6 +261,19 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return take_photograph(models, photograph); }; });
   }
 
+  void add_compare(CLI::App& command) {
+    add_compare_flags(command, compare);
+    command.add_flag("--json", compare.json, "Print the result as JSON");
+    command.callback([this] { chosen = [this] { return compare_captures(models, compare); }; });
+  }
+
+  void add_calibrate(CLI::App& command) {
+    add_compare_flags(command, calibrate.compare);
+    command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);
+    command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
+    command.callback([this] { chosen = [this] { return calibrate_bench(models, calibrate); }; });
+  }
+
   void add_coverage_sum(CLI::App& command) {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
@@ -350,7 +365,7 @@ struct CommandLine {
 };
 
 // This is the order of `--help`.
-const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
+const std::array<CommandLine::Command, 23> CommandLine::kCommands{{
     {"models", "List the models", &CommandLine::add_models},
     {"describe", "Print a model's tables", &CommandLine::add_describe},
     {"serve", "Emulate the devices of a bench, in the foreground", &CommandLine::add_serve},
@@ -365,6 +380,9 @@ const std::array<CommandLine::Command, 21> CommandLine::kCommands{{
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"photograph", "Read everything that a real controller tells, into an NV image",
      &CommandLine::add_photograph},
+    {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
+    {"calibrate", "Find the choices with which a bench replies as a real controller",
+     &CommandLine::add_calibrate},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
     {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},
