@@ -32,4 +32,18 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
   command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
 }
 
+inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
+  command.add_option("CAPTURE", compare.captures, "Captures of the controller's line")->required();
+  command.add_option("--bench", compare.bench, "The bench that should reply as the controller did")
+      ->required()
+      ->check(kNotEmpty);
+  command.add_option("--line", compare.line, "The line, if the bench or a capture has several")
+      ->check(kNotEmpty);
+  command.add_option("--from", compare.from, "NV image with what the controller held at the beginning")
+      ->check(kNotEmpty);
+  command.add_option("--tolerance", compare.tolerance, "By how much times may differ")->capture_default_str();
+  command.add_flag("--power-up", compare.power_up,
+                   "The captures' time 0 is the power-up of the controller, so everything it held is known");
+}
+
 }  // namespace understudy::emulator::command_line

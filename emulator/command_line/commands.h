@@ -262,6 +262,26 @@ struct PhotographArguments {
 /// Reads all that a real controller tells, into an NV image and a photograph.
 int take_photograph(ModelList models, const PhotographArguments& arguments);
 
+struct CompareArguments {
+  std::vector<std::string> captures;  // files
+  std::string bench;
+  std::string line;  // of the bench and of the captures; empty: the only one
+  std::string from;  // an NV image: what the controller held at the beginning
+  std::string tolerance = "1ms";
+  bool power_up = false;  // the captures begin with it
+  bool json = false;
+};
+/// Plays captures of a real controller to a bench, and judges each reply.
+int compare_captures(ModelList models, const CompareArguments& arguments);
+
+struct CalibrateArguments {
+  CompareArguments compare;
+  std::string output;    // a file; empty: none
+  bool choices = false;  // print what a bench needs
+};
+/// Finds the options of choices with which a bench replies as in captures.
+int calibrate_bench(ModelList models, const CalibrateArguments& arguments);
+
 /// Names a program as text, and the settings to read it.
 struct ProgramTextArguments {
   std::string model;

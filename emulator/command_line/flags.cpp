@@ -51,6 +51,8 @@ struct CommandLine {
   DapArguments dap;
   PollArguments poll;
   PhotographArguments photograph;
+  CompareArguments compare;
+  CalibrateArguments calibrate;
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
@@ -268,6 +270,19 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return take_photograph(models, photograph); }; });
   }
 
+  void add_compare(CLI::App& command) {
+    add_compare_flags(command, compare);
+    command.add_flag("--json", compare.json, "Print the result as JSON");
+    command.callback([this] { chosen = [this] { return compare_captures(models, compare); }; });
+  }
+
+  void add_calibrate(CLI::App& command) {
+    add_compare_flags(command, calibrate.compare);
+    command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);
+    command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
+    command.callback([this] { chosen = [this] { return calibrate_bench(models, calibrate); }; });
+  }
+
   void add_coverage_sum(CLI::App& command) {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
@@ -376,6 +391,9 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"photograph", "Read everything that a real controller tells, into an NV image",
      &CommandLine::add_photograph},
+    {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
+    {"calibrate", "Find the choices with which a bench replies as a real controller",
+     &CommandLine::add_calibrate},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
     {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},

@@ -1,0 +1,283 @@
+#include "emulator/box/calibrate/calibration.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/choices.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/comparison.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::box {
+
+namespace {
+
+constexpr std::size_t kWidth = 12;    // explanations that are followed
+constexpr std::size_t kDeepest = 16;  // options that differ from the bench's
+
+/// How far a hypothesis explains the captures.
+struct Reach {
+  std::size_t explained = 0;  // exchanges
+  bool is_whole = false;
+  std::size_t capture = 0;  // of the first contradiction
+  std::size_t exchange = 0;
+  std::uint64_t fingerprint = 0;  // of the bench's replies up to there
+};
+
+const ChoiceRow& row_of(const world::Bench& bench, ChoiceKey key) {
+  return bench.devices[key.device].model->choices[key.row];
+}
+
+std::uint8_t option_in_bench(const world::Bench& bench, ChoiceKey key) {
+  const world::DeviceSetup& device = bench.devices[key.device];
+  return resolve_choices(device.model->choices, device.settings.choices)[key.row];
+}
+
+world::Bench bench_with(const world::Bench& bench, const Hypothesis& hypothesis) {
+  world::Bench changed = bench;
+  for (const auto& [key, number] : hypothesis)
+    changed.devices[key.device].settings.choices[choice_id(bench, key)] = option_name(bench, key, number);
+  return changed;
+}
+
+class Search {
+ public:
+  Search(const world::Bench& bench, const std::vector<Capture>& captures, const CalibrateSettings& settings,
+         CalibrateProgress progress)
+      : bench_(bench), captures_(captures), settings_(settings), progress_(std::move(progress)) {
+    std::set<std::size_t> devices;
+    for (const world::StationSetup& station : bench.lines[settings.compare.line].stations)
+      devices.insert(station.device);
+    for (const std::size_t device : devices) {
+      const auto rows = bench.devices[device].model->choices;
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        if (options_of(rows[row]).size() < 2) continue;
+        keys_.push_back({.device = device, .row = row});
+        own_.push_back(option_in_bench(bench, keys_.back()));
+      }
+    }
+  }
+
+  Calibration run() {
+    Calibration result;
+    std::vector<Hypothesis> level{Hypothesis()};
+    Hypothesis best;
+    Reach best_reach = reach_of({Hypothesis()}).front();
+    for (std::size_t depth = 0; depth <= kDeepest && !best_reach.is_whole && !level.empty(); ++depth) {
+      std::vector<Hypothesis> further = further_than_parents(level);
+      const std::vector<Reach> reaches = reach_of(further);
+      keep_best(further, reaches);
+      if (further.empty()) break;
+      level = std::move(further);
+      best_reach = level_reaches_.front();
+      best = level.front();
+    }
+    result.explains = best_reach.is_whole;
+    result.explanations = result.explains ? whole_ones(level) : std::vector{best};
+    result.capture = best_reach.capture;
+    result.exchange = best_reach.exchange;
+    if (result.explains) {
+      for (std::size_t i = 0; i < keys_.size(); ++i) result.findings.push_back(finding_of(i, result));
+    }
+    result.tried = tried_;
+    return result;
+  }
+
+  /// Returns all that one other option makes of a hypothesis.
+  std::vector<Hypothesis> neighbours_of(const Hypothesis& hypothesis) const {
+    std::vector<Hypothesis> all;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (hypothesis.contains(keys_[i])) continue;
+      const std::size_t count = options_of(row_of(bench_, keys_[i])).size();
+      for (std::size_t option = 0; option < count; ++option) {
+        if (option == own_[i]) continue;
+        all.push_back(hypothesis);
+        all.back().emplace(keys_[i], static_cast<std::uint8_t>(option));
+      }
+    }
+    return all;
+  }
+
+  std::vector<Reach> reach_of(const std::vector<Hypothesis>& hypotheses) {
+    std::vector<Reach> reaches(hypotheses.size());
+    std::atomic<std::size_t> next = 0;
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < hypotheses.size(); i = next++) {
+        try {
+          reaches[i] = reach_of_one(hypotheses[i]);
+        } catch (...) {
+          const std::lock_guard lock(mutex);
+          failure = std::current_exception();
+        }
+      }
+    };
+    const unsigned cores = settings_.threads != 0 ? settings_.threads : std::thread::hardware_concurrency();
+    const std::size_t count = std::min<std::size_t>(std::max(1U, cores), hypotheses.size());
+    std::vector<std::thread> threads;
+    for (std::size_t i = 1; i < count; ++i) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+    tried_ += hypotheses.size();
+    if (progress_) progress_(tried_, "");
+    return reaches;
+  }
+
+ private:
+  /// A combination of options that the model refuses explains nothing.
+  Reach reach_of_one(const Hypothesis& hypothesis) const {
+    const world::Bench changed = bench_with(bench_, hypothesis);
+    Reach reach;
+    for (std::size_t i = 0; i < captures_.size(); ++i) {
+      Comparison comparison;
+      try {
+        comparison = compare(changed, captures_[i], settings_.compare, Extent::to_difference);
+      } catch (const std::runtime_error&) {
+        reach.capture = i;
+        return reach;
+      }
+      reach.fingerprint = reach.fingerprint * 31 + comparison.fingerprint;
+      if (comparison.first_difference) {
+        reach.explained += *comparison.first_difference;
+        reach.capture = i;
+        reach.exchange = *comparison.first_difference;
+        return reach;
+      }
+      reach.explained += captures_[i].exchanges.size();
+    }
+    reach.is_whole = true;
+    return reach;
+  }
+
+  /// Single options first. If none of them gets further, pairs of one that changes any reply and any other.
+  std::vector<Hypothesis> further_than_parents(const std::vector<Hypothesis>& level) {
+    std::set<Hypothesis> found;
+    for (const Hypothesis& parent : level) {
+      const Reach reach = reach_of({parent}).front();
+      const std::vector<Hypothesis> singles = neighbours_of(parent);
+      const std::vector<Reach> reaches = reach_of(singles);
+      std::vector<Hypothesis> felt;
+      for (std::size_t i = 0; i < singles.size(); ++i) {
+        if (reaches[i].explained > reach.explained || reaches[i].is_whole) found.insert(singles[i]);
+        if (reaches[i].fingerprint != reach.fingerprint) felt.push_back(singles[i]);
+      }
+      if (!found.empty()) continue;
+      for (const Hypothesis& one : felt) {
+        const std::vector<Hypothesis> pairs = neighbours_of(one);
+        const std::vector<Reach> of_pairs = reach_of(pairs);
+        for (std::size_t i = 0; i < pairs.size(); ++i)
+          if (of_pairs[i].explained > reach.explained || of_pairs[i].is_whole) found.insert(pairs[i]);
+      }
+    }
+    return {found.begin(), found.end()};
+  }
+
+  /// Keeps those that get furthest, and all that explain everything.
+  void keep_best(std::vector<Hypothesis>& hypotheses, const std::vector<Reach>& reaches) {
+    std::vector<std::size_t> order(hypotheses.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+      if (reaches[a].is_whole != reaches[b].is_whole) return reaches[a].is_whole;
+      return reaches[a].explained > reaches[b].explained;
+    });
+    std::vector<Hypothesis> kept;
+    level_reaches_.clear();
+    for (const std::size_t i : order) {
+      if (kept.size() >= kWidth && !reaches[i].is_whole) break;
+      kept.push_back(hypotheses[i]);
+      level_reaches_.push_back(reaches[i]);
+    }
+    hypotheses = std::move(kept);
+  }
+
+  std::vector<Hypothesis> whole_ones(const std::vector<Hypothesis>& level) {
+    if (level_reaches_.empty()) return level;
+    std::vector<Hypothesis> whole;
+    for (std::size_t i = 0; i < level.size(); ++i)
+      if (level_reaches_[i].is_whole) whole.push_back(level[i]);
+    return whole;
+  }
+
+  /// Tries each option of a choice in each explanation.
+  RowFinding finding_of(std::size_t key_number, const Calibration& result) {
+    const ChoiceKey key = keys_[key_number];
+    RowFinding finding{.key = key, .before = own_[key_number]};
+    const auto count = static_cast<std::uint8_t>(options_of(row_of(bench_, key)).size());
+    std::vector<Hypothesis> tried;
+    for (const Hypothesis& explanation : result.explanations) {
+      for (std::uint8_t option = 0; option < count; ++option) {
+        tried.push_back(explanation);
+        tried.back()[key] = option;
+      }
+    }
+    const std::vector<Reach> reaches = reach_of(tried);
+    std::set<std::uint64_t> fingerprints;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      fingerprints.insert(reaches[i].fingerprint);
+      if (reaches[i].is_whole) {
+        finding.remaining.insert(static_cast<std::uint8_t>(i % count));
+      } else if (!finding.capture) {
+        finding.capture = reaches[i].capture;
+        finding.place = captures_[reaches[i].capture].exchanges[reaches[i].exchange].place;
+      }
+    }
+    using State = RowFinding::State;
+    const bool is_felt = fingerprints.size() > result.explanations.size();
+    finding.state = finding.remaining.size() == 1 ? State::measured
+                    : is_felt || finding.capture  ? State::undecided
+                                                  : State::not_exercised;
+    return finding;
+  }
+
+  const world::Bench& bench_;
+  const std::vector<Capture>& captures_;
+  const CalibrateSettings& settings_;
+  CalibrateProgress progress_;
+  std::vector<ChoiceKey> keys_;
+  std::vector<std::uint8_t> own_;  // the bench's options, one for each key
+  std::vector<Reach> level_reaches_;
+  std::size_t tried_ = 0;
+};
+
+}  // namespace
+
+std::string choice_id(const world::Bench& bench, ChoiceKey key) { return std::string(row_of(bench, key).id); }
+
+std::string option_name(const world::Bench& bench, ChoiceKey key, std::uint8_t number) {
+  return std::string(options_of(row_of(bench, key))[number]);
+}
+
+Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
+                      const CalibrateSettings& settings, const CalibrateProgress& progress) {
+  return Search(bench, captures, settings, progress).run();
+}
+
+std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
+                                 std::size_t first_difference, const CalibrateSettings& settings) {
+  std::vector<Capture> until{capture};
+  until.front().exchanges.resize(first_difference + 1);
+  Search search(bench, until, settings, {});
+  std::vector<Hypothesis> good;
+  const std::vector<Hypothesis> all = search.neighbours_of({});
+  const std::vector<Reach> reaches = search.reach_of(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (reaches[i].is_whole) good.push_back(all[i]);
+  return good;
+}
+
+}  // namespace understudy::emulator::box

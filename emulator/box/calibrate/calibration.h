@@ -1,0 +1,75 @@
+// Finds the options of choices with which a bench replies as a real controller did.
+//
+// A hypothesis gives some choices another option. At the first difference, every other option of every choice
+// is tried; those that get further are kept, all of them, and tried on. So several explanations can remain;
+// a choice is only called measured if all of them agree, and every other option contradicts a reply.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/comparison.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::box {
+
+/// A choice of a device of the bench.
+struct ChoiceKey {
+  std::size_t device = 0;
+  std::size_t row = 0;
+  auto operator<=>(const ChoiceKey&) const = default;
+};
+/// The options that differ from the bench's, by their numbers.
+using Hypothesis = std::map<ChoiceKey, std::uint8_t>;
+
+struct RowFinding {
+  enum class State : std::uint8_t {
+    measured,       // every other option contradicts a reply
+    undecided,      // several options remain
+    not_exercised,  // no reply depends on it
+  } state = State::not_exercised;
+  ChoiceKey key;
+  std::set<std::uint8_t> remaining{};  // options
+  std::uint8_t before = 0;             // the bench's option
+  /// For one option that contradicts: where.
+  std::optional<std::size_t> capture{};
+  std::size_t place = 0;
+};
+
+struct Calibration {
+  bool explains = false;
+  std::vector<Hypothesis> explanations;  // equally good ones; or the one that gets furthest
+  std::vector<RowFinding> findings;      // of all choices with several options, in the order of the tables
+  std::size_t tried = 0;                 // hypotheses
+  // If nothing explains everything: where the best one ends.
+  std::size_t capture = 0;
+  std::size_t exchange = 0;
+};
+
+struct CalibrateSettings {
+  CompareSettings compare{};
+  unsigned threads = 0;  // 0: one for each core
+};
+
+/// Tells how many hypotheses were tried, and what is done.
+using CalibrateProgress = std::function<void(std::size_t tried, const std::string& what)>;
+
+Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
+                      const CalibrateSettings& settings, const CalibrateProgress& progress);
+
+/// Returns the single options that make the first difference of a capture an agreement.
+std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
+                                 std::size_t first_difference, const CalibrateSettings& settings);
+
+std::string option_name(const world::Bench& bench, ChoiceKey key, std::uint8_t number);
+std::string choice_id(const world::Bench& bench, ChoiceKey key);
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,102 @@
+#include "emulator/box/compare/comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/judge.h"
+#include "emulator/box/compare/stand.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/view/world_view.h"
+
+namespace understudy::emulator::box {
+
+namespace {
+
+/// A controller that was on before the capture began has finished its start.
+constexpr SimTime kStarted = std::chrono::seconds(5);
+/// A reply later than this belongs to no request.
+constexpr SimTime kLongestWait = std::chrono::seconds(2);
+
+class Fingerprint {
+ public:
+  void add(const Frame& bytes) {
+    for (const std::uint8_t byte : bytes) mix(byte);
+    mix(0x100);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void mix(std::uint64_t number) { value_ = (value_ ^ number) * 0x100'0000'01B3U; }  // FNV-1a
+  std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
+};
+
+/// Replies all come later, or earlier, by the time of adapters and drivers. What differs from that is late or
+/// early.
+void judge_times(Comparison& comparison, const std::vector<bool>& has_time, SimTime tolerance) {
+  std::vector<SimTime> all;
+  for (std::size_t i = 0; i < comparison.judgements.size(); ++i)
+    if (has_time[i]) all.push_back(comparison.judgements[i].later);
+  if (all.empty()) return;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  comparison.usual_delay = *middle;
+  for (std::size_t i = 0; i < comparison.judgements.size(); ++i) {
+    Judgement& judgement = comparison.judgements[i];
+    if (!has_time[i] || judgement.verdict != Verdict::same) continue;
+    const SimTime off = judgement.later - comparison.usual_delay;
+    if (off > tolerance) judgement.verdict = Verdict::late;
+    if (-off > tolerance) judgement.verdict = Verdict::early;
+  }
+}
+
+}  // namespace
+
+Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
+                   Extent extent) {
+  Stand stand(bench, settings.line);
+  Judge judge(settings.from_power_up);
+  Comparison comparison;
+  Fingerprint fingerprint;
+  std::vector<bool> has_time;
+  const SimTime shift =
+      settings.from_power_up ? SimTime{0} : kStarted - std::min(kStarted, capture.exchanges.front().at);
+  for (std::size_t i = 0; i < capture.exchanges.size(); ++i) {
+    const Exchange& exchange = capture.exchanges[i];
+    const bool is_last = i + 1 == capture.exchanges.size();
+    const SimTime at = exchange.at + shift;
+    const SimTime next = is_last ? at + kLongestWait : capture.exchanges[i + 1].at + shift;
+    const StandReply reply =
+        stand.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
+    Judgement judgement{.verdict = judge.judge(exchange, reply, stand.bank_of(exchange.request), is_last)};
+    fingerprint.add(reply.bytes);
+    has_time.push_back(exchange.replied_at.has_value() && reply.at.has_value());
+    if (has_time.back()) judgement.later = (*exchange.replied_at + shift) - *reply.at;
+    const bool is_different = judgement.verdict == Verdict::different;
+    if (is_different && !comparison.first_difference) comparison.first_difference = i;
+    if (extent == Extent::whole) {
+      const world::WorldLine& line = stand.line();
+      const auto told = [&](const Frame& bytes) {
+        return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
+      };
+      judgement.request = line.request_text(exchange.request);
+      if (judgement.verdict != Verdict::same) {
+        judgement.box = told(exchange.reply);
+        judgement.bench = told(reply.bytes);
+      }
+    }
+    comparison.judgements.push_back(std::move(judgement));
+    if (is_different && extent == Extent::to_difference) break;
+  }
+  comparison.fingerprint = fingerprint.value();
+  if (extent == Extent::whole) judge_times(comparison, has_time, settings.tolerance);
+  return comparison;
+}
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,47 @@
+// Plays a capture to a bench and judges each reply.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/judge.h"
+#include "emulator/box/compare/stand.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::box {
+
+struct CompareSettings {
+  std::size_t line = 0;  // of the bench
+  SimTime tolerance{0};
+  bool from_power_up = false;  // the capture's time 0 is the controller's power-up
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::same;
+  SimTime later{0};       // how much later than the bench's the reply was
+  std::string request{};  // in words; only if `tells`
+  std::string box{};
+  std::string bench{};
+};
+
+struct Comparison {
+  std::vector<Judgement> judgements;  // one for each exchange, up to the end
+  std::optional<std::size_t> first_difference{};
+  SimTime usual_delay{0};         // of a reply, compared to the bench's
+  std::uint64_t fingerprint = 0;  // of all that the bench has replied
+};
+
+enum class Extent : std::uint8_t {
+  to_difference,  // ends at the first one; frames are not told in words
+  whole,
+};
+/// Throws what World throws for settings that a model refuses.
+Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
+                   Extent extent);
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,167 @@
+#include "emulator/box/compare/judge.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/text/parse_real.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/stand.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/device/register_map/wire_words.h"
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::box {
+
+namespace {
+
+constexpr std::uint8_t kException = 0x80;
+
+/// Returns the words, or bits, of a good reply to a read; nothing for any other.
+std::vector<std::uint16_t> words_in(const Addressed& asked, std::span<const std::uint8_t> request,
+                                    std::span<const std::uint8_t> reply) {
+  const auto count = static_cast<std::size_t>(asked.count);
+  const bool has_bits = is_table_of_bits(asked.table);
+  const std::size_t size = has_bits ? (count + 7) / 8 : 2 * count;
+  const bool is_good = reply.size() == size + 5 && reply[0] == request[0] && reply[1] == request[1] &&
+                       reply[2] == size && pty::rtu_crc_ok(reply);
+  std::vector<std::uint16_t> words;
+  for (std::size_t i = 0; is_good && i < count; ++i) {
+    words.push_back(static_cast<std::uint16_t>(has_bits ? reply[3 + i / 8] >> i % 8 & 1
+                                                        : reply[3 + 2 * i] << 8 | reply[4 + 2 * i]));
+  }
+  return words;
+}
+
+/// The worst of several verdicts about one reply.
+Verdict worse(Verdict a, Verdict b) {
+  constexpr std::array kOrder{Verdict::same, Verdict::within, Verdict::undecidable, Verdict::different};
+  const auto place = [&](Verdict verdict) { return std::ranges::find(kOrder, verdict) - kOrder.begin(); };
+  return place(a) < place(b) ? b : a;
+}
+
+bool is_between(double value, double a, double b, double c) {
+  return std::min({a, b, c}) <= value && value <= std::max({a, b, c});
+}
+
+std::string text_in(std::span<const std::uint8_t> bytes) {
+  std::string text(bytes.begin(), bytes.end());
+  const std::size_t end = text.find_last_not_of("\r\n ");
+  return text.substr(0, end == std::string::npos ? 0 : end + 1);
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  for (const auto& [known, name] : kVerdictNames)
+    if (known == verdict) return name;
+  return "";
+}
+
+template <typename Key>
+Verdict Judge::judge_unseen(std::map<Key, Seen>& seen, const Key& key, double box, double bench,
+                            bool counts) {
+  if (knows_beginning_) return Verdict::different;
+  const auto [found, is_new] = seen.try_emplace(key, Seen{.bench = bench, .box = box});
+  if (is_new) return Verdict::undecidable;
+  const Seen& before = found->second;
+  if (before.bench == before.box) return Verdict::different;
+  const bool stays = before.bench == bench && before.box == box;
+  return stays || (counts && before.box - before.bench == box - bench) ? Verdict::same : Verdict::different;
+}
+
+Verdict Judge::judge_cell(const Cell& cell) {
+  const auto number = [](Value value) { return static_cast<double>(value); };
+  if (cell.box == cell.bench) {
+    registers_.try_emplace(cell.key, Seen{.bench = number(cell.bench), .box = number(cell.box)});
+    return Verdict::same;
+  }
+  const auto differing = static_cast<std::uint64_t>(cell.box ^ cell.bench);
+  const auto changing = static_cast<std::uint64_t>((cell.before ^ cell.bench) | (cell.after ^ cell.bench));
+  const bool is_number = cell.is_moving || is_32_bit(cell.type);
+  if (is_number ? is_between(number(cell.box), number(cell.before), number(cell.bench), number(cell.after))
+                : (differing & ~changing) == 0)
+    return Verdict::within;
+  return judge_unseen(registers_, cell.key, number(cell.box), number(cell.bench), is_number);
+}
+
+Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
+                           const RegisterBank& bank) {
+  const auto box = words_in(asked, exchange.request, exchange.reply);
+  const auto bench = words_in(asked, exchange.request, stand.bytes);
+  if (box.empty() || bench.empty()) return Verdict::different;  // one of them refuses
+  const auto& before = stand.before.size() == box.size() ? stand.before : bench;
+  const auto& after = stand.after.size() == box.size() ? stand.after : bench;
+  Verdict verdict = Verdict::same;
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    const auto address = static_cast<std::uint16_t>(asked.first + i);
+    const Place place = bank.at(asked.table, address);
+    const std::size_t at = i;
+    const bool is_pair =
+        place && place.part != Place::Part::whole && i + 1 < box.size() &&
+        bank.at(asked.table, static_cast<std::uint16_t>(address + 1)).is_same_register(place);
+    const Type type = !place                                   ? Type::u16
+                      : is_pair || !is_32_bit(place.row->type) ? place.row->type
+                                                               : Type::u16;
+    const auto value = [&](const std::vector<std::uint16_t>& words) {
+      if (!is_pair) return value_of(words[at], type);
+      return value_of(bits_of_wire(*place.row, words[at], words[at + 1], bank.low_word_first()), type);
+    };
+    verdict = worse(verdict, judge_cell({.key = static_cast<std::uint32_t>(asked.table) << 16 | address,
+                                         .type = type,
+                                         .is_moving = place && place.row->moves(),
+                                         .box = value(box),
+                                         .bench = value(bench),
+                                         .before = value(before),
+                                         .after = value(after)}));
+    if (is_pair) ++i;
+  }
+  return verdict;
+}
+
+void Judge::note_write(const Addressed& asked) {
+  for (int i = 0; i < asked.count; ++i)
+    registers_[static_cast<std::uint32_t>(asked.table) << 16 | static_cast<std::uint32_t>(asked.first + i)] =
+        {};
+}
+
+Verdict Judge::judge_number(const std::string& query, double box, double bench, const StandReply& stand) {
+  if (stand.number_before && stand.number_after &&
+      is_between(box, *stand.number_before, bench, *stand.number_after))
+    return Verdict::within;
+  return judge_unseen(queries_, query, box, bench, true);
+}
+
+Verdict Judge::judge(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+                     bool is_last) {
+  if (exchange.reply.empty() && is_last) return stand.bytes.empty() ? Verdict::same : Verdict::undecidable;
+  const auto asked = addressed_by(exchange.request);
+  if (asked && !asked->is_write && bank != nullptr && !exchange.reply.empty() && !stand.bytes.empty() &&
+      exchange.reply[1] < kException)
+    return judge_words(*asked, exchange, stand, *bank);
+  const bool is_same = std::ranges::equal(exchange.reply, stand.bytes);
+  if (asked) {
+    if (asked->is_write && is_same) note_write(*asked);
+    return is_same ? Verdict::same : Verdict::different;
+  }
+  const std::string query = text_in(exchange.request);
+  const auto box = parse_real(text_in(exchange.reply));
+  const auto own = parse_real(text_in(stand.bytes));
+  if (is_same || !query.starts_with('?') || !box || !own) {
+    if (is_same && query.starts_with('?') && own)
+      queries_.try_emplace(query, Seen{.bench = *own, .box = *own});
+    return is_same ? Verdict::same : Verdict::different;
+  }
+  return judge_number(query, *box, *own, stand);
+}
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,80 @@
+// Judges replies of a real controller by those of a bench.
+//
+// What a controller holds when a capture begins is not known, unless it begins at the power-up. A register
+// that shows another value than the bench's when it is read for the first time is therefore not different
+// but undecidable, and its value is learned: as long as the bench's stays, so must the controller's, and a
+// counter may keep its distance. A write of the host ends that.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/stand.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+
+namespace understudy::emulator::box {
+
+enum class Verdict : std::uint8_t {
+  same,
+  within,  // a value that the bench has within the tolerance
+  early,   // the same reply, at another time than usual
+  late,
+  different,
+  undecidable,  // it depends on what the capture does not tell
+};
+inline constexpr std::array kVerdictNames = {
+    std::pair{Verdict::same, std::string_view("same")},
+    std::pair{Verdict::within, std::string_view("same_within_time")},
+    std::pair{Verdict::early, std::string_view("early")},
+    std::pair{Verdict::late, std::string_view("late")},
+    std::pair{Verdict::different, std::string_view("different")},
+    std::pair{Verdict::undecidable, std::string_view("undecidable")}};
+std::string_view name_of(Verdict verdict);
+
+class Judge {
+ public:
+  explicit Judge(bool knows_beginning) : knows_beginning_(knows_beginning) {}
+
+  /// `bank` has the registers of the station that the request is for, or is null. `is_last`: the capture may
+  /// end before the reply.
+  Verdict judge(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank, bool is_last);
+
+ private:
+  struct Cell {
+    std::uint32_t key = 0;
+    Type type = Type::u16;
+    bool is_moving = false;
+    Value box = 0;
+    Value bench = 0;
+    Value before = 0;
+    Value after = 0;
+  };
+  struct Seen {
+    double bench = 0;
+    double box = 0;
+  };
+  Verdict judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
+                      const RegisterBank& bank);
+  Verdict judge_cell(const Cell& cell);
+  Verdict judge_number(const std::string& query, double box, double bench, const StandReply& stand);
+  template <typename Key>
+  Verdict judge_unseen(std::map<Key, Seen>& seen, const Key& key, double box, double bench, bool counts);
+  void note_write(const Addressed& asked);
+
+  bool knows_beginning_;
+  std::map<std::uint32_t, Seen> registers_;
+  std::map<std::string, Seen> queries_;
+};
+
+}  // namespace understudy::emulator::box

@@ -1,0 +1,66 @@
+// A bench that is asked what a host asked a real controller, at the same times.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::box {
+
+using Frame = std::vector<std::uint8_t>;
+
+/// The registers that a request reads or writes.
+struct Addressed {
+  Table table = Table::holding;
+  std::uint16_t first = 0;
+  int count = 0;
+  bool is_write = false;
+};
+/// Returns nothing for frames of other functions, and for lines of text.
+std::optional<Addressed> addressed_by(std::span<const std::uint8_t> request);
+
+struct StandReply {
+  Frame bytes;                  // empty: there was no reply
+  std::optional<SimTime> at{};  // when the first character began
+  /// For a read of registers: what they held a tolerance before and after.
+  std::vector<std::uint16_t> before{};
+  std::vector<std::uint16_t> after{};
+  /// The same for a query of a text controller that asks for a number.
+  std::optional<double> number_before{};
+  std::optional<double> number_after{};
+};
+
+class Stand {
+ public:
+  /// `line` is the number of the line.
+  Stand(const world::Bench& bench, std::size_t line);
+  ~Stand();
+  Stand(const Stand&) = delete;
+  Stand& operator=(const Stand&) = delete;
+
+  /// Sends the request at `at`, and lets time pass until `until`, or until it is answered and the line quiet.
+  StandReply ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance);
+
+  const world::WorldLine& line() const { return world_.line(line_); }
+  /// Returns the registers of the station that the request is for, or null.
+  const RegisterBank* bank_of(std::span<const std::uint8_t> request) const;
+
+ private:
+  class Ear;
+  std::vector<std::uint16_t> look(std::span<const std::uint8_t> request) const;
+  std::optional<double> look_for_number(std::span<const std::uint8_t> request) const;
+
+  world::World world_;
+  std::size_t line_;
+  std::unique_ptr<Ear> ear_;
+};
+
+}  // namespace understudy::emulator::box

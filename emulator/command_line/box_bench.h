@@ -1,0 +1,29 @@
+// What `compare` and `calibrate` work with: captures, and a bench that stands for the controller.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/comparison.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::command_line {
+
+struct BoxBench {
+  world::Bench bench;
+  std::vector<box::Capture> captures;
+  box::CompareSettings settings;
+};
+
+/// Reads everything that the arguments name. `command` is for messages. Throws UsageError and FileError.
+BoxBench read_box_bench(ModelList models, const std::string& command, const CompareArguments& arguments);
+
+/// Returns "feeder" and the id of a choice: "feeder.exceptions".
+std::string choice_text(const world::Bench& bench, std::size_t device, const std::string& id);
+
+}  // namespace understudy::emulator::command_line

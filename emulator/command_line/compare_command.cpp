@@ -1,0 +1,164 @@
+// Implements `compare`: plays captures to a bench, and judges each reply.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/box/calibrate/calibration.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/comparison.h"
+#include "emulator/box/compare/judge.h"
+#include "emulator/command_line/box_bench.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/device/model.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+using box::Verdict;
+using Report = nlohmann::ordered_json;
+
+using VerdictCounts = std::array<std::size_t, box::kVerdictNames.size()>;
+
+VerdictCounts verdict_counts(const box::Comparison& comparison) {
+  VerdictCounts counts{};
+  for (const box::Judgement& judgement : comparison.judgements)
+    ++counts[static_cast<std::size_t>(judgement.verdict)];
+  return counts;
+}
+
+std::string delay_text(SimTime time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f ms", std::chrono::duration<double, std::milli>(time).count());
+  return text;
+}
+
+/// "118 same, 1 different"
+std::string verdicts_text(const VerdictCounts& counts) {
+  std::string text;
+  for (const auto& [verdict, name] : box::kVerdictNames) {
+    const std::size_t count = counts[static_cast<std::size_t>(verdict)];
+    if (count == 0) continue;
+    std::string words(name);
+    std::ranges::replace(words, '_', ' ');
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + words;
+  }
+  return text;
+}
+
+/// A request in words, without the values that it writes: the same for all requests that are alike.
+std::string request_kind(const std::string& request) { return request.substr(0, request.find(" = ")); }
+
+struct Compared {
+  box::Comparison comparison;
+  std::vector<std::string> remedies{};  // "feeder.exceptions: no_answer"
+};
+
+Compared compare_one(const BoxBench& box, const box::Capture& capture) {
+  Compared compared{.comparison = box::compare(box.bench, capture, box.settings, box::Extent::whole)};
+  if (!compared.comparison.first_difference) return compared;
+  const auto remedies =
+      box::remedies(box.bench, capture, *compared.comparison.first_difference, {.compare = box.settings});
+  for (const box::Hypothesis& remedy : remedies) {
+    const auto& [key, option] = *remedy.begin();
+    compared.remedies.push_back(choice_text(box.bench, key.device, box::choice_id(box.bench, key)) + ": " +
+                                box::option_name(box.bench, key, option));
+  }
+  return compared;
+}
+
+void print_difference(const box::Capture& capture, const Compared& compared) {
+  const std::size_t number = *compared.comparison.first_difference;
+  const box::Exchange& exchange = capture.exchanges[number];
+  const box::Judgement& judgement = compared.comparison.judgements[number];
+  std::printf("  first difference: %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
+              format_duration(exchange.at).c_str());
+  std::size_t agreed = number;
+  while (agreed > 0 && compared.comparison.judgements[agreed - 1].verdict == Verdict::undecidable) --agreed;
+  if (agreed > 0)
+    std::printf("    last agreement: %s\n",
+                one_line(compared.comparison.judgements[agreed - 1].request).c_str());
+  std::printf("    request:        %s\n", one_line(judgement.request).c_str());
+  std::printf("    controller:     %s\n", one_line(judgement.box).c_str());
+  std::printf("    bench:          %s\n", one_line(judgement.bench).c_str());
+  for (const std::string& remedy : compared.remedies) std::printf("    it agrees with  %s\n", remedy.c_str());
+  if (compared.remedies.empty()) std::printf("    it agrees with no other option of a single choice\n");
+}
+
+void print_comparison(const box::Capture& capture, const Compared& compared) {
+  const box::Comparison& comparison = compared.comparison;
+  std::printf("%s: %zu exchanges: %s\n", capture.path.c_str(), capture.exchanges.size(),
+              verdicts_text(verdict_counts(comparison)).c_str());
+  if (comparison.usual_delay.count() != 0)
+    std::printf("  replies come %s after the bench's, as a rule\n",
+                delay_text(comparison.usual_delay).c_str());
+  if (!comparison.first_difference) return;
+  print_difference(capture, compared);
+  std::map<std::string, std::pair<std::size_t, std::size_t>> by_kind;  // different, all
+  for (const box::Judgement& judgement : comparison.judgements) {
+    auto& [different, all] = by_kind[request_kind(judgement.request)];
+    ++all;
+    if (judgement.verdict == Verdict::different) ++different;
+  }
+  for (const auto& [kind, count] : by_kind)
+    if (count.first > 0)
+      std::printf("  %zu of %zu differ: %s\n", count.first, count.second, one_line(kind).c_str());
+}
+
+Report report_of(const box::Capture& capture, const Compared& compared) {
+  const box::Comparison& comparison = compared.comparison;
+  Report report{{"capture", capture.path}, {"line", capture.line}, {"exchanges", capture.exchanges.size()}};
+  const VerdictCounts counts = verdict_counts(comparison);
+  for (const auto& [verdict, name] : box::kVerdictNames)
+    report[std::string(name)] = counts[static_cast<std::size_t>(verdict)];
+  report["usual_delay_ns"] = comparison.usual_delay.count();
+  report["first_difference"] = nullptr;
+  if (comparison.first_difference) {
+    report["first_difference"] = capture.exchanges[*comparison.first_difference].place;
+    report["agrees_with"] = compared.remedies;
+  }
+  report["not_same"] = Report::array();
+  for (std::size_t i = 0; i < comparison.judgements.size(); ++i) {
+    const box::Judgement& judgement = comparison.judgements[i];
+    if (judgement.verdict == Verdict::same) continue;
+    report["not_same"].push_back({{"place", capture.exchanges[i].place},
+                                  {"at_ns", capture.exchanges[i].at.count()},
+                                  {"verdict", box::name_of(judgement.verdict)},
+                                  {"request", one_line(judgement.request)},
+                                  {"controller", one_line(judgement.box)},
+                                  {"bench", one_line(judgement.bench)},
+                                  {"later_ns", judgement.later.count()}});
+  }
+  return report;
+}
+
+}  // namespace
+
+int compare_captures(ModelList models, const CompareArguments& arguments) {
+  const BoxBench box = read_box_bench(models, "compare", arguments);
+  bool is_different = false;
+  Report all = Report::array();
+  for (const box::Capture& capture : box.captures) {
+    const Compared compared = compare_one(box, capture);
+    is_different = is_different || compared.comparison.first_difference.has_value();
+    if (arguments.json) {
+      all.push_back(report_of(capture, compared));
+    } else {
+      print_comparison(capture, compared);
+    }
+  }
+  if (arguments.json) std::printf("%s\n", all.dump(1).c_str());
+  return is_different ? kExitFailed : kExitWell;
+}
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,144 @@
+// Fake boxes: a Simple2-R3 with hidden options is asked, and calibrate() must find them from the capture.
+#include "emulator/box/calibrate/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "emulator/box/compare/comparison.h"
+#include "tests/emulator/box/fake_box.h"
+
+namespace understudy::emulator::box {
+namespace calibration_test {
+
+/// Choices that the requests below exercise, with another option than the default.
+const std::vector<std::pair<std::string, std::string>> kHidden = {
+    {"version_encoding", "bcd"},
+    {"unmapped_addresses", "zero_and_ignored"},
+    {"write_to_read_only", "ignored"},
+    {"write_out_of_range", "clamped"},
+    {"read_of_write_only", "exception_02"},
+    {"trigger_read_back", "zero"},
+    {"password_read_back", "zero"},
+    {"first_password", "65535"},
+};
+
+/// What a host may have sent: reads of many registers, refused requests, a move.
+Requests requests() {
+  const auto read = [](int address, int count) {
+    return frame({1, 3, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address), 0,
+                  static_cast<std::uint8_t>(count)});
+  };
+  const auto write = [](int address, int value) {
+    return frame({1, 6, static_cast<std::uint8_t>(address >> 8), static_cast<std::uint8_t>(address),
+                  static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)});
+  };
+  return {read(0x0001, 2),  read(0x0000, 1),    read(0x0003, 1),  // nothing is at 3
+          write(0x0001, 5), read(0x0001, 1),    write(0x1003, 3001),
+          read(0x1003, 1),  write(0x1003, 250), read(0x1003, 1),
+          read(0x100C, 1),  read(0xFF07, 1),    read(0xFF09, 1),
+          write(0x1014, 1), write(0x1002, 60),  frame({1, 16, 0x10, 0, 0, 2, 4, 0x0C, 0x80, 0, 0}),
+          write(0x1005, 1), read(0x1005, 1),    read(0x0000, 1),
+          read(0x0E00, 2)};
+}
+
+std::string describe(const world::Bench& bench, const Hypothesis& hypothesis) {
+  std::string text;
+  for (const auto& [key, option] : hypothesis)
+    text += choice_id(bench, key) + ": " + option_name(bench, key, option) + " ";
+  return text;
+}
+
+TEST(Calibration, FindsOneToEightHiddenOptionsAndNoneWrong) {
+  const world::Bench plain = bench_of("simple2-r3");
+  const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
+  std::mt19937 random(40);
+  std::size_t hidden = 0;
+  std::size_t found = 0;
+  for (std::size_t count = 1; count <= kHidden.size(); ++count) {
+    auto shuffled = kHidden;
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    const Options options(shuffled.begin(), shuffled.begin() + static_cast<std::ptrdiff_t>(count));
+    const Capture capture = FakeBox::captured(bench_of("simple2-r3", options), requests());
+    const Calibration calibration = calibrate(plain, {capture}, settings, {});
+    ASSERT_TRUE(calibration.explains)
+        << count << " hidden; the furthest is " << describe(plain, calibration.explanations.front());
+    for (const RowFinding& finding : calibration.findings) {
+      const std::string id = choice_id(plain, finding.key);
+      const auto truth = options.find(id);
+      const std::string own = option_name(plain, finding.key, finding.before);
+      const std::string expected = truth != options.end() ? truth->second : own;
+      std::set<std::string> remaining;
+      for (const std::uint8_t option : finding.remaining)
+        remaining.insert(option_name(plain, finding.key, option));
+      EXPECT_TRUE(remaining.contains(expected)) << id << " of " << count << " hidden";
+      if (truth == options.end()) continue;
+      // An option that no reply shows stays undecided, which is honest.
+      if (finding.state == RowFinding::State::not_exercised) continue;
+      ++hidden;
+      if (finding.state == RowFinding::State::measured) ++found;
+    }
+  }
+  EXPECT_GE(found * 100, hidden * 95) << found << " of " << hidden;
+  EXPECT_GE(found, 20U);
+}
+
+TEST(Calibration, LeavesAnEqualBenchAsItIs) {
+  const world::Bench plain = bench_of("simple2-r3");
+  const Capture capture = FakeBox::captured(plain, requests());
+  const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
+  const Calibration calibration = calibrate(plain, {capture}, settings, {});
+  EXPECT_TRUE(calibration.explains);
+  EXPECT_EQ(describe(plain, calibration.explanations.front()), "");
+  for (const RowFinding& finding : calibration.findings)
+    EXPECT_TRUE(finding.remaining.contains(finding.before)) << choice_id(plain, finding.key);
+}
+
+TEST(Calibration, SaysThatNothingExplainsAnotherDevice) {
+  Capture capture = FakeBox::captured(bench_of("simple2-r3"), requests());
+  capture.exchanges[4].reply = frame({1, 3, 2, 0x12, 0x34});  // another hardware code
+  const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
+  capture.exchanges.resize(6);
+  const Calibration calibration = calibrate(bench_of("simple2-r3"), {capture}, settings, {});
+  EXPECT_FALSE(calibration.explains);
+  EXPECT_EQ(calibration.exchange, 4U);
+}
+
+TEST(Calibration, NamesTheOptionThatRemediesADifference) {
+  const world::Bench plain = bench_of("simple2-r3");
+  const Capture capture =
+      FakeBox::captured(bench_of("simple2-r3", {{"version_encoding", "bcd"}}), requests());
+  const CompareSettings settings{.from_power_up = true};
+  const Comparison comparison = compare(plain, capture, settings, Extent::whole);
+  ASSERT_EQ(comparison.first_difference, 0U);
+  EXPECT_EQ(comparison.judgements[0].box, "box.HW_Code = 49153, Version = 338");
+  EXPECT_EQ(comparison.judgements[0].bench, "box.HW_Code = 49153, Version = 152");
+  const auto good = remedies(plain, capture, 0, {.compare = settings, .threads = 1});
+  ASSERT_EQ(good.size(), 1U);
+  EXPECT_EQ(describe(plain, good.front()), "version_encoding: bcd ");
+}
+
+TEST(Comparison, LearnsWhatABoxHeldBeforeTheCapture) {
+  const auto read = frame({1, 3, 0x10, 3, 0, 1});
+  const auto write = frame({1, 6, 0x10, 3, 0, 100});
+  Capture capture = FakeBox::captured(bench_of("simple2-r3", {}, "Aaxis_AccTime: 250"),
+                                      {read, read, write, read}, std::chrono::seconds(5));
+  const world::Bench plain = bench_of("simple2-r3");
+  const auto verdicts = [&](bool from_power_up) {
+    std::vector<Verdict> all;
+    for (const Judgement& one :
+         compare(plain, capture, {.from_power_up = from_power_up}, Extent::whole).judgements)
+      all.push_back(one.verdict);
+    return all;
+  };
+  using enum Verdict;
+  EXPECT_EQ(verdicts(false), (std::vector{undecidable, same, same, same}));
+  EXPECT_EQ(verdicts(true), (std::vector{different, different, same, same}));
+  capture.exchanges[1].reply = frame({1, 3, 2, 0, 251});  // it cannot change by itself
+  EXPECT_EQ(verdicts(false)[1], different);
+  capture.exchanges[3].reply = frame({1, 3, 2, 0, 101});  // the host wrote 100
+  EXPECT_EQ(verdicts(false)[3], different);
+}
+
+}  // namespace calibration_test
+}  // namespace understudy::emulator::box
