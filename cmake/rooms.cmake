@@ -49,7 +49,7 @@ endfunction()
 
 function(compile_cold target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
-  if(UNDERSTUDY_SANITIZERS)
+  if(UNDERSTUDY_SANITIZERS AND NOT UNDERSTUDY_FUZZERS)
     target_compile_options(${target} PRIVATE -O0)  # takes clang a third to a half of the time of -O1
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

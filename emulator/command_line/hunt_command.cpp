@@ -142,8 +142,10 @@ void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
   hunt.play_corpus([&](const play::Scenario& scenario) {
     return std::vector{coverage.programs.observer(scenario), coverage.devices.observer()};
   });
-  coverage.programs.write(stdout);
-  print_files(coverage.programs.report());
+  if (!coverage.programs.report().files.empty() || coverage.programs.is_wanted()) {
+    coverage.programs.write(stdout);
+    print_files(coverage.programs.report());
+  }
   coverage.devices.write(stdout);
 }
 

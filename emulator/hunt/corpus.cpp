@@ -61,9 +61,11 @@ std::optional<play::Disturbance> parse_disturbance(const Json& object) {
 bool Corpus::add(const Course& course, const Reached& reached) {
   std::vector<SimTime> moments;
   bool is_new = false;
+  Sort sort = Sort::order;
   for (const auto& [feature, when] : reached.when) {
     if (!reached_.insert(feature).second) continue;
     is_new = true;
+    sort = std::min(sort, sort_of(feature));
     ++counts_[static_cast<std::size_t>(sort_of(feature))];
     moments.push_back(when);
   }
@@ -76,12 +78,15 @@ bool Corpus::add(const Course& course, const Reached& reached) {
     for (std::size_t i = 0; i < kMaxMoments; ++i) few.push_back(moments[i * moments.size() / kMaxMoments]);
     moments = std::move(few);
   }
-  coming_.push_back({.course = course, .moments = std::move(moments)});
+  coming_.push_back({.course = course, .moments = std::move(moments), .sort = sort});
   return true;
 }
 
 void Corpus::renew() {
-  for (Seed& seed : coming_) seeds_.push_back(std::move(seed));
+  for (Seed& seed : coming_) {
+    by_sort_[static_cast<std::size_t>(seed.sort)].push_back(seeds_.size());
+    seeds_.push_back(std::move(seed));
+  }
   coming_.clear();
 }
 

@@ -21,6 +21,7 @@ namespace understudy::emulator::hunt {
 struct Seed {
   Course course;
   std::vector<SimTime> moments;  // at which it did, a few of them
+  Sort sort = Sort::order;       // the first sort of what was new
 };
 
 /// How much was reached, by sort.
@@ -35,11 +36,16 @@ class Corpus {
   void renew();
 
   const std::vector<Seed>& seeds() const { return seeds_; }
+  /// Returns the numbers of the seeds of a sort. New orders are so common that they would hide the rest.
+  const std::vector<std::size_t>& seeds_of(Sort sort) const {
+    return by_sort_[static_cast<std::size_t>(sort)];
+  }
   const Counts& counts() const { return counts_; }
 
  private:
   std::unordered_set<Feature> reached_;
   std::vector<Seed> seeds_;
+  std::array<std::vector<std::size_t>, kSorts.size()> by_sort_;
   std::vector<Seed> coming_;
   Counts counts_{};
 };

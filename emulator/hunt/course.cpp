@@ -98,6 +98,15 @@ void gather(std::vector<Disturbance>& all, const HuntPlan& plan, Dice& dice) {
   }
 }
 
+/// Moves times that were changed too far to the nearest possible ones.
+void keep_in_windows(std::vector<Disturbance>& all, const Ground& ground) {
+  for (Disturbance& one : all) {
+    if (one.when != When::at) continue;
+    const Window window = window_of(ground.plan.entries()[one.entry], ground.undisturbed);
+    one.moment = std::clamp(one.moment, window.low.count(), window.high.count());
+  }
+}
+
 std::size_t count_of(const std::vector<Disturbance>& all, std::size_t entry) {
   return static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [&](const Disturbance& one) { return one.entry == entry; }));
@@ -176,6 +185,7 @@ std::vector<Disturbance> draw_disturbances(const Ground& ground, Dice& dice) {
       allowed.erase(allowed.begin() + static_cast<std::ptrdiff_t>(place));
   }
   gather(drawn, ground.plan, dice);
+  keep_in_windows(drawn, ground);
   arrange(drawn);
   return drawn;
 }
@@ -202,11 +212,13 @@ std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const D
     }
   }
   gather(all, ground.plan, dice);
+  keep_in_windows(all, ground);
   arrange(all);
   return all;
 }
 
-bool is_possible(const Disturbance& one, const HuntPlan& plan) {
+bool is_possible(const Disturbance& one, const Ground& ground) {
+  const HuntPlan& plan = ground.plan;
   if (one.entry >= plan.entries().size()) return false;
   const HuntPlan::Entry& entry = plan.entries()[one.entry];
   const bool has_way = std::find(entry.ways.begin(), entry.ways.end(), one.when) != entry.ways.end();
@@ -216,6 +228,9 @@ bool is_possible(const Disturbance& one, const HuntPlan& plan) {
                               : one.step == entry.first && one.moment >= 0 && one.moment <= kHorizon.count();
   if (!has_way || !is_in_time || one.values.size() != entry.values.size()) return false;
   if (one.when == When::nth && one.moment == 0) return false;
+  const Window window = window_of(entry, ground.undisturbed);
+  const SimTime moment(one.moment);
+  if (one.when == When::at && (moment < window.low || moment > window.high)) return false;
   for (std::size_t i = 0; i < one.values.size(); ++i) {
     if (one.values[i] >= entry.values[i].places()) return false;
   }

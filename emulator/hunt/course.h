@@ -66,8 +66,8 @@ std::vector<play::Disturbance> draw_disturbances(const Ground& ground, Dice& dic
 std::vector<play::Disturbance> changed(std::vector<play::Disturbance> disturbances,
                                        std::span<const play::Disturbance> others, const Ground& ground,
                                        Dice& dice);
-/// Returns true if the plan can have this disturbance.
-bool is_possible(const play::Disturbance& disturbance, const play::HuntPlan& plan);
+/// Returns true if a course can have this disturbance.
+bool is_possible(const play::Disturbance& disturbance, const Ground& ground);
 /// Puts disturbances into the order of their steps.
 void arrange(std::vector<play::Disturbance>& disturbances);
 

@@ -60,6 +60,19 @@ std::shared_ptr<Stage> Hunt::stage_of(Actor& actor, std::uint64_t case_number) c
   return actor.stages.emplace(case_number, std::move(stage)).first->second;
 }
 
+/// Draws a seed: each sort of new things as often as another, and of these younger ones more often, since
+/// they are closer to what is still unknown.
+std::size_t Hunt::draw_seed(Dice& dice) const {
+  std::vector<const std::vector<std::size_t>*> sorts;
+  for (std::size_t i = 0; i < kSorts.size(); ++i) {
+    const auto& numbers = corpus_.seeds_of(static_cast<Sort>(i));
+    if (!numbers.empty()) sorts.push_back(&numbers);
+  }
+  const std::vector<std::size_t>& numbers = *sorts[dice.below(sorts.size())];
+  const std::uint64_t first = dice.below(numbers.size());
+  return numbers[std::max(first, dice.below(numbers.size()))];
+}
+
 /// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
 Course Hunt::draw(Actor& actor, std::uint64_t number) const {
   Dice dice(options_.seed, number);
@@ -72,8 +85,7 @@ Course Hunt::draw(Actor& actor, std::uint64_t number) const {
     course.disturbances = draw_disturbances({.plan = stage.plan(), .undisturbed = stage.undisturbed()}, dice);
     return course;
   }
-  // Younger seeds are closer to what is still unknown.
-  const Seed& seed = seeds[std::max(dice.below(seeds.size()), dice.below(seeds.size()))];
+  const Seed& seed = seeds[draw_seed(dice)];
   const Seed& other = seeds[dice.below(seeds.size())];
   course.case_number = seed.course.case_number;
   Stage& stage = *stage_of(actor, course.case_number);
@@ -170,9 +182,12 @@ void Hunt::play_earlier() {
   for (Course& course : options_.corpus) {
     if (options_.is_over()) break;
     if (course.case_number >= cases_.cases_of(0)) continue;
-    const play::HuntPlan& plan = stage_of(*actor, course.case_number)->plan();
-    const bool fits = std::all_of(course.disturbances.begin(), course.disturbances.end(),
-                                  [&](const play::Disturbance& one) { return is_possible(one, plan); });
+    Stage& stage = *stage_of(*actor, course.case_number);
+    if (!stage.undisturbed_outcome().kind.empty()) continue;
+    const bool fits =
+        std::all_of(course.disturbances.begin(), course.disturbances.end(), [&](const auto& one) {
+          return is_possible(one, {.plan = stage.plan(), .undisturbed = stage.undisturbed()});
+        });
     if (!fits) continue;
     arrange(course.disturbances);
     const Played played = play(*actor, course);

@@ -96,6 +96,7 @@ class Hunt {
   std::unique_ptr<Actor> take_actor();
   void give_back(std::unique_ptr<Actor> actor);
   std::shared_ptr<Stage> stage_of(Actor& actor, std::uint64_t case_number) const;
+  std::size_t draw_seed(Dice& dice) const;
   Course draw(Actor& actor, std::uint64_t number) const;
   Played play(Actor& actor, Course course) const;
   void play_earlier();

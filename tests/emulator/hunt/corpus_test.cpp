@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -96,6 +98,35 @@ TEST(Hunt, GuidedItGoesOnFromWhatIsNew) {
   EXPECT_EQ(found[0].shrunk.disturbances.size(), 3U);
   EXPECT_TRUE(found[0].is_minimal);
   for (const std::size_t count : tally.reached) EXPECT_GT(count, 0U);
+}
+
+TEST(Course, WhatIsDrawnAndChangedStaysPossible) {
+  const std::string text = kPresses + R"(hunt:
+  may:
+    - inject: { stuck: feeder.DIN_10, level: { one_of: [ on, off ] }, for: { between: [ 1ms, 10ms ] } }
+      times: 4
+      within: 8ms
+      from: the operator presses
+      to: the contact rests
+    - inject: { stuck: feeder.DIN_9, level: on }
+      to: the operator presses
+    - inject: { drop: feeder, of: { one_of: [ reply, request, both ] } }
+    - advance: { between: [ 1ms, 100ms ] }
+      from: the contact rests
+)";
+  auto scenario = std::make_shared<const play::Scenario>(
+      play::parse_scenarios(models::all_models(), text, "scenario.yaml").at(0));
+  Stage stage(scenario, models::all_models(), play::run_scenario);
+  const Ground ground{.plan = stage.plan(), .undisturbed = stage.undisturbed()};
+  for (std::uint64_t number = 0; number < 200; ++number) {
+    Dice dice(1, number);
+    auto course = draw_disturbances(ground, dice);
+    const auto others = draw_disturbances(ground, dice);
+    for (int changes = 0; changes < 20; ++changes) {
+      for (const play::Disturbance& one : course) ASSERT_TRUE(is_possible(one, ground)) << number;
+      course = changed(course, others, ground, dice);
+    }
+  }
 }
 
 TEST(Hunt, ItGoesOnWithACorpus) {
