@@ -109,7 +109,9 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
   for (const Case& c : cases) {
     const std::string told = world_.line(0).reply_text(c.request, c.reply);
     EXPECT_EQ(told.substr(0, c.text.size()), c.text);
-    if (c.text.ends_with(")")) EXPECT_EQ(told, c.text);
+    if (c.text.ends_with(")")) {
+      EXPECT_EQ(told, c.text);
+    }
   }
 }
 
