@@ -24,6 +24,7 @@
 #include "emulator/command_line/completion.h"
 #include "emulator/command_line/ctl_words.h"
 #include "emulator/command_line/import_flags.h"
+#include "emulator/command_line/page_flags.h"
 #include "emulator/command_line/poll_flags.h"
 #include "emulator/command_line/replay_flags.h"
 #include "emulator/command_line/run_flags.h"
@@ -239,24 +240,7 @@ struct CommandLine {
   }
 
   void add_page(CLI::App& command) {
-    command
-        .add_option("--control", page.sockets,
-                    "Control socket of a bench; can be given several times [all running daemons]")
-        ->check(kNotEmpty)
-        ->allow_extra_args(false);
-    command.add_option("--port", page.port, "Port to listen on; 0 takes any free port")
-        ->capture_default_str();
-    command.add_option("--listen", page.listen, "Address to listen on")
-        ->capture_default_str()
-        ->check(kNotEmpty);
-    command
-        .add_option("--host", page.hosts, "Name that browsers may use for this machine, besides localhost")
-        ->check(kNotEmpty)
-        ->allow_extra_args(false);
-    command.add_flag("--read-only", page.read_only, "Let browsers look, but change nothing");
-    command
-        .add_option("--web", page.folder, "Serve the page's files from this folder, while you work on them")
-        ->check(kNotEmpty);
+    add_page_flags(command, page);
     command.callback([this] { chosen = [this] { return show_page(page); }; });
   }
 
