@@ -185,8 +185,8 @@ TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
   // Only cases that are checked beforehand differ; others are discovered when they are read.
   folder_.write(
       "save.yaml",
-      "understudy: 1\nname: save\nbench: feeder.yaml\nvary: { a: { from: 0, to: 999, step: 1 } }\n"
-      "steps:\n  - say: \"${a}\"\n  - save: { feeder: \"after-${a / 999 * 10000 + a % 331}.json\" }\n");
+      "understudy: 1\nname: save\nbench: feeder.yaml\nvary: { a: { from: 0, to: 3999, step: 1 } }\n"
+      "steps:\n  - say: \"${a}\"\n  - save: { feeder: \"after-${a / 3999 * 10000 + a % 1331}.json\" }\n");
   const CaseList& all = case_list({"save.yaml"});
   CaseReader reader(all);
   const auto number_of_first = std::uint64_t{17};
@@ -194,7 +194,7 @@ TEST_F(CaseListOf, TwoCasesNeverSaveOneFile) {
   EXPECT_NO_THROW(reader.read({.file = 0, .number = number_of_first})) << "it can run again";
   CaseReader other(all);
   try {
-    other.read({.file = 0, .number = number_of_first + 331});
+    other.read({.file = 0, .number = number_of_first + 1331});
     ADD_FAILURE() << "expected it to throw";
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("after-17.json is also saved by another case"),
