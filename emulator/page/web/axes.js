@@ -111,7 +111,7 @@ function FirstMove({ device }) {
       if (!(await ask(message)).ok) return;
     }
   };
-  return html` <${Button} kind="small" title=${`a first move without a host: ${device.first_move.map(wordsOf).join('; ')}`} disabled=${isLocked()} does=${move}>try a first move<//>`;
+  return html`<div class="bar"><${Button} kind="small" title=${`a first move without a host: ${device.first_move.map(wordsOf).join('; ')}`} disabled=${isLocked()} does=${move}>try a first move<//></div>`;
 }
 
 export function Axes() {
@@ -130,7 +130,7 @@ export function Axes() {
   }, [store.bench, shown]);
   return html`${choice && html`<div class="bar">${choice}</div>`}
     ${devices.map((device) => html`<section class="device" key=${device.name}>
-    <h2>${device.name}<${FirstMove} device=${device} /></h2>
+    <h2>${device.name}</h2><${FirstMove} device=${device} />
     ${device.axes.length === 0 && html`<p>This device drives no axis.</p>`}
     <div class="with_plane">
       <div class="rails">${device.axes.map((axis) => html`<${Axis} key=${axis.name} device=${device} axis=${axis} />`)}</div>
