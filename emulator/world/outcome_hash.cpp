@@ -89,14 +89,14 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
 /// Adds the two-level outputs in words of 64 bits, the first output in the highest bit, and then the analog
 /// levels and pulse counts.
 void OutcomeHash::add_outputs(const Device& device, const std::vector<Outputs>& outputs) {
-  constexpr int kBits = 64;
+  constexpr int kHashBits = 64;
   std::uint64_t word = 0;
   int taken = 0;
   for (const Outputs& some : outputs) {
     if (!has_two_levels(some.kind)) continue;
     const std::uint32_t levels = device.terminals()->output_word(some.first, some.count);
     for (int i = 0; i < some.count; ++i) {
-      if (taken == kBits) {
+      if (taken == kHashBits) {
         add(word);
         word = 0;
         taken = 0;

@@ -69,6 +69,7 @@ const std::vector<Left> kLeft = {
     {"docs/campaigns.md", "", "CampaignsPage"},
     {"docs/ci.md", "", "CiPage"},
     {"docs/import.md", "", "ImportPage"},
+    {"docs/hunt.md", "", "HuntPage"},
     {"docs/editors.md", "", "EditorsPage"},
     {"docs/node.md", "", "needs npm; python/tests/test_node_page.py"},
     {"docs/windows.md", "", "needs Windows or Wine"},

@@ -180,7 +180,7 @@ class TextPhoto {
     settle_image(work_, std::move(first));
     NvImage second = work_.photo.image;
     for (const auto& [name, why] : std::exchange(work_.photo.left_out, {})) {
-      const auto of_name = [&](const auto& entry) { return entry.first == name; };
+      const auto of_name = [&name = name](const auto& entry) { return entry.first == name; };
       const auto whole = std::ranges::find_if(image_.registers, of_name);
       if (whole != image_.registers.end()) {
         second.reals.emplace_back(name, static_cast<double>(whole->second));
