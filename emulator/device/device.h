@@ -135,9 +135,12 @@ class Device {
   std::string state_difference(StateReader a, StateReader b) const;
 
   // --- levels from outside, by the terminal's number in the model's table, in its unit -----------------
-  /// Sets an input's level. The device reads it in sample_inputs().
+  /// Sets an input's level. The device reads it in sample_inputs(). The level that it has already wakes
+  /// nobody: wires bring theirs in every tick.
   void set_input(int terminal, std::int32_t level) {
-    inputs_[static_cast<std::size_t>(terminal)] = level;
+    std::int32_t& held = inputs_[static_cast<std::size_t>(terminal)];
+    if (held == level) return;
+    held = level;
     inputs_changed_ = true;
   }
   std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
