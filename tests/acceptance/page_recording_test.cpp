@@ -1,6 +1,7 @@
 // A recording opened in the page: any moment of it, and where a scenario failed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -30,11 +31,11 @@ steps:
   - expect: { feeder.Cord_A: 3201 }
 )";
 
-/// The page with the recording of a failed scenario.
-class PageOfAFailure : public testing::Test {
+/// The page with the recording of a scenario that fails.
+class PageOfARecording : public testing::Test {
  protected:
-  void SetUp() override {
-    const std::string scenario = folder_.write("failing.yaml", kFailing);
+  void record(const std::string& text) {
+    const std::string scenario = folder_.write("failing.yaml", text);
     const Finished run = understudy({"run", scenario, "--record", folder_.path()});
     ASSERT_EQ(run.exit_code, 1) << run.errors;
     run_ = run.output;
@@ -79,6 +80,32 @@ class PageOfAFailure : public testing::Test {
   std::string run_;  // what `run` has printed
   std::unique_ptr<Process> process_;
   std::unique_ptr<TestBrowser> browser_;
+};
+
+class PageOfAFailure : public PageOfARecording {
+ protected:
+  void SetUp() override { record(kFailing); }
+};
+
+/// A loop in which some lines begin in the tick after a keyframe. There is a keyframe each second.
+constexpr const char* kLooping = R"(understudy: 1
+name: never done
+bench: { lines: { rs232: { stations: [ { name: robot, model: slim } ] } } }
+steps:
+  - program: { robot: "$L0\nWT 1\n$L1\nCLR P1\n$L2\nN1=2\nCLR P1\nJP $L0\n" }
+  - send: { text: G }
+  - advance: 2300ms
+  - assert: time < 1s
+)";
+
+class PageOfALoop : public PageOfARecording {
+ protected:
+  void SetUp() override { record(kLooping); }
+  std::int64_t step(bool back) {
+    const TestJson reply = ask({{"do", "step"}, {"what", "line"}, {"back", back}});
+    EXPECT_EQ(reply["ok"], true) << reply.dump();
+    return reply["simulated_time_ns"].get<std::int64_t>();
+  }
 };
 
 TEST_F(PageOfAFailure, MarksWhereItFailedAndWhy) {
@@ -229,6 +256,16 @@ TEST_F(PageOfAFailure, IsAlteredOnlyWhereSomebodyAsksForIt) {
   EXPECT_EQ(position(), half);
   EXPECT_EQ(ask({{"do", "power"}, {"device", "feeder"}, {"to", "off"}})["ok"], false);
   EXPECT_EQ(position_at(end), 3200);
+}
+
+/// A step back plays from the keyframe before, so it could miss lines that begin near a keyframe.
+TEST_F(PageOfALoop, StepsBackThroughTheSameLines) {
+  EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 990'000'000}})["ok"], true);
+  std::vector<std::int64_t> forth;
+  while (forth.empty() || forth.back() < 1'010'000'000) forth.push_back(step(false));
+  ASSERT_GT(forth.size(), 5U);
+  EXPECT_TRUE(std::ranges::any_of(forth, [](std::int64_t ns) { return ns == 1'001'000'000; }));
+  for (std::size_t i = forth.size() - 1; i-- > 0;) EXPECT_EQ(step(true), forth[i]);
 }
 
 TEST_F(PageOfAFailure, HasCurvesAndSpans) {

@@ -115,11 +115,14 @@ bool RecordingStops::step_on(const Wanted& wanted, SimTime until) {
 
 void RecordingStops::begin_at(std::size_t keyframe) { go_to_(timeline_.time_of_keyframe(keyframe)); }
 
-/// Plays from a keyframe on. Returns how many stops lead to the last wanted one before that moment.
+/// Plays from a keyframe on. Returns how many stops lead to the last wanted one before that moment. It plays
+/// to the tick after the next keyframe: from there, a line that begins in that tick would seem to run
+/// already.
 std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTime before, const PlayOn& play,
                                                      const IsWanted& is_wanted) {
   const bool is_last = keyframe + 1 == timeline_.keyframes();
-  const SimTime next = is_last ? timeline_.end() : timeline_.time_of_keyframe(keyframe + 1);
+  const SimTime next =
+      is_last ? timeline_.end() : time_of(tick_at(timeline_.time_of_keyframe(keyframe + 1)) + 1);
   begin_at(keyframe);
   std::optional<std::size_t> found;
   try {
