@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxLinks = 40;  // from one to the next, as many as Linux follows
+constexpr int kMaxLinks = 40;  // the limit of Linux
 constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
@@ -101,7 +101,7 @@ std::string output_target(const std::string& path) {
       throw OutputError(
           "it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces all
     if (error) throw OutputError(error.message());
   }
   throw OutputError(error_text(ELOOP));
