@@ -49,8 +49,8 @@ class PseudoTerminal {
   /// What has happened since the last call. Both may be true; host_present() tells which came last.
   struct Presence {
     bool opened = false;  // a host came (the line was free before)
-    bool closed =
-        false;  // the last host closed it: bytes it had not read are dropped, bytes it wrote are not
+    // The last host closed it: bytes that it had not read are dropped, bytes that it wrote are not.
+    bool closed = false;
   };
   Presence poll_presence();
   /// Returns true if the watch has collected something, or read() has noticed something, that

@@ -56,7 +56,7 @@ class Station {
   /// bytes are not delivered (see Line).
   virtual void hear_other_station() = 0;
 
-  /// No more characters have arrived for a while although the clock is stopped: the station abandons an
+  /// The clock is stopped, and no more characters have arrived for a while: the station abandons an
   /// incomplete request.
   virtual void on_idle() {}
 
