@@ -1,4 +1,4 @@
-// Checks of a command's parameters against its row.
+// Checks a command's parameters against its row.
 #pragma once
 
 #include <cstddef>
@@ -50,13 +50,13 @@ struct CommandOptions {
   bool rectangles_end_earlier = false;
   /// True: macros also store into the Initial Table.
   bool macros_store_initial = false;
-  /// True: of two faults, that of the state is answered, not that of the code.
+  /// True: if both the state and the code are wrong, the reply names the state.
   bool state_before_code = false;
 
   bool operator==(const CommandOptions&) const = default;
 };
 
-/// Options that accept everything that any choice accepts, for commands that have been checked before.
+/// Options that accept everything that any choice accepts, for commands that have been checked already.
 inline constexpr CommandOptions kAnyChoice{
     .rectangle_corners_must_fit = false, .uneven_scans_start = true, .macros_store_initial = true};
 
@@ -67,7 +67,8 @@ std::optional<std::size_t> bad_parameter(const Command& command, const CommandOp
 
 /// Returns the first wrong operator of IF, or the first wrong operand or operator of VAR_CALCULATE.
 std::optional<std::size_t> bad_operand(const Command& command);
-/// Like bad_operand(), as Fault::comparison or Fault::operand, which have their own codes in the download.
+/// Like bad_operand(), but returns Fault::comparison or Fault::operand, which have their own codes in a
+/// download.
 Fault operand_fault(const Command& command);
 
 /// Returns what is expected of a parameter: "1 to 7", "an axis mask (X to XYZU)", "VAR0 to VAR511".

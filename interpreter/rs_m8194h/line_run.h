@@ -1,4 +1,4 @@
-// Execution of one line of a macro.
+// Executes one line of a macro.
 #pragma once
 
 #include <cstdint>

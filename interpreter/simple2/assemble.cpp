@@ -71,7 +71,7 @@ class Assembler {
   struct Marks {
     std::vector<Token> names;         // labels that get a flag of their own
     std::optional<Token> mark;        // the first of them
-    std::optional<Token> flag_token;  // the author of the JMP cell, if it is given
+    std::optional<Token> flag_token;  // the mark that sets the JMP cell, if any
     std::optional<std::uint8_t> flag;
     bool promises_flag = false;  // by "JMP7:", which must then lead here
   };

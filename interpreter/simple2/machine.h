@@ -9,7 +9,7 @@ namespace understudy::interpreter::simple2 {
 
 enum class Axis : std::uint8_t { a, b };
 
-/// What a program can read.
+/// The values that a program can read.
 class MachineView {
  public:
   virtual ~MachineView() = default;
@@ -30,7 +30,7 @@ class MachineView {
   virtual bool cut_short(Axis) const { return false; }
 };
 
-/// What a program can do. An action is in effect for the next line at once. Only parameter numbers are
+/// The actions of a program. Each is already in effect for the next line. Only parameter numbers are
 /// unchecked: all other arguments are within the ranges that their comments give.
 class Machine : public MachineView, public Watched {
  public:

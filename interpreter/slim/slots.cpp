@@ -58,7 +58,7 @@ Error check_real(Operand& operand, Range range) {
   return in_range(operand.number, range);
 }
 
-/// A constant, variable or function for a variable of one type.
+/// Checks a constant, variable or function for a variable of one type.
 Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
   switch (operand.kind) {
     case Kind::integer:
@@ -296,7 +296,7 @@ constexpr std::array<Matching::Rule, static_cast<std::size_t>(Slot::text) + 1> M
     {Slot::data, &Matching::take_data},
     {Slot::milliseconds, &Matching::take_one, &Matching::whole, kNoNegatives},
     {Slot::pulse_width, &Matching::take_one, &Matching::whole, {1, 65535}},
-    // In kHz 0.001 Hz, in Hz what ticks are told.
+    // From 0.001 Hz, if the unit is kHz, to 1 MHz, if it is Hz.
     {Slot::frequency, &Matching::take_one, &Matching::real, {1e-6, 1e6}},
     {Slot::percent, &Matching::take_one, &Matching::real, {0, 100}},
     {Slot::thrust_level, &Matching::take_one, &Matching::whole, {1, 20000}},

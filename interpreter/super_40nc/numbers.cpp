@@ -41,7 +41,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   if (options.remainder_needs_room && !next_to(line.fields[2]).is_set()) return {false, Code::out_of_range};
   Calculated result;
   if (divisor == 0) result.code = Code::division_by_zero;
-  std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
+  std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // rounded towards 0
   std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
   const bool is_above = remainder != 0 && (remainder < 0) != (divisor < 0);
   if (is_above && options.quotient == Options::Quotient::downwards) {

@@ -11,7 +11,7 @@ inline Then jump(Step&) { return Then::flag; }
 
 // --- inputs and STATUS ---------------------------------------------------------------------------
 
-/// Returns OFF for an input, and 0 for a bit, that does not exist.
+/// An input that does not exist is OFF, and a bit that does not exist is 0.
 inline bool input(const MachineView& machine, std::uint8_t din) {
   return is_defined(Operand::input, din) && machine.input(din);
 }
