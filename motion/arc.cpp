@@ -137,8 +137,8 @@ Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep_rad,
   return path;
 }
 
-/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends on the very point
-/// where it began.
+/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends exactly where it
+/// began.
 void set_end_by_sweep(Path& path) {
   Turned turned = turned_to_share(path, 1);
   const double quarters = std::nearbyint(path.sweep_rad / (kPi / 2));

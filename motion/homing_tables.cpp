@@ -164,7 +164,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
   const bool goes_on = how.distance_pulses * direction > 0;
-  std::int64_t behind = 0;  // the distance behind the target in which it slows down
+  std::int64_t behind = 0;  // the distance beyond the target in which it slows down
   if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
     behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);

@@ -249,7 +249,7 @@ Profile PathRun::cut_at_end(Profile profile) const {
   return profile;
 }
 
-/// Plans the profile again, from the place at `now` on.
+/// Plans the profile again from the place at `now`.
 void PathRun::replan(Tick now) {
   if (chain_count_ == 0) return;
   Tick from = std::max(now, begin_tick_);

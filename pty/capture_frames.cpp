@@ -89,7 +89,7 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
   faults_.clear();
 }
 
-/// Reports strikes on a reply that was not sent in the end.
+/// Reports strikes on a reply that was never sent.
 void CaptureFrames::give_strikes() {
   if (faults_.empty()) return;
   sink_({line_, Way::to_host, struck_at_, {}, Remark::none, is_text_, faults_});

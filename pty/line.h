@@ -117,8 +117,8 @@ class Line {
 
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
-  /// Must be called after the due() of a station or an observer has changed for any other reason than a call
-  /// from the line.
+  /// Call this after the due() of a station or an observer has changed for any reason other than a call from
+  /// the line.
   void due_changed() { next_.reset(); }
   /// Processes everything that is due at `now` or earlier, in chronological order. At equal times the order
   /// is: characters that arrive, observers, stations in the order of attaching, characters that leave. With

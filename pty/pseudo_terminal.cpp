@@ -109,7 +109,7 @@ Pair open_pair(const std::string& link_path) {
 void give_same_access(const std::string& from, const std::string& to) {
   struct stat access = {};
   if (::stat(from.c_str(), &access) != 0) return;
-  // The group is changed first: the old group must not gain any permission meanwhile.
+  // The group is changed first, so that the old group never gains a permission.
   if (::chown(to.c_str(), static_cast<uid_t>(-1), access.st_gid) != 0) return;
   ::chmod(to.c_str(), access.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
 }
@@ -139,7 +139,7 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
   // Closes and opens up to now are processed before these bytes are answered. Otherwise the answer to a new
   // host could be dropped as one that the old host did not read.
   follow_presence(false);
-  if (!is_present_) follow_presence(true);  // its opening was missed, or it has left already
+  if (!is_present_) follow_presence(true);  // its opening was missed, or it has closed already
   // A host that writes has done its tcsetattr, so the line can be prepared for its next one without
   // disturbing it.
   if (const auto taken = take_host_settings(master_.get())) settings_ = taken;

@@ -197,7 +197,7 @@ void RtuFramer::give_up_as_overlong(Index index) {
 
 /// The characters since the last pause may be a frame, if the host has given up the one before.
 void RtuFramer::look_behind_pause() {
-  if (state_.resumed <= state_.undecided) return;  // decided meanwhile
+  if (state_.resumed <= state_.undecided) return;  // decided in the meantime
   const Verdict verdict = judge(bytes(state_.resumed, used()), true);
   if (verdict.fit != Fit::good) return;
   const auto end = static_cast<Index>(state_.resumed + verdict.size);

@@ -61,7 +61,7 @@ class Station {
   virtual void on_idle() {}
 
   /// Returns when run() wants to be called next, or nothing if the station only waits for bytes. If it
-  /// changes for any other reason than a call from the line, the line must be told (Line::due_changed).
+  /// changes for any reason other than a call from the line, call Line::due_changed().
   virtual std::optional<SimTime> due() const = 0;
 
   /// Called at due() (never earlier). The station serves a complete request here, at its own time.

@@ -37,7 +37,7 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
 
-/// Throws if a folder on the way to a file is a link that another user has left.
+/// Throws if a folder on the way to a file is another user's link in a folder that everyone can write to.
 void require_own_way(const fs::path& absolute) {
   fs::path way;
   for (const fs::path& step : absolute.parent_path()) {

@@ -69,7 +69,7 @@ class OutputFile {
   /// Replaces the old content by these first bytes. Throws OutputError if they cannot be written, so that a
   /// run does not start with an output that fails.
   void begin(std::string_view head);
-  /// Keeps the first `size` bytes of the old content and continues behind them. Throws OutputError.
+  /// Keeps the first `size` bytes of the old content and continues after them. Throws OutputError.
   void go_on(std::uint64_t size);
   /// Writes the whole piece and returns 0, or writes none of it and returns the error number: half a packet
   /// would spoil the packets before it.

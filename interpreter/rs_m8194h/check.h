@@ -21,14 +21,14 @@ struct CommandOptions {
   bool speeds_have_ends = false;
   /// True: a variable can be set only within the range of positions.
   bool variables_have_ends = false;
-  /// True: a move of no distance is refused. The next two: a helix that turns back, or that has no turn, is
-  /// refused.
+  /// True: a move of no distance is refused. The next two refuse a helix that turns back, or that has no
+  /// turn.
   bool zero_moves_are_refused = false;
   bool helix_turns_forward_only = false;
   bool helix_has_turns = false;
   /// True: LINE_SCAN_START accepts the types that are not available yet.
   bool uneven_scans_start = false;
-  /// True: SYNC_ACTION has one trigger axis. The next one: SET_OUT accepts X and Y only.
+  /// True: SYNC_ACTION has one trigger axis. With the next one, SET_OUT accepts X and Y only.
   bool one_trigger_axis = false;
   bool outputs_are_of_x_and_y = false;
   /// The order of the letters of `<=` that a message may have.
@@ -46,7 +46,7 @@ struct CommandOptions {
   bool knows_0cb2 = false;
   /// True: a variable may replace a constant only where the command's section says so.
   bool few_take_references = false;
-  /// True: sides and radii of a rectangle end at 200,000,000.
+  /// True: sides and radii of a rectangle are at most 200,000,000.
   bool rectangles_end_earlier = false;
   /// True: macros also store into the Initial Table.
   bool macros_store_initial = false;

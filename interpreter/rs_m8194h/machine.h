@@ -24,8 +24,8 @@ struct ExecutionFault {
   bool operator==(const ExecutionFault&) const = default;
 };
 
-/// The interface to the controller. Commands have numbers in place of references, within the ranges of their
-/// rows.
+/// The interface to the controller. References in commands are already replaced by numbers within the ranges
+/// of their rows.
 class Machine : public Watched {
  public:
   virtual ~Machine() = default;

@@ -27,7 +27,7 @@ std::vector<std::string_view> split_at_commas(std::string_view text);
 bool is_numbered(std::string_view word, std::string_view letters);
 
 /// Returns `number`, or the largest 32-bit real if the number exceeds it only by rounding: written with fewer
-/// digits than it has, that real becomes slightly larger.
+/// digits, that real can become slightly larger.
 double rounded_real(double number);
 
 struct Item {

@@ -28,7 +28,7 @@ struct CellLayout {
 
 /// The result of a motion that a step program requests.
 enum class Begun : std::uint8_t {
-  done,     // nothing had to move; its signal has come
+  done,     // there is nothing to wait for
   runs,     // runs until is_running() returns false
   taken,    // an axis is taken: nothing has changed, and the program tries again at the next tick
   ignored,  // has no effect; the machine has reported why, if there is a code for it
@@ -69,7 +69,7 @@ class Machine : public Watched {
   virtual bool is_held_in_reset(Area area) const = 0;
   /// Called when a program starts or continues: D8094 to D8096 are cleared.
   virtual void program_starts(Area area) = 0;
-  /// Called when a program has reached END: its signal comes (Y9, Y4 to Y7).
+  /// Called when a program has reached END; gives its signal (Y9, Y4 to Y7).
   virtual void program_ended(Area area) = 0;
 
   virtual Begun begin(Area by, const LinearMove& move) = 0;
@@ -104,7 +104,7 @@ class Machine : public Watched {
   virtual void plc_drive(const Drive& drive, int step) = 0;
   virtual void plc_home(const HomeSearch& search, int step) = 0;
   /// Called at the end of each scan in which an axis is to be jogged, or was to be in the scan before.
-  /// `steps` are those of the lines, counted as by D8095. Returns true if anything may change by it.
+  /// `steps` are those of the lines, counted as by D8095. Returns true if anything may change because of it.
   virtual bool plc_jog(const Jogs& jogs, const JogSteps& steps) = 0;
 
   // --- both -----------------------------------------------------------------------------------------

@@ -128,7 +128,7 @@ constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
                  const auto&) { return gives(line, 0, value(line, 0, access) - 1, access); }},
     {Op::abs,
      [](const auto& line, auto& access, const auto&) {
-       return gives(line, 0, std::abs(value(line, 0, access)), access);  // the minimum stays
+       return gives(line, 0, std::abs(value(line, 0, access)), access);  // INT32_MIN stays as it is
      }},
 };
 constexpr std::array kCalculationOps{Op::mov, Op::zrst, Op::fmv, Op::add, Op::sub,

@@ -57,7 +57,7 @@ enum class Said : uint32_t {
   // the host's thread
   hello = 1,  // the first message; `sequence` is the version
   child,      // `process` is a new child of this process
-  wait,       // until `until_ns`, or until something comes on one of the lines
+  wait,       // until `until_ns`, or until something arrives on one of the lines
   cancel,     // the thread no longer waits: something else has woken it
   outside,    // the thread waits for something that is not simulated: time must stop; no answer
   inside,     // that wait is over; no answer
