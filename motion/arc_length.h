@@ -139,7 +139,7 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   // The angle itself is needed only for what depends on it: a spiral's radius and a rise.
   const bool angle_counts = path.radius_slope_u_rad != 0 || !path.rise.isZero(0);
   if (sectors == 0) {
-    // Within one sector, calculates from the path itself, to keep the digits of short arcs.
+    // Within one sector, this calculates from the path itself, to keep the digits of short arcs.
     const double slope = (begin.sine + here.sine) / (begin.cosine + here.cosine);
     turned = {way * (begin.cosine + begin.sine * slope), -0.5 * way * way * (1 + slope * slope)};
     if (angle_counts) angle_in_sectors = angle_of(turned.sine, 1 + turned.cosine_less_1);

@@ -364,7 +364,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::move) {
     const auto target = static_cast<double>(target_pulses);
     rest.cut_at(std::max(target, rest.segments[0].position_u));
-    // Along the ramp that was already running it ends there, except for rounding errors.
+    // It ends there along the ramp that was already running, except for rounding errors.
     constexpr double kRounding_pulses = 1e-5;
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }

@@ -40,7 +40,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   }
   axis_.encoder_is_known = environment.encoder.is_known();
   if (axis_.encoder_is_known) {
-    // Since the last check nothing has happened, unless the machine was moved, or no longer follows.
+    // Nothing has happened since the last check, unless the machine was moved or no longer follows.
     if (axis_.seen_version == environment.version)
       axis_.encoder_seen = environment.encoder.at(axis_.travel_pulses);
   }

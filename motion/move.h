@@ -67,8 +67,8 @@ Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw
 /// as check() does.
 Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);
 
-/// Plans a stop from any state: the speed falls to the start speed and the motion ends there. From below the
-/// start speed it ends at once.
+/// Plans a stop from any state: the speed falls to the start speed and the motion ends there. A motion below
+/// the start speed ends at once.
 Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
 
 /// Plans a change from any state (speed >= 0) to a target further on, or to one that is already passed or too

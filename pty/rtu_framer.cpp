@@ -295,7 +295,7 @@ std::optional<ReceiveError> RtuFramer::take_error() {
   return std::nullopt;
 }
 
-/// Removes characters before the first ready frame or the undecided part: they are not needed any more.
+/// Removes characters before the first ready frame or the undecided part: they are no longer needed.
 void RtuFramer::forget_served() {
   const Index served = state_.ready.empty() ? state_.undecided : state_.ready.front().first;
   if (served == 0) return;

@@ -16,7 +16,7 @@ namespace understudy::interpreter::rs_m8194h {
 struct DownloadOptions {
   /// True: CLOSE counts as a line of the macro.
   bool close_takes_line = false;
-  /// True: the seven levels are those of FOR and IF together.
+  /// True: FOR and IF share the seven levels; false: each has seven.
   bool levels_are_of_both = false;
   /// True: a GOTO that leaves a block is refused; false: it is allowed.
   bool goto_stays_in_its_block = false;

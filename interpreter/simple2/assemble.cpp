@@ -320,7 +320,7 @@ class Assembler {
   void fill_in_flags() {
     for (const FlagUse& use : flag_uses_) {
       const int flag = flag_of(use.token);
-      if (use.number >= kLineCount) continue;  // an error already
+      if (use.number >= kLineCount) continue;  // already an error
       lines_[static_cast<std::size_t>(use.number)].data1 = static_cast<std::uint8_t>(flag);
     }
   }

@@ -43,7 +43,7 @@ struct Dialect {
     slot_of_its_own,
     next_line_runs_in_it
   } wait_slot = WaitSlot::slot_of_its_own;
-  /// In firmware where Jump_Timer1_GE does not work, it never jumps, or always.
+  /// In firmware where Jump_Timer1_GE does not work, it never jumps, or always jumps.
   enum class Timer1Defect : std::uint8_t {
     never_jumps,
     always_jumps

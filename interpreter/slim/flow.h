@@ -28,7 +28,7 @@ struct FlowOptions {
   enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
   /// True: events need a running program; false: they also call their routine without one.
   bool events_need_program = true;
-  /// After an interruption by an event, WT and JTI start again, or their time has continued.
+  /// If an event interrupts WT or JTI, it starts again afterwards, or its time has continued.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
     goes_on

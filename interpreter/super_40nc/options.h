@@ -43,7 +43,7 @@ struct Options {
   bool labels_must_exist = false;   // true: targets of jumps must exist; false: the program stops at the jump
 
   // --- numbers --------------------------------------------------------------------------------------
-  /// Beyond the end of its block, FMV writes nothing, or it does nothing at all.
+  /// An FMV that reaches beyond the end of its block writes up to the end, or does nothing.
   enum class FillBeyond : std::uint8_t { is_clipped, does_nothing } fill_beyond = FillBeyond::is_clipped;
   enum class DivisionByZero : std::uint8_t {
     changes_nothing,
