@@ -1,5 +1,5 @@
-// Choices are decisions that a manual leaves open, kept as data. Each row is the only place of its decision:
-// the code asks for its value, a bench can override it, and docs/fidelity/MODEL.md is made from it.
+// Choices are decisions that a manual leaves open, kept as data. Each row is the only place that states its
+// decision: the code asks for its value, a bench can override it, and docs/fidelity/MODEL.md is made from it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace understudy {
 enum class Confidence : std::uint8_t {
   follows,   // follows from the manual's text elsewhere
   likely,    // the cited standard, or devices of this kind, do so
-  proposal,  // the manual is silent; ours to set
+  proposal,  // the manual is silent; the decision is ours
 };
 
 struct ChoiceRow {
@@ -42,8 +42,8 @@ std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);
 
 /// Returns the index of a row in its table. In a constant expression an unknown id does not compile. The
-/// function is not consteval, because clang 14 does not let one such function call another with its own
-/// arguments.
+/// function is not consteval, because clang 14 does not let a consteval function pass its own arguments to
+/// another.
 constexpr std::size_t choice_number(std::span<const ChoiceRow> rows, std::string_view id) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].id == id) return i;

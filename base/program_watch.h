@@ -10,16 +10,17 @@ namespace understudy {
 class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
-  /// The following calls are about the present program of the device. Another program has another mark.
+  /// The following calls are about the device's present program. `mark` identifies the program.
   virtual void look(std::uint64_t mark) = 0;
   /// The instruction begins. It begins once, however long it waits. `times` is more than 1 only for scans of
-  /// a PLC that are crossed in bulk.
+  /// a PLC that are skipped in bulk.
   virtual void runs(int part, int line, std::int64_t times) = 0;
   /// The instruction has decided: a jump is taken, a condition or contact holds, a wait is over at once.
   virtual void decides(int part, int line, bool outcome, std::int64_t times) = 0;
 };
 
-/// What a watch can look at. The watch is not part of the state. It is null if there is no observer.
+/// Base class of whatever a watch can observe. The watch is not part of the state. It is null if there is no
+/// observer.
 class Watched {
  public:
   ProgramWatch* watch() const { return watch_; }
@@ -29,7 +30,7 @@ class Watched {
   ProgramWatch* watch_ = nullptr;
 };
 
-/// Several observers of one program. Each is told everything, in the order in which they came.
+/// Several observers of one program. Each is notified, in the order in which they were added.
 class ProgramWatches final : public ProgramWatch {
  public:
   void add(ProgramWatch& watch) { watches_.push_back(&watch); }

@@ -28,7 +28,7 @@ class Queue {
   const_iterator end() const { return values_.end(); }
   std::span<const T> values() const { return std::span(values_).subspan(first_); }
 
-  /// Includes the room of removed elements that is not reused yet.
+  /// Includes the space of removed elements that has not been reused yet.
   std::size_t capacity() const { return values_.capacity(); }
 
   void push_back(T value) {
@@ -57,8 +57,8 @@ class Queue {
   }
 
  private:
-  /// Reuses the room of removed elements once they are at least half of all, so that each element is moved
-  /// only a few times.
+  /// Reuses the space of removed elements once they are at least half of all, so each element is moved only a
+  /// few times.
   void make_room(std::size_t count) {
     if (values_.size() + count <= values_.capacity() || 2 * first_ < values_.size()) return;
     values_.erase(values_.begin(), begin());

@@ -15,7 +15,7 @@ using SimTime = std::chrono::nanoseconds;
 /// A tick is 1 ms of simulated time; tick k happens at k ms.
 using Tick = std::int64_t;
 inline constexpr SimTime kTickLength = std::chrono::milliseconds(1);
-/// The tick that never comes: there is no event to wait for.
+/// A tick that never comes, for "no event to wait for".
 inline constexpr Tick kNever = INT64_MAX;
 inline constexpr SimTime kForever = SimTime::max();
 /// The end of simulated time: a century after power-up, far below what its count can hold.

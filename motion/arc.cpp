@@ -18,10 +18,10 @@ namespace {
 constexpr double kFarthest_u = 1e12;
 
 /// Directions from the centre that differ by less count as the same: a full circle's end that is off by
-/// rounding must not become an arc of nothing.
+/// rounding must not become an arc of no length.
 constexpr double kSameDirection_rad = 1e-9;
 
-/// Radii that differ by less than this part of the coordinates differ by their rounding only.
+/// Radii that differ by less than this part of the coordinates differ only by rounding.
 constexpr double kRounding = 1e-15;
 
 /// Three points whose triangle is lower than this part of its longest side are on one line.
@@ -85,7 +85,7 @@ struct ArcDemand {
     return {point[options.plane.first], point[options.plane.second]};
   }
 
-  /// `point` with other coordinates in the plane.
+  /// Returns `point` with these coordinates in the plane.
   Point with(Point point, const Flat& in_plane_now) const {
     point[options.plane.first] = in_plane_now.x;
     point[options.plane.second] = in_plane_now.y;
@@ -101,7 +101,7 @@ struct ArcDemand {
   Point rise_to(const Point& end) const { return with(end - begin, {0, 0}); }
 };
 
-/// The last step of all arcs: `path` has its plane, begin, centre, sweep and rise.
+/// Does the last step of all arcs. `path` already has its plane, begin, centre, sweep and rise.
 Path finished(Path path, double growth_u, const ArcDemand& demand) {
   const double sweep = std::abs(path.sweep_rad);
   if (sweep > kFarthestAngle_rad) {
@@ -137,8 +137,8 @@ Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep_rad,
   return path;
 }
 
-/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends on the very point
-/// where it began.
+/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends exactly where it
+/// began.
 void set_end_by_sweep(Path& path) {
   Turned turned = turned_to_share(path, 1);
   const double quarters = std::nearbyint(path.sweep_rad / (kPi / 2));
@@ -222,7 +222,7 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   }
   double growth = growth_u_turn * (std::abs(sweep_rad) / (2 * kPi));
   if (radius + growth < 0) {
-    // A spiral that is meant to end in its centre does so.
+    // A spiral that is meant to end at its centre does so.
     if (radius + growth < -kSameDirection_rad * radius) {
       refuse(Refusal::no_such_arc, demand.law,
              "radius must be 0 or above, is " + text(radius + growth) + " at the end");
@@ -279,7 +279,7 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
   }
   Point met = end;
   double growth = end_radius - radius;
-  // Each difference from the centre was rounded to as much as its larger operand.
+  // The rounding error of each difference from the centre is proportional to its larger operand.
   const double largest = std::max({radius, end_radius, std::abs(middle.x), std::abs(middle.y)});
   if (std::abs(growth) <= kRounding * largest) {
     growth = 0;
@@ -324,7 +324,7 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
     refuse(Refusal::no_such_arc, demand.law,
            "chord must be at most " + text(2 * radius) + ", twice the radius, is " + text(2 * half));
   }
-  // The centre is to the left of the chord for the shorter arc counter-clockwise, by `height`.
+  // For the shorter arc counter-clockwise, the centre is `height` to the left of the chord.
   const double height = radius > half ? std::sqrt((radius - half) * (radius + half)) : 0;
   const bool left = (turn == Turn::counter_clockwise) == (radius_u > 0);
   const double side = (left ? height : -height) / (2 * half);

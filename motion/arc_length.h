@@ -1,7 +1,7 @@
 // Converts between the length travelled along an arc and the angle turned. For path.cpp and arc.cpp only.
 //
-// Share is the part of |sweep| done, 0..1. With radius(share) = r0 + growth * share the speed over the share,
-// the pace, is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2), and length its integral:
+// Share is the part of |sweep| done, 0..1. With radius(share) = r0 + growth * share, the speed over the share
+// (the pace) is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2). The length is its integral:
 //   circle, helix   the pace is constant, share = along / length
 //   spiral          closed form of the length; its inverse by Newton's method
 //   longest axis    within a sector of a quarter turn about an axis, the coordinate that moves most is linear
@@ -51,13 +51,13 @@ inline double length_by_vector(const Path& path) {
 inline double share_by_vector(const Path& path, double along) {
   const double growth = growth_u(path);
   if (growth == 0) return along / path.length_u;
-  constexpr int kMaxSteps = 8;  // four were the most needed in millions of spirals
+  constexpr int kMaxSteps = 8;  // millions of spirals needed at most four
   const double turned = std::abs(path.sweep_rad);
   const double across_squared = growth * growth + path.rise.squaredNorm();
   const double from = turned * path.begin_radius_u;
   const double gain = turned * growth;
   const double to = std::max(0.0, from + gain);
-  // The first guess takes the pace to change evenly from begin to end.
+  // The first guess assumes that the pace changes evenly from begin to end.
   const double first = std::sqrt(from * from + across_squared);
   const double last = std::sqrt(to * to + across_squared);
   const double even = 0.5 * (first + last) * (along / path.length_u);
@@ -139,7 +139,7 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   // The angle itself is needed only for what depends on it: a spiral's radius and a rise.
   const bool angle_counts = path.radius_slope_u_rad != 0 || !path.rise.isZero(0);
   if (sectors == 0) {
-    // Within one sector, calculates from the path itself, to keep the digits of short arcs.
+    // Within one sector, this calculates from the path itself, to keep the digits of short arcs.
     const double slope = (begin.sine + here.sine) / (begin.cosine + here.cosine);
     turned = {way * (begin.cosine + begin.sine * slope), -0.5 * way * way * (1 + slope * slope)};
     if (angle_counts) angle_in_sectors = angle_of(turned.sine, 1 + turned.cosine_less_1);
@@ -168,15 +168,15 @@ inline Turned turned_at(const Path& path, double along) {
                                          : turned_by_longest_axis(path, along);
 }
 
-/// Returns the unit vector from the centre to the beginning; for a spiral from its centre, in the direction
-/// in which it leaves.
+/// Returns the unit vector from the centre to the beginning; for a spiral that begins at its centre, the
+/// direction in which it leaves.
 inline Point first_ray(const Path& path) {
   if (path.begin_radius_u > 0) return (path.begin - path.centre) / path.begin_radius_u;
   const SineCosine angle = sine_cosine(path.begin_angle_rad);
   return angle.cosine * path.abscissa + angle.sine * path.ordinate;
 }
 
-/// Returns a vector of the path's plane, turned left by a quarter.
+/// Returns a vector of the path's plane, turned left by a right angle.
 inline Point left_of(const Path& path, const Point& ray) {
   return ray.dot(path.abscissa) * path.ordinate - ray.dot(path.ordinate) * path.abscissa;
 }

@@ -12,12 +12,12 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// Commands and reactions; the tick is in axis_step.cpp.
+// Commands and reactions; the tick is in axis_step.cpp and axis_tick.cpp.
 namespace understudy::motion {
 
 namespace {
 
-/// Beyond this a coordinate in double would no longer hold every pulse.
+/// Beyond this, a double no longer holds every pulse.
 constexpr std::int64_t kFarthestMove = std::int64_t{1} << 53;
 
 std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
@@ -57,8 +57,8 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   return rest;
 }
 
-/// Makes a stop decelerate at least as hard as the motion already does: by a law of time, the same ramp would
-/// start again from the present speed.
+/// Makes a stop decelerate at least as hard as the motion already does: with a ramp by time, the same ramp
+/// would start again from the present speed.
 SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
   SpeedLaw stop = law;
   const double left_u_s = here.speed_u_s - law.start_speed_u_s;
@@ -147,7 +147,8 @@ Profile Axis::planned(const SpeedLaw& speed) const {
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// Drops the running motion without an end event. A moment far from any tick means "between ticks".
+/// Drops the running motion without an end event. A moment long before the present tick means "between
+/// ticks".
 void Axis::drop(Instant at) {
   if (constant_pps != 0) raise(Event::constant_ended, at);
   constant_pps = 0;
@@ -359,11 +360,11 @@ void Axis::slow(Instant at, Cause why) {
     end(why, at);
     return;
   }
-  // A stop while a move slows down anyhow must not pass its target.
+  // A stop while a move is slowing down anyway must not pass its target.
   if (task == Task::move) {
     const auto target = static_cast<double>(target_pulses);
     rest.cut_at(std::max(target, rest.segments[0].position_u));
-    // Along the ramp that already ran it ends there, except for rounding errors.
+    // It ends there along the ramp that was already running, except for rounding errors.
     constexpr double kRounding_pulses = 1e-5;
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }

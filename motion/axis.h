@@ -64,14 +64,13 @@ inline constexpr std::size_t kEvents = 12;
 using Events = std::uint16_t;
 constexpr Events bit(Event event) { return static_cast<Events>(1U << static_cast<unsigned>(event)); }
 
-/// When in its tick an event happens. Events that come about between two ticks belong to the next tick's
-/// beginning.
+/// When in its tick an event happens. Events between two ticks belong to the beginning of the next one.
 enum class Moment : std::uint8_t {
   its_own,  // at the pulse, end or signal that raises it: Axis::event_at
   end,      // at the tick's end, for a motion that begins between two ticks; also for PULSE
 };
-/// The moment of each event. Within a tick, edges are handled by moment; at the same moment axis by axis, all
-/// events of an axis together.
+/// The moment of each event. Within a tick, edges are handled in the order of their moments; at the same
+/// moment, axis by axis, with all events of an axis together.
 inline constexpr std::array<Moment, kEvents> kMoments{
     Moment::its_own,  // comparators
     Moment::its_own, Moment::its_own, Moment::its_own,
@@ -93,8 +92,8 @@ constexpr Events events_of(Moment moment) {
 
 enum class Count : std::uint8_t { command, encoder };
 
-/// A position compare. It raises an event each time the relation becomes true, by motion or because a number
-/// was written. The relation is that of the count itself, so it also changes where the count wraps.
+/// A position comparator. It raises an event each time the relation becomes true, by motion or because a
+/// number was written. It compares the count itself, so the relation also changes where the count wraps.
 struct Comparator {
   /// The last two become true only when the count reaches the value by rising, or by falling.
   enum class Relation : std::uint8_t { off, at_least, below, equal, equal_upwards, equal_downwards };
@@ -103,20 +102,20 @@ struct Comparator {
   Count count = Count::command;
   Reaction reaction = Reaction::ignore;  // of the axis itself; other axes react through motion/synchronous.h
   bool was_true = false;
-  Counter counter{};  // the counter whose numbers `value` is given in
+  Counter counter{};  // the counter in whose numbers `value` is given
   std::int64_t value = 0;
 
   bool operator==(const Comparator&) const = default;
 
-  /// Returns the only direction of the count in which the relation can become true; 0 if both can, and
-  /// writing a number can too.
+  /// Returns the only direction of the count in which the relation can become true; 0 if it can in both, and
+  /// when a number is written.
   int sense() const {
     return relation == Relation::equal_upwards ? +1 : relation == Relation::equal_downwards ? -1 : 0;
   }
   bool asks_for_one_place() const { return relation == Relation::equal || sense() != 0; }
 
   bool holds(std::int64_t travel) const;
-  /// Returns how many pulses (1 ...) in `direction` it takes until the relation may change, or nothing if
+  /// Returns how many pulses (1 or more) in `direction` it takes until the relation may change, or nothing if
   /// it will not.
   std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
 };
@@ -133,7 +132,7 @@ struct AxisSettings {
   bool needs_servo = true;             // true: commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
   bool waits_beside_limits = false;    // true: a limit does not end a motion that only waits for in-position
-  // The last place allowed, in travel or in encoder counts; the pulse beyond it triggers. Nothing: no soft
+  // The last allowed position, in travel or in encoder counts; the pulse beyond it triggers. Nothing: no soft
   // limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
@@ -175,7 +174,7 @@ struct alignas(64) Axis {
   bool inverted = false;      // true: pulses come out in the opposite direction
   Signals signals = 0;        // signals as last seen
   Events events_between = 0;  // events since the last tick
-  // The commanded motion. While backlash is taken up, the drive runs that and this waits.
+  // The commanded motion. While backlash is taken up, the drive runs the backlash and this motion waits.
   Task task = Task::none;
   Cause cause = Cause::none;       // why the last motion ended, or why it is being stopped now
   std::int8_t last_direction = 0;  // direction of the last motion; 0 before the first
@@ -188,7 +187,7 @@ struct alignas(64) Axis {
   std::int64_t encoder_seen = 0;            // the count up to which comparators have been checked
   std::int64_t backlash_sent = 0;           // all extra pulses so far, signed by direction
   std::int64_t backlash_taken_pulses = 0;   // 0 .. backlash_pulses: taken up towards plus
-  std::array<Instant, kEvents> event_at{};  // when each event with a separate moment last happened
+  std::array<Instant, kEvents> event_at{};  // when each event with a moment of its own last happened
   double constant_pps = 0;  // constant speed at the last pulse; 0: it was not at constant speed
 
   // State of the commanded motion.
@@ -204,13 +203,13 @@ struct alignas(64) Axis {
 
   bool operator==(const Axis&) const = default;
 
-  // ---- Commands. Call them between ticks; `now` is the last tick that was stepped. A motion from rest has
-  // its beginning in the next tick; a change acts from now on. All return Cause::none if accepted, else why
-  // they are refused; a refused command changes nothing. All throw BadMotion as motion/move.h says, and then
-  // nothing has changed.
+  // ---- Commands. Call them between ticks; `now` is the last tick that was stepped. A motion from rest
+  // begins in the next tick; a change acts from now on. All return Cause::none if accepted, otherwise the
+  // reason for the refusal; a refused command changes nothing. All throw BadMotion as motion/move.h does,
+  // also without changing anything.
 
   /// Moves by `distance_pulses`, signed, from the present position; a running motion is dropped. A distance
-  /// of 0 ends a running motion and ends at once.
+  /// of 0 ends a running motion at once.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
   /// Like move(), but from a signed speed that the axis already has from another generator. It continues to
   /// the target; if that is too near or behind, it stops and comes back.
@@ -300,7 +299,7 @@ struct alignas(64) Axis {
     // pulses that a follower asked for, also in a tick that is not quiet
     std::optional<std::int64_t> followed{};
   };
-  /// Runs such a tick, or returns false.
+  /// Runs a quiet tick, or returns false if something may happen in it.
   bool step_quietly(Tick tick, const Environment& environment, QuietTick& quiet) {
     quiet.travel = travel_pulses;
     quiet.sent = drive.sent_pulses;
@@ -324,7 +323,7 @@ struct alignas(64) Axis {
     if (quiet.followed) base_pulses = travel_pulses;
   }
 
-  /// Runs one tick of an axis in a coordinated motion, instead of step(): the axis goes by `pulses`, evenly
+  /// Runs one tick of an axis in a coordinated motion, instead of step(): the axis moves by `pulses`, evenly
   /// over the tick. Pulses left over after a reaction are not sent.
   std::int64_t carry(std::int64_t pulses, Tick tick, const Environment& environment) {
     const std::int64_t travel = travel_pulses + pulses;
@@ -343,18 +342,19 @@ struct alignas(64) Axis {
   /// Returns the last tick up to which the axis continues along its plan within `range` and nothing happens
   /// to it. `next` is the next tick, `most` the latest to consider. Returns next - 1 if there is none.
   Tick quiet_until(Tick next, Tick most, const Environment& environment, TravelRange range) const;
-  /// Returns the travel after one of those ticks.
+  /// Returns the travel after `tick`, which is at most quiet_until().
   std::int64_t travel_ahead(Tick tick) const {
     return base_pulses + drive.direction * drive.pulses_of_segment(tick);
   }
-  /// Runs all ticks up to `tick`, one of those, at once. The state and the sum of the pulses are the same as
-  /// tick by tick.
+  /// Runs all ticks up to `tick`, at most quiet_until(), at once. The state and the sum of the pulses are the
+  /// same as with single ticks.
   std::int64_t fast_forward_to(Tick tick);
   /// Returns true if carry() only counts while travel stays within watch_low and watch_high.
   bool carries_quietly(const Environment& environment) const {
     return task == Task::coordinated && is_undisturbed(environment);
   }
-  /// Adds the pulses of several carry() ticks at once. Only while carries_quietly(), all of one sign.
+  /// Adds the pulses of several carry() ticks at once. Call it only while carries_quietly(), with pulses of
+  /// one sign.
   std::int64_t carry_across(std::int64_t pulses) {
     if (pulses != 0) {
       drive.direction = pulses < 0 ? -1 : +1;

@@ -88,12 +88,12 @@ void Axis::set_encoder(std::int64_t pulses) {
   }
 }
 
-/// Computes the encoder's count at this very pulse, if the machine follows the axis.
+/// Computes the encoder's count at this pulse, if the machine follows the axis.
 void Axis::know_encoder(const Environment& environment) {
   if (encoder_is_known) encoder_pulses = environment.encoder.at(travel_pulses);
 }
 
-/// Moves the encoder's count from its old value to its new one; comparators check everything between.
+/// Moves the encoder's count from its old value to its new one; comparators check everything in between.
 void Axis::follow_encoder_count(Instant at) {
   const int direction = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
   // A jump that far is not a motion: only its end counts.

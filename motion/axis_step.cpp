@@ -74,7 +74,7 @@ void Axis::see(Signals now_on, Instant at) {
   if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
 }
 
-/// Calculates how far the axis can move before meet() has anything to do.
+/// Calculates how far the axis can move before update_signals() has anything to do.
 void Axis::watch(const Environment& environment) {
   std::int64_t up = kNoEdge;
   std::int64_t down = kNoEdge;
@@ -85,7 +85,7 @@ void Axis::watch(const Environment& environment) {
     consider(up, environment.steps_until_change(travel_pulses, +1));
     consider(down, environment.steps_until_change(travel_pulses, -1));
   }
-  // In steps of travel, if a number of counts is asked for.
+  // Converts steps of the encoder's count to steps of travel.
   const auto consider_by = [&](Count count, std::int64_t& nearest, int direction,
                                std::optional<std::int64_t> steps) {
     const bool by_encoder = count == Count::encoder;
@@ -104,8 +104,8 @@ void Axis::watch(const Environment& environment) {
   if (const auto place = homing_place(); place && *place != travel_pulses) {
     consider(*place > travel_pulses ? up : down, std::abs(*place - travel_pulses));
   }
-  // Soft limits may be far out of reach, up to the largest number. A limit on the side away from the
-  // encoder's direction is not met.
+  // Soft limits may be far out of reach, up to the largest number. If the encoder counts backwards, the axis
+  // moves away from its limits.
   const auto& most = settings.soft_limit_plus;
   const auto& least = settings.soft_limit_minus;
   const Count of = settings.soft_limits_of;

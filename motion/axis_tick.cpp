@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTick_s = 1 / kTicksPerSecond;
 
-/// No drive is this fast. A state from outside may claim it, and must not keep its tick running forever.
+/// No drive is this fast. A restored state may claim to be, and must not keep its tick running forever.
 constexpr std::int64_t kMaxInATick = 1'000'000;
 
 Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
@@ -40,7 +40,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   }
   axis_.encoder_is_known = environment.encoder.is_known();
   if (axis_.encoder_is_known) {
-    // Since the last check nothing has happened, unless the machine was moved, or no longer follows.
+    // Nothing has happened since the last check, unless the machine was moved or no longer follows.
     if (axis_.seen_version == environment.version)
       axis_.encoder_seen = environment.encoder.at(axis_.travel_pulses);
   }
@@ -113,7 +113,7 @@ void AxisTick::find_next() {
   }
 }
 
-/// Returns the pulses that the drive has sent by then, in its own coordinate.
+/// Returns the pulses that the drive has sent by `at`, in its own coordinate.
 std::int64_t AxisTick::due_at(const Instant& at) {
   PulseDrive& drive = axis_.drive;
   const std::int64_t most = drive.pulses_at(tick_);
@@ -121,7 +121,7 @@ std::int64_t AxisTick::due_at(const Instant& at) {
   return std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(most, drive.sent_pulses));
 }
 
-/// Returns the carried pulses that have come by then.
+/// Returns the carried pulses that have come by `at`.
 std::int64_t AxisTick::come_at(const Instant& at) const {
   const double part = is_before(at, until_) ? at.after_s * kTicksPerSecond : 1;
   return static_cast<std::int64_t>(part * static_cast<double>(std::abs(carried_)) + 1e-9);
@@ -324,7 +324,7 @@ void AxisTick::go_by(std::int64_t pulses, Instant at) {
 Events AxisTick::take_events() {
   const Events fresh = axis_.events_between;
   axis_.events_between = 0;
-  // Events that its own reversal causes have their moment at the tick's end.
+  // Events caused by the axis's own reversal have their moment at the tick's end.
   at_end_ = static_cast<Events>(at_end_ | (fresh & events_of(Moment::end)));
   const auto now = static_cast<Events>(fresh & ~events_of(Moment::end));
   taken_ = static_cast<Events>(taken_ | now);
@@ -348,7 +348,7 @@ std::int64_t AxisTick::finish() {
   axis_.must_recheck = axis_.must_recheck || axis_.in_backlash || at_a_limit ||
                        (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
   if (axis_.task == Task::following)
-    axis_.drive.next_look = 0;  // it has no plan, so each of its ticks comes here
+    axis_.drive.next_look = 0;  // it has no plan, so each of its ticks is handled here
   axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);
   axis_.events_between = next_tick_;
   return axis_.inverted ? -pulses : pulses;

@@ -3,7 +3,7 @@
 //   tick - 1 ├──────●───────────────●──────┤ tick       ● an edge at a pulse, the end of the drive
 //            begin  look            look   finish
 //
-// If several axes act on each other, motion/shared_tick.h brings an axis to any moment between.
+// If several axes act on each other, motion/shared_tick.h brings an axis to any moment in between.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr bool is_before(const Instant& one, const Instant& other) {
   return one.tick < other.tick || (one.tick == other.tick && one.after_s < other.after_s);
 }
 
-/// The position of an axis: its travel, and the pulses besides it.
+/// The position of an axis: its travel, and the extra pulses that are not travel.
 struct AxisPlace {
   std::int64_t travel_pulses = 0;
   std::int64_t backlash_sent = 0;
@@ -36,14 +36,14 @@ class AxisTick {
   const Instant& next();
   /// Goes to a moment that is not after next().
   void go_to(Instant at);
-  /// Returns where that would bring the axis.
+  /// Returns where go_to(at) would bring the axis.
   AxisPlace place_at(const Instant& at);
   /// Goes to next() and handles what happens there.
   void look();
   bool is_over() const { return is_over_; }
   /// Recomputes how far the axis may go from here before anything can happen.
   void watch() { axis_.watch(here_); }
-  /// For an axis that only its path moves: moves by `pulses` and handles everything there.
+  /// Moves by `pulses` and handles everything there. For an axis that only its path moves.
   void go_by(std::int64_t pulses, Instant at);
   /// Makes the axis check everything again at its present position. Call it after another object has changed
   /// the axis.

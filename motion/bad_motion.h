@@ -17,7 +17,7 @@ enum class Refusal : std::uint8_t {
   no_room,       // a queue or a table of fixed size is full
 };
 
-/// An impossible motion. what() is one line: "<law>: <quantity> must be ..., is <value>".
+/// Thrown for an impossible motion. what() is one line: "<law>: <quantity> must be ..., is <value>".
 class BadMotion : public std::invalid_argument {
  public:
   BadMotion(Refusal refusal, std::string_view law, std::string_view require)
@@ -29,7 +29,7 @@ class BadMotion : public std::invalid_argument {
   Refusal refusal_;
 };
 
-/// Check a value at the beginning of a law. `law` and `quantity` are words of the message.
+/// Check a value that a law is given. `law` and `quantity` are words of the message.
 void require_finite(double value, std::string_view law, std::string_view quantity);
 void require_positive(double value, std::string_view law, std::string_view quantity);      // finite and > 0
 void require_not_negative(double value, std::string_view law, std::string_view quantity);  // finite and >= 0

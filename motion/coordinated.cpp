@@ -25,7 +25,7 @@ std::int64_t nearest(double value) {
   return value < 0 ? -whole : whole;
 }
 
-/// Rounds towards zero, except that a value short of a pulse by rounding errors only is that pulse.
+/// Rounds towards zero, but a value that misses a pulse only by rounding errors counts as that pulse.
 std::int64_t whole(double value) {
   constexpr double kAlmost = 1e-6;
   const double size = std::min(std::abs(value) + kAlmost, 1e18);
@@ -124,7 +124,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
   }
   if (!ahead.is_quiet || !has_edges_near) [[likely]]
     return ahead;
-  // By the longest axis it is up to 1.8 times as long.
+  // If the longest axis is the measure, the way is up to 1.8 times as long.
   const double length_u = 2 * std::max(0.0, ahead.gone.to_u - run.began_at(ahead.gone, tick));
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     const Axis* axis = axis_at(axis_of[i], axes);

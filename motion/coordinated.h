@@ -37,11 +37,11 @@ struct Coordinated {
   Cause begin(const Point& from, std::span<Axis> axes, Tick now);
 
   /// Runs one tick of the axes that took part before it, instead of their own step(). `environment` and
-  /// `pulses` have one element for each of `axes`; `pulses` is added to, signed as the pulses are sent. When
-  /// one axis is stopped, for any reason, all axes stop at their present positions and the rest of the path
-  /// is abandoned. When the queue has run empty at rest, the axes are released, unless the owner keeps them
-  /// with `stays_engaged`. An axis that must decelerate slows down all of them from there on. If axes act on
-  /// each other within a tick, use motion/shared_tick.h.
+  /// `pulses` have one element for each of `axes`; the pulses are added to `pulses`, signed as they come out.
+  /// When one axis is stopped, for any reason, all axes stop at their present positions and the rest of the
+  /// path is abandoned. When the queue has run empty at rest, the axes are released, unless the owner keeps
+  /// them with `stays_engaged`. An axis that must decelerate slows down all of them from there on. If axes
+  /// act on each other within a tick, use motion/shared_tick.h.
   void step(Tick tick, std::span<Axis> axes, std::span<const Environment> environment,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 

@@ -15,7 +15,7 @@ struct Counter {
     linear,  // 64 bits: never wraps
     bits32,  // signed 32 bits (MCX314 LP and EP, Simple2-R3 coordinates)
     bits28,  // signed 28 bits (PCL6045 RCUN)
-    ring,    // 0 .. ring_top: past the top comes 0 (MCX314 variable ring)
+    ring,    // 0 .. ring_top: wraps from the top to 0 (MCX314 variable ring)
   };
 
   Range range = Range::linear;
@@ -29,8 +29,8 @@ struct Counter {
   /// Sets the count at `travel` to `value`, wrapped into the range.
   void set(std::int64_t value, std::int64_t travel);
 
-  /// Returns how many steps (1 ...) in `direction` (+1 or -1) it takes until the count is `value`, or nothing
-  /// if it never will be.
+  /// Returns how many steps (1 or more) in `direction` (+1 or -1) it takes until the count is `value`, or
+  /// nothing if it never will be.
   std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
 
   /// Return the minimum and the maximum count, or nothing for linear.

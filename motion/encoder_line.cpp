@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// No axis moves further, and no count is searched beyond.
+/// No axis moves further, and no count is searched for beyond this.
 constexpr std::int64_t kFarthestCount = std::int64_t{1} << 56;
 
 Wide floor_quotient(Wide value, std::int64_t by) {
@@ -53,7 +53,7 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
   std::int64_t outside = std::max<std::int64_t>(about - leeway, 0);
   std::int64_t inside = about + leeway;
   if (outside > 0 && is_there(outside)) outside = 0;
-  if (!is_there(inside)) return std::nullopt;  // at a stop before that
+  if (!is_there(inside)) return std::nullopt;  // the machine reaches a stop before that
   while (inside - outside > 1) {
     const std::int64_t middle = outside + (inside - outside) / 2;
     (is_there(middle) ? inside : outside) = middle;

@@ -1,7 +1,7 @@
 // The encoder count of a machine as a function of an axis's travel, as long as the machine goes where the
 // pulses take it: a straight line, in whole counts.
 //
-//   travel ── way, origin, stops ──> place ── counts / pulses ──> counts ── factor, zero, divider ──> count
+//   travel ── mirror, origin, stops ──> place ── counts/pulses ──> counts ── factor, zero, divider ──> count
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace understudy::motion {
 
 struct EncoderLine {
   // The machine's part: floor(place * counts / pulses). The place is the axis's position, rising in the
-  // machine's own direction, from the point where the encoder reads 0. Counts for this many `pulses`; 0: the
-  // count is not known before the tick ends.
+  // machine's own direction, from the point where the encoder reads 0. `counts` come for each `pulses` of the
+  // machine; 0: the count is not known before the tick ends.
   std::int64_t counts = 0;
   std::int64_t pulses = 1;         // > 0
   std::int64_t origin = 0;         // travel at which the encoder reads 0
@@ -33,8 +33,8 @@ struct EncoderLine {
   std::int64_t at(std::int64_t travel) const;
   /// Returns +1 if the count rises with the travel, -1 if it falls.
   int sense() const { return (mirrored != reversed) != turned ? -1 : +1; }
-  /// Returns how many pulses (1 ...) in `direction` it takes until the count has changed by `count_steps` (1
-  /// ...) in its direction of change, or nothing if it never will.
+  /// Returns how many pulses (1 or more) in `direction` it takes until the count has changed by `count_steps`
+  /// (1 or more), or nothing if it never will.
   std::optional<std::int64_t> steps_until(std::int64_t travel, int direction, std::int64_t count_steps) const;
 };
 

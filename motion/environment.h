@@ -26,7 +26,7 @@ enum class Signal : std::uint8_t {
 };
 inline constexpr int kSignals = 9;
 
-/// One bit a signal.
+/// One bit per signal.
 using Signals = std::uint16_t;
 constexpr Signals bit(Signal signal) { return static_cast<Signals>(1U << static_cast<unsigned>(signal)); }
 
@@ -42,7 +42,7 @@ struct Environment {
 
   static constexpr std::size_t kMaxZones = 12;
 
-  /// Raise this after changing anything below; axes check again only then.
+  /// Increment this after changing anything below; axes check again only then.
   std::uint32_t version = 0;
   Signals steady = 0;  // signals that are on wherever the axis is
   std::uint8_t zone_count = 0;
@@ -51,8 +51,8 @@ struct Environment {
   std::int64_t index_period = 0;
   std::int64_t index_at = 0;
   std::int64_t index_width = 1;
-  // Beyond these two the index stays as it is at them: the machine moves no further, however many pulses
-  // come.
+  // Beyond these two positions the index stays as it is there: the machine moves no further, however many
+  // pulses come.
   std::int64_t index_from = INT64_MIN;
   std::int64_t index_to = INT64_MAX;
   EncoderLine encoder{};  // what the axis's encoder counts along the travel
@@ -61,17 +61,16 @@ struct Environment {
 
   /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
   void add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
-  /// Adds a signal that is on everywhere else: it goes off between `from` and `to`, and comes on again
-  /// `slack` beyond them. Throws as add() does.
+  /// Adds a signal that is on everywhere except between `from` and `to`. After going off there, it comes on
+  /// again `slack` beyond them. Throws as add() does.
   void add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
   void set_steady(Signal signal, bool on);
 
-  /// Returns the signals at `travel`. `before` holds the signals that were on until then, which slack keeps
-  /// on.
+  /// Returns the signals at `travel`. `before` holds the signals that were on before; slack may keep them on.
   Signals at(std::int64_t travel, Signals before = 0) const;
   bool depends_on_place() const { return zone_count > 0 || index_period > 0; }
 
-  /// Returns how many pulses (1 ...) in `direction` (+1 or -1) it takes until some signal may change, or
+  /// Returns how many pulses (1 or more) in `direction` (+1 or -1) it takes until some signal may change, or
   /// nothing if none will.
   std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
 };

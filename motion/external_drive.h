@@ -12,7 +12,8 @@ struct ExternalDrive {
     off,
     multiply,  // EXP- low: a rising edge of EXP+ sends `pulses` forwards, a falling edge as many backwards
     fixed,  // a falling edge of EXP+ or EXP- sends `pulses` forwards or backwards, unless some are being sent
-    continuous,  // while EXP+ or EXP- is low, keeps going forwards or backwards; at high again it stops
+    continuous,  // moves forwards while EXP+ is low, backwards while EXP- is low; stops when it goes high
+                 // again
   };
 
   Mode mode = Mode::off;

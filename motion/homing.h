@@ -23,26 +23,28 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 struct HomingPhase {
   enum class Does : std::uint8_t {
     search,  // goes in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
-    go,      // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given;
-         // one that runs on is past them at the speed of the next phase, or moves at that from the start if
-         // they are too few to decelerate to it
-    go_back,             // to the travel that a phase before marked
+    // Moves by `distance_pulses`, repeatedly while a signal of `again_while` is on, if any is given. If it
+    // runs on, it ends at the speed of the next phase, or has that speed from the start if the distance is
+    // too short to decelerate in.
+    go,
+    go_back,             // goes to the travel that an earlier phase marked
     move_at_zero_speed,  // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
   enum class Then : std::uint8_t {
     stop_at_once,
     slow_down,
-    run_on,  // into the next phase, a search in the same direction; another one begins with a stop at once
+    run_on,  // continues into the next phase, a search in the same direction; before any other phase it stops
+             // at once
   };
 
   // Where homing goes: the number of a row, or one of these.
-  static constexpr std::int8_t kRowBelow = -1;  // below the last row: home is found
+  static constexpr std::int8_t kRowBelow = -1;  // the row below; below the last row, home is found
   static constexpr std::int8_t kFail = -2;
   static constexpr std::int8_t kNext = -3;   // as in `next`
   static constexpr std::int8_t kAwait = -4;  // nowhere: the signal must go away and come again
 
   Does does = Does::search;
-  std::int8_t direction = +1;  // +1 or -1; of go and go_back the sign of the distance
+  std::int8_t direction = +1;  // +1 or -1; go and go_back take the sign of their distance
   std::int8_t speed = 0;       // index into HomingProgram::speeds
   Signal until = Signal::home;
   bool until_on = true;
@@ -58,7 +60,7 @@ struct HomingPhase {
   // The row that follows:
   std::int8_t next =
       kRowBelow;  // after the signal is met and, unless the phase runs on, the axis has stopped
-  std::int8_t if_already = kNext;  // if `until` is as sought at the phase's beginning; kNext: that is met
+  std::int8_t if_already = kNext;  // if `until` is as sought when the phase begins; kNext: it counts as met
   std::int8_t if_gone = kNext;     // if the axis is at rest and `until` is no longer as sought
   // If a limit ahead stops the phase, or keeps it from starting, before the signal is met. Unless this is
   // kFail, a limit after the signal is met does no harm.
@@ -92,8 +94,8 @@ struct Homing {
   HomingProgram program;
   std::int8_t phase = -1;     // the row that runs; -1: not homing
   std::int8_t ended_in = -1;  // the row that ran when the last homing ended
-  Cause
-      ended_by{};  // arrived: home is found. If the axis decelerates to give up, this is set before it stops
+  // arrived: home is found. If the axis decelerates to give up, this is set before it stops.
+  Cause ended_by{};
   bool met = false;               // true: the row has met its signal and comes to a stop
   std::int32_t counted = 0;       // edges of the row's signal so far
   std::int64_t began_pulses = 0;  // travel where the row began
@@ -107,7 +109,7 @@ struct Homing {
   /// Returns the speed law of the next row if the current row is a distance that passes into it without
   /// stopping; otherwise null.
   const SpeedLaw* runs_on_by() const;
-  /// Returns the profile of such a row.
+  /// Returns the profile of the current row. Call it only if runs_on_by() is not null.
   Profile plan_to_run_on() const;
 };
 

@@ -204,7 +204,7 @@ void Axis::go_to_phase(std::int8_t number, Instant at, bool running) {
 /// Begins phase `number`, or the first one after it that has anything to do. Returns none if it runs or home
 /// is found. `running`: the axis continues in motion.
 Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
-  // A table may contain a circle of phases with nothing to do; each is entered at most once.
+  // A table may contain a circle of phases with nothing to do, so the number of phases entered is limited.
   for (std::size_t entered = 0; entered <= HomingProgram::kMaxPhases; ++entered) {
     if (number < 0) return Cause::homing_failed;  // kFail
     if (number >= homing.program.phase_count) {

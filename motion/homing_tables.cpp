@@ -104,7 +104,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   }
   const std::int8_t search = program.phase_count;
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
-  // Beyond the switch it would search for the index from a wrong place (《X32.》 note); modes 0 and 9 do not.
+  // Beyond the switch, an index search would start in a wrong place (《X32.》 note); modes 0 and 9 have none.
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
   program.add({.direction = on,
                .speed = kFast,
@@ -164,7 +164,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
   const bool goes_on = how.distance_pulses * direction > 0;
-  std::int64_t behind = 0;  // the distance in which it slows down there
+  std::int64_t behind = 0;  // the distance beyond the target in which it slows down
   if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
     behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);
@@ -252,13 +252,13 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
 
 HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
-    // It would turn back at the limit as well, at the same low speed.
+    // At a limit it turns back, also at speed 0.
     HomingProgram both_ways;
     both_ways.add({.does = Does::move_at_zero_speed, .direction = sign(how.direction), .if_limit = 1});
     both_ways.add({.does = Does::move_at_zero_speed, .direction = opposite(how.direction)});
     return both_ways;
   }
-  // Rows that other rows lead to.
+  // The numbers of the rows that other rows lead to.
   constexpr std::int8_t kLeave = 1;
   constexpr std::int8_t kOtherWay = 2;
   constexpr std::int8_t kBeyond = 3;

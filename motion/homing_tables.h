@@ -57,8 +57,8 @@ struct Rsm8194hHoming {
   SpeedLaw drive;                    // V: steps 1 and 4
   SpeedLaw home;                     // HV: steps 2 and 3
   std::int64_t offset_pulses = 0;    // of step 4, >= 0
-  bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction is used instead of HOME,
-  bool limit_is_near_home = false;   // and the limit in step 1's direction instead of NHOME
+  bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction replaces HOME
+  bool limit_is_near_home = false;   // HOME_LIMIT 1: the limit in step 1's direction replaces NHOME
   bool soft_limits_lead_on = false;  // true: soft limits act as hard ones do
 };
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
@@ -66,7 +66,7 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
 /// Simple2-R3, *_Home_Speed, *_Home_AccTime, *_GoHome_DIR. The manual gives no sequence. This one always ends
 /// on the edge of the home switch that is met in `direction`, wherever it began.
 struct Simple2Homing {
-  int direction = -1;  // GoHome_DIR: 0 -1, 1 +1
+  int direction = -1;  // GoHome_DIR: 0 is -1, 1 is +1
   SpeedLaw speed;      // a top speed of 0 hangs, as every Simple2-R3 move does
 };
 HomingProgram simple2_homing(const Simple2Homing& how);

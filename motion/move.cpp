@@ -84,7 +84,7 @@ Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   return profile;
 }
 
-/// Each quantity may be sound, and the ramp still last 1e400 s.
+/// Even if each quantity is sound, the ramp may last 1e400 s.
 void require_doubles_hold(const Profile& profile, bool endless = false) {
   bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
@@ -176,7 +176,7 @@ Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw
 
 namespace {
 
-/// Speeds below the start speed are jumped from and to, without acceleration.
+/// Speeds below the start speed are skipped without acceleration.
 Sample without_jump(const Sample& now, const SpeedLaw& law) {
   const double start = start_speed(law);
   if (now.speed_u_s >= start) return now;
@@ -256,7 +256,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
     return change.end_position_u + slow_down_distance(law, peak);
   };
   const double room = target_u - now.position_u;
-  // The present acceleration brings the speed at least here.
+  // The present acceleration brings the speed at least to this value.
   const double faded = speed_without_acceleration(now, law);
   Profile stop = slow_to_stop(now, law);
   if (std::abs(stop.end_position_u - target_u) <= rounding_of(target_u)) {
@@ -280,7 +280,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   Profile profile = Profile::from(now.position_u);
   append_change(profile, now, peak, law);
   const double cruise = target_u - profile.end_position_u - slow_down_distance(law, peak);
-  // A rounding error would take long to creep.
+  // A rounding error would take a long time to cover.
   if (cruise > rounding_of(target_u) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
   finish(profile, law, peak, target_u);
   require_doubles_hold(profile);

@@ -7,7 +7,7 @@
 //             grows evenly with the angle
 //
 // Units: one unit of length for all axes (pulses, 0.001 mm, ...): u. Angles in radians, counter-clockwise
-// from the first axis of the plane towards its second. A path of no length is legal: it is over at once.
+// from the first axis of the plane towards its second. A path of no length is valid: it is over at once.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ enum class OffCircle : std::uint8_t {
   blend,     // the radius changes evenly from one to the other: the end point is met exactly
   quadrant,  // as chips draw it: stay on the circle, end in the end point's quadrant where the shorter of the
              // two coordinates (from the centre; the first axis's if equal) is reached; the path then ends
-             // there, not at the point given. A shorter one beyond the radius: BadMotion(no_such_arc)
+             // there, not at the point given. If the shorter one is beyond the radius: BadMotion(no_such_arc)
 };
 
 /// How length is measured, and so what a constant speed along the path means.
@@ -78,8 +78,8 @@ struct Path {
   /// measured by its longest axis, that axis is at a whole unit at each whole unit of length, if it began at
   /// one.
   Point at(double along_u) const;
-  /// Returns the unit vector of movement there (true geometry, independent of the measure), or zero for a
-  /// path of no length.
+  /// Returns the unit vector of movement at `along_u` (true geometry, independent of the measure), or zero
+  /// for a path of no length.
   Point direction_at(double along_u) const;
 };
 
@@ -97,10 +97,10 @@ struct ArcOptions {
 };
 
 /// Makes an arc about `centre` (its coordinates in the plane count) from `begin` to `end`, in the direction
-/// of `turn`. If `end` == `begin` in the plane, the arc is a full circle; so is an end that the centre sees
-/// within 1e-9 rad of `begin`, on either side, so rounding never decides between a whole turn and none.
-/// `more_turns` >= 0 adds whole turns, up to 1e6 rad in all. The difference between `end` and `begin` outside
-/// the plane is the rise, which makes a helix. A centre on `begin` or `end` throws BadMotion(no_such_arc).
+/// of `turn`. If `end` == `begin` in the plane, or within 1e-9 rad of it on either side as seen from the
+/// centre, the arc is a full circle, so rounding never decides between a whole turn and none. `more_turns` >=
+/// 0 adds whole turns, up to 1e6 rad in all. The difference between `end` and `begin` outside the plane is
+/// the rise, which makes a helix. A centre on `begin` or `end` throws BadMotion(no_such_arc).
 Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Turn turn,
                    const ArcOptions& options = {}, std::int64_t more_turns = 0);
 
@@ -110,8 +110,8 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
 Path arc_by_sweep(const Point& begin, const Point& centre, double sweep_rad,
                   const Point& rise = Point::Zero(), const ArcOptions& options = {});
 
-/// Makes an arc of `radius_u` to `end`. A radius > 0 takes the way of at most half a turn, < 0 the longer
-/// one; if both are half a turn they are the same arc, and `turn` decides its side. The chord may exceed
+/// Makes an arc of `radius_u` to `end`. A radius > 0 gives the arc of at most half a turn, < 0 the longer
+/// one. If both are half a turn they are the same arc, and `turn` decides its side. The chord may exceed
 /// twice the radius by radius_tolerance_u, which gives a half circle. A longer chord, `end` == `begin` in the
 /// plane, or a radius of 0 throws BadMotion(no_such_arc). The rise is as in arc_by_centre.
 Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn turn,
@@ -123,7 +123,8 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
 Path arc_by_three_points(const Point& begin, const Point& middle, const Point& end,
                          const ArcOptions& options = {});
 
-/// Like the above, in the plane that the three points span, even an oblique one (all four axes count).
+/// Like arc_by_three_points(), in the plane that the three points span, even an oblique one (all four axes
+/// count).
 Path arc_in_space(const Point& begin, const Point& middle, const Point& end);
 
 /// Makes a spiral about `centre` through `sweep_rad`, whose radius changes by `growth_u_turn` for each whole

@@ -31,8 +31,7 @@ Point of_circle(const Path& path) {
     const double a = path.abscissa[i];
     const double o = path.ordinate[i];
     if (!passes(path, angle_of(-a, o))) continue;
-    // Across the plane, the rise adds up along the same axis only if the plane is oblique: then this is a
-    // bound.
+    // The rise adds to the same axis only if the plane is oblique; then this is an upper bound.
     greatest[i] = std::min(1.0, (std::sqrt(a * a + o * o) * turn + std::abs(path.rise[i])) / whole);
   }
   return greatest;

@@ -6,7 +6,7 @@
 namespace understudy::motion {
 
 /// Returns for each axis the largest component of the unit direction anywhere along the path: 0 if the axis
-/// does not move, at most 1. For a spiral it is an upper bound, else it is exact (but for a helix in an
+/// does not move, at most 1. For a spiral it is an upper bound, else it is exact (except for a helix in an
 /// oblique plane). An axis with a speed limit of its own allows a path speed of that limit divided by this
 /// (SUPER-40NC: no axis exceeds its X12).
 Point greatest_direction(const Path& path);

@@ -36,7 +36,8 @@ bool meets(const Point& end, const Point& begin) {
   return (end - begin).cwiseAbs().maxCoeff() <= 1e-6 * size;
 }
 
-/// A law that cannot be planned must be refused when it is given, not in the tick in which a chain begins.
+/// A law that cannot be planned with must be refused when it is given, not in the tick in which a chain
+/// begins.
 void require_plans(SpeedLaw law, double override_factor) {
   if (override_factor > 0) law.top_speed_u_s *= override_factor;
   bool may_creep = law.slow_down_at_u || law.slow_down_offset_u > 0;
@@ -60,7 +61,7 @@ void require_plans(SpeedLaw law, double override_factor) {
 }  // namespace
 
 /// Returns the path whose end counts for the joint with the next one. Paths of no length have no direction,
-/// and so hide no corner.
+/// so they cannot hide a corner.
 const Path& PathRun::path_before(std::size_t number) {
   std::size_t before = number - 1;
   while (before > 0 && piece(before).path.length_u == 0 && piece(before).joined) --before;
@@ -86,7 +87,7 @@ void PathRun::append(const Path& path, Joint joint, Tick now) {
     lay_out_chain(now + 1);
   } else if (chain_count_ + 1 == count_) {
     added.joined = false;                // the previous chain will have ended
-    if (open_ && running_) replan(now);  // at rest, as required now
+    if (open_ && running_) replan(now);  // it must now stop at its end
   }
 }
 
@@ -180,7 +181,7 @@ double PathRun::elapsed_s(Tick now) const { return seconds(now - begin_tick_) - 
 
 Sample PathRun::sample(Tick now) const {
   if (chain_count_ == 0) return {.position_u = chain_end_u_};
-  // It has not begun yet: the start speed is not there yet.
+  // It has not begun yet, so it does not have the start speed yet.
   if (elapsed_s(now) < 0) return {.position_u = profile_.sample(0).position_u};
   Sample here = profile_.sample(elapsed_s(now));
   // A path cannot go back, but the last digits of an S-curve's end may go below 0.
@@ -248,14 +249,14 @@ Profile PathRun::cut_at_end(Profile profile) const {
   return profile;
 }
 
-/// Plans the profile again, from the place at `now` on.
+/// Plans the profile again from the place at `now`.
 void PathRun::replan(Tick now) {
   if (chain_count_ == 0) return;
   Tick from = std::max(now, begin_tick_);
   const Sample here = sample(from);
   if (here.position_u >= chain_end_u_) return;
-  // From standstill, a motion is at its beginning in the next tick, as everywhere. A motion that is at its
-  // beginning already stays there; otherwise commands in every tick would keep it from ever starting.
+  // From standstill, a motion begins in the next tick, as everywhere. A motion that is at its beginning
+  // already stays there; otherwise commands in every tick would keep it from ever starting.
   const bool stands = elapsed_s(from) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {
@@ -284,7 +285,7 @@ bool PathRun::pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretc
   const Instant at = moment_at(gone, tick, along_u);
   Sample here = profile_.sample(elapsed_s(tick - 1) + at.after_s + (at.tick == tick ? kTick_s : 0));
   here.speed_u_s = std::max(0.0, here.speed_u_s);
-  // The run may have entered further paths since; it is before them again.
+  // The run may have entered further paths in this tick; it goes back before them.
   while (along_u < piece(0).begin_u && completed_ > 0) {
     head_ = (head_ + kMaxPaths - 1) % kMaxPaths;
     ++count_;

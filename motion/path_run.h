@@ -1,11 +1,12 @@
-// A run along paths: several, one after another, driven by one profile along their length.
+// A run along several paths, one after another, driven by one profile along their length.
 //
 //        ┌ chain: run through without stopping ┐   ┌ next chain
 //   ●────●──────────●╮                     ╭───●   ●─────────●
 //                     ╰────────────────────╯   stop
 //
 // Paths that are joined make a chain, and a chain is one coordinate: its length so far. Speed, override,
-// pause and resume all change the profile along it, so the place stays on the path whatever happens in time.
+// pause and resume all change the profile along it, so the place stays on the path however the timing
+// changes.
 #pragma once
 
 #include <array>
@@ -39,16 +40,16 @@ class PathRun {
  public:
   static constexpr std::size_t kMaxPaths = 32;
 
-  /// What a joined path does that arrives after the run has begun to slow down for its end: the run speeds up
-  /// again, or the path begins from rest, as SLIM does.
+  /// What happens when a joined path arrives after the run has begun to slow down for its end: the run speeds
+  /// up again, or the path begins from rest, as on SLIM.
   enum class LateJoint : std::uint8_t { speed_up_again, from_rest };
 
   bool operator==(const PathRun&) const = default;
 
   void set_late_joint(LateJoint how) { late_joint_ = how; }
 
-  /// Adds a path to the end of the queue. Throws BadMotion(no_room) when full(). A path joined to the chain
-  /// that runs lengthens it at once; `now` is the last tick stepped.
+  /// Adds a path to the end of the queue. Throws BadMotion(no_room) when full(). A path joined to the running
+  /// chain lengthens it at once. `now` is the last tick stepped.
   void append(const Path& path, Joint joint, Tick now);
   bool full() const { return count_ == kMaxPaths; }
   std::size_t queued() const { return count_; }
@@ -56,8 +57,8 @@ class PathRun {
   std::size_t queued_after(Tick tick) const;
 
   /// Sets the speed of the current path and of those to come. It may be called before a run begins and at any
-  /// time after; it acts from `now` on. Throws as motion/move.h's plan() does, for a law that a chain of some
-  /// length could not be planned with. Acceleration may be changed only at rest; otherwise it throws
+  /// time after; it acts from `now` on. Throws as plan() of motion/move.h does if a chain of some length
+  /// could not be planned by this law. Acceleration may be changed only at rest; otherwise it throws
   /// BadMotion(out_of_range).
   void set_speed(const SpeedLaw& speed, Tick now);
   const SpeedLaw& speed() const { return law_; }
@@ -97,8 +98,8 @@ class PathRun {
   bool at_rest(Tick now) const;                            // true if the speed after tick `now` is 0
   /// Returns length along the current chain, speed and acceleration after tick `now`.
   Sample sample(Tick now) const;
-  /// Returns how fast each coordinate changes there, u/s. On a corner it is the velocity of the path after
-  /// it.
+  /// Returns how fast each coordinate changes after tick `now`, in u/s. On a corner it is the velocity of the
+  /// path after it.
   Point velocity(Tick now) const;
   double chain_length_u() const { return chain_end_u_; }
 
@@ -125,17 +126,19 @@ class PathRun {
   /// Returns the moment at which the run reaches a length along the chain between the tick's beginning and
   /// `to_u`.
   Instant moment_at(const Stretch& gone, Tick tick, double along_u) const;
-  /// Returns the place at that length.
+  /// Returns the place at that length along the chain.
   Point place_on(const Stretch& gone, double along_u) const;
   /// Returns true if a coordinate may have reversed, as it can on an arc.
   bool bends(const Stretch& gone) const { return pieces_[gone.last_piece].path.kind != Path::Kind::line; }
   /// Returns the end of the span after `along_u` in which each coordinate keeps its direction, except for one
   /// reversal; at most `to_u`.
   double end_of_span(const Stretch& gone, double along_u) const;
-  /// Returns in which direction coordinate `i` moves there; on a corner, that of the path after it.
+  /// Returns the direction in which coordinate `i` moves at `along_u`; on a corner, that of the path after
+  /// it.
   double way_on(const Stretch& gone, double along_u, Eigen::Index i) const;
-  /// Slows down by the ramps of `by` from that length on, which the tick has passed; the tick then ends
-  /// accordingly. Returns false and changes nothing if the run is paused already or the chain is over.
+  /// Slows down by the ramps of `by` from `along_u` on, which the tick has passed; the tick then ends
+  /// accordingly. Returns false and changes nothing if the run is paused already or has not begun, or the
+  /// chain is over.
   bool pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretch& gone);
   /// Returns the number of paths completed in the last tick.
   int completed() const { return completed_; }

@@ -76,11 +76,11 @@ std::optional<double> PathTick::first_beyond(std::size_t i) const {
   return std::nullopt;
 }
 
-/// Like the above, on a stretch on which the coordinate keeps its direction.
+/// Like first_beyond(i), on a stretch on which the coordinate keeps its direction.
 std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, double to_u) const {
   const Axis& mine = *axis(i);
   const auto travel = [&](double along_u) {
-    // At the tick's end the axis is where the run says.
+    // At the tick's end the axis is where the run puts it.
     if (along_u >= gone_.to_u) return target_[i];
     return path_.travel_at(i, path_.run.place_on(gone_, along_u)[static_cast<Eigen::Index>(i)]);
   };
@@ -92,7 +92,7 @@ std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, doubl
   return is_beyond(from_u) ? from_u : turnover(from_u, to_u, is_beyond).after;
 }
 
-/// Moves all axes to their places there; they handle what lies between.
+/// Moves all axes to their places at `along_u`; they handle everything in between.
 void PathTick::carry_to(double along_u, Instant at) {
   along_u_ = along_u;
   at_ = at;

@@ -32,7 +32,7 @@ class PathTick {
   bool is_over() const { return is_over_; }
   /// Goes to a moment that is not after next().
   void go_to(Instant at);
-  /// Returns the travel to which that would bring the axis of coordinate `i`.
+  /// Returns the travel to which go_to(at) would bring the axis of coordinate `i`.
   std::int64_t travel_at(std::size_t i, const Instant& at) const;
   /// Slows the path down from the present moment on, by the ramps of `by`.
   void slow_down(Cause why, const SpeedLaw& by);

@@ -39,8 +39,9 @@ struct Sample {
   double jerk_u_s3 = 0;
 };
 
-/// Returns how near to a whole pulse a position counts as having reached it: a few roundings of a position as
-/// large as the distance. A larger tolerance would send the last pulses of a slow, long ramp too early.
+/// Returns how close to a whole pulse a position must be to count as having reached it: a few rounding errors
+/// of a position as large as the distance. A larger tolerance would send the last pulses of a slow, long ramp
+/// too early.
 constexpr double pulse_tolerance(double distance_u) {
   const double tolerance = 1e-12 + distance_u * 5e-16;
   return tolerance < 0.25 ? tolerance : 0.25;
@@ -59,7 +60,7 @@ inline Sample sample_segment(const Segment& segment, double t_s) {
   };
 }
 
-/// A default-made profile is a move of no distance and no duration.
+/// A default-constructed profile is a move of no distance and no duration.
 struct Profile {
   // Twelve suffice for a change of target that overshoots: up to four segments to stop, seven to come back
   // and one to creep.
@@ -115,7 +116,8 @@ inline void Profile::append(double segment_duration_s, double speed_u_s, double 
   end_speed_u_s = end.speed_u_s;
 }
 
-// Defined in the header, to let callers that need only the place, as each tick of a path does, skip the rest.
+// Defined in the header, so that callers that need only the place, as each tick of a path does, skip the
+// rest.
 inline Sample Profile::sample(double t_s) const {
   if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
   if (t_s <= 0) return sample_segment(segments[0], 0);

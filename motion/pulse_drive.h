@@ -1,7 +1,7 @@
 // A pulse generator, as a value: a profile that runs on the clock, in whole pulses.
 //
-// It knows one direction and pulses. Its owner decides what a pulse means (a coordinate, a direction pin) and
-// when a move is allowed (servo, alarm, limit): motion/axis.h, or another device.
+// It has one direction and sends pulses. Its owner decides what a pulse means (a coordinate, a direction pin)
+// and when a move is allowed (servo, alarm, limit): motion/axis.h, or another device.
 #pragma once
 
 #include <cstdint>

@@ -13,22 +13,21 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Returns the part of the acceleration that the law can have. More than it could have built up from
-/// standstill, as after a change to a softer law, is not its own and drops at once. So fading at most doubles
-/// the speed.
+/// Returns the part of the acceleration that the law can have built up from standstill. Any excess, as after
+/// a change to a softer law, drops at once. So fading at most doubles the speed.
 double own_acceleration(const Sample& now, const RampLaw& up) {
   if (now.acceleration_u_s2 <= 0 || up.kind != RampLaw::Kind::jerk) return now.acceleration_u_s2;
   return std::min(now.acceleration_u_s2, std::sqrt(2 * up.jerk_u_s3 * now.speed_u_s) * (1 + 1e-12));
 }
 
-/// The jerk by which a law brings the acceleration to 0; 0 for laws that let it drop at once.
+/// Returns the jerk by which a law brings the acceleration to 0, or 0 for laws that let it drop at once.
 double usual_jerk(const RampLaw& law, const Sample& now) {
   switch (law.kind) {
     case RampLaw::Kind::jerk: return law.jerk_u_s3;
     case RampLaw::Kind::sections:
       if (law.section_u_s <= 0) return 0;
-      // A small change has sections smaller than S, and so a greater jerk. It has no straight part, where the
-      // jerk would not tell.
+      // A small change has sections smaller than S, and so a greater jerk. It has no straight part, on which
+      // the jerk would be 0.
       if (now.jerk_u_s3 != 0) return std::abs(now.jerk_u_s3);
       return law.acceleration_u_s2 * law.acceleration_u_s2 / (2 * law.section_u_s);
     case RampLaw::Kind::slope:
@@ -168,7 +167,7 @@ void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double t
   profile.append(shape.ends_s, from_u_s, 0, j);
   profile.append(shape.middle_s, from_u_s + at_ends, a, 0);
   profile.append(shape.ends_s, to_u_s - at_ends, a, -j);
-  // The sum of the parts may miss the speed by a rounding.
+  // The sum of the parts may miss the speed by a rounding error.
   if (profile.segment_count > 0 && shape.duration_s() > 0) profile.end_speed_u_s = to_u_s;
 }
 
@@ -191,7 +190,7 @@ void append_change(Profile& profile, const Sample& now, double to_u_s, const Ram
     const double size = std::abs(acceleration);
     const double faded = speed_without_acceleration(now, up, down, range);
     if (sign * (to_u_s - faded) > rounding_of_change(faded, to_u_s)) {
-      // Further in the same direction: to the maximum acceleration, along it, and out of it.
+      // Continues in the same direction: up to the maximum acceleration, along it, and back to 0.
       const double further = sign * (to_u_s - speed);
       const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
       const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));

@@ -1,7 +1,8 @@
 // How speed changes: the law of one ramp, from one speed to another. The acceleration is 0 at both ends.
 //
 //   speed      ╭───      Every ramp here is the same forwards and backwards, so it covers the mean of its two
-//            ╱            speeds times its duration. A law is therefore one function, duration of a change of
+//            ╱            speeds times its duration. A law is therefore one function, the duration of a
+//            change of
 //       ___╯              speed, and the shape that goes with it.
 //       ends middle ends
 //
@@ -44,7 +45,7 @@ struct RampLaw {
 void check(const RampLaw& law);
 
 /// The duration of a change of speed dv >= 0 is per_speed * dv + constant + per_root * sqrt(dv), in the form
-/// that holds at the given dv. Planners solve this.
+/// that holds at the given dv. Planners solve it for dv.
 struct RampTime {
   double per_speed = 0;
   double constant = 0;
@@ -81,7 +82,7 @@ struct SpeedRange {
 /// not matter) to `to_u_s`, with no acceleration there. The present acceleration is brought to 0 by the jerk
 /// of the law it belongs to (`up` for above 0, `down` for below), so the speed may pass `to_u_s` on the way;
 /// laws without jerk drop it at once. A section law continues with the present jerk, as that depends on the
-/// change under way. If a jerk is too small to keep the speed within `range`, a greater one is taken, except
+/// change under way. If a jerk is too small to keep the speed within `range`, a greater one is used, except
 /// for a jerk law going up: that passes range.most_u_s, up to at most speed_without_acceleration(), which is
 /// no more than twice the speed.
 void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,

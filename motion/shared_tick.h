@@ -8,8 +8,8 @@
 //   owner ├────────────────────────●──────┤     ● a moment that the owner has found between the edges
 //
 // Edges are handled in the order of their moments (kMoments in motion/axis.h); at equal moments the owner's
-// own first, then in the order of the axes, the path last. Edges that an action causes at its own moment come
-// next. If nothing can happen in the tick, each axis is stepped alone, at no extra cost.
+// own come first, then those of the axes in order, and the path's last. Edges that an action causes at its
+// own moment come next. If nothing can happen in the tick, each axis is stepped alone, at no extra cost.
 #pragma once
 
 #include <array>
@@ -31,20 +31,21 @@ class SharedTick;
 /// The owner of the axes, which acts when something happens to one of them.
 class EdgeOwner {
  public:
-  /// Called at tick.now(), where `axis` is. Other axes are there after they have been brought.
+  /// Called at tick.now(), which `axis` has reached. Other axes reach it by tick.bring().
   virtual void at_edge(SharedTick& tick, std::size_t axis, Events events) = 0;
-  /// Returns the first moment from tick.now() until `until` at which something happens that the axes do not
-  /// know: to a number that the owner makes of several, say. No edge comes before `until`. Asked only in
-  /// ticks with TickOfAxes::watched.
+  /// Returns the first moment from tick.now() to `until` at which something happens that the axes do not know
+  /// about, such as a change of a number that the owner computes from several axes. No edge comes before
+  /// `until`. Called only in ticks with TickOfAxes::watched.
   virtual std::optional<Instant> next_moment(SharedTick& /*tick*/, const Instant& /*until*/) { return {}; }
-  /// Called at that moment. What has happened must not be found again.
+  /// Called at that moment. next_moment() must not find the same event again.
   virtual void at_moment(SharedTick& /*tick*/) {}
 
  protected:
   ~EdgeOwner() = default;
 };
 
-/// A tick of some axes. The spans have one element an axis; pulses are added to, signed as they come out.
+/// A tick of some axes. The spans have one element per axis; the pulses are added to `pulses`, signed as they
+/// come out.
 struct TickOfAxes {
   Tick tick = 0;
   std::span<Axis> axes;
@@ -58,8 +59,8 @@ struct TickOfAxes {
 void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* path, EdgeOwner* owner,
                    bool stays_engaged = false);
 
-/// What the owner can call while it acts. Bring an axis to this moment before you change it, and change it
-/// for this moment only.
+/// The functions that the owner can call while it acts. Bring an axis to this moment before you change it,
+/// and change it for this moment only.
 class SharedTick {
  public:
   static constexpr std::size_t kMax = 4;

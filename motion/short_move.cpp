@@ -32,10 +32,10 @@ Sum sum_at(const RampLaw& up, const RampLaw& down, double x) {
           .c = first.per_root + second.per_root};
 }
 
-/// Returns the cube root of a value > 0, rather a little too large than too small, as a start for Newton's
+/// Returns the cube root of a value > 0, slightly too large rather than too small, as a start for Newton's
 /// method.
 double above_cube_root(double value) {
-  // A third of the exponent, then two steps of Newton, which come down from above.
+  // A third of the exponent, then three Newton steps, which come down from above.
   const auto bits = std::bit_cast<std::uint64_t>(value);
   double y = std::bit_cast<double>(bits / 3 + 0x2A9F789300000000ULL);
   for (int step = 0; step < 3; ++step) y = (2 * y + value / (y * y)) / 3;
@@ -91,7 +91,7 @@ double rise_within(double distance_u, double start_u_s, const RampLaw& up, const
     if (change <= low || change >= high) continue;
     (sum_at(up, down, change).distance(start_u_s, change) <= distance_u ? low : high) = change;
   }
-  // A form holds up to and including its change, so the form inside also holds at `high`.
+  // A form holds up to and including its change, so the form that holds below `high` also holds at `high`.
   const Sum sum = sum_at(up, down, high);
   const double x = sum.c > 0 ? solve_with_root(sum, start_u_s, 2 * distance_u)
                              : solve_quadratic(sum, start_u_s, 2 * distance_u);

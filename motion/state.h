@@ -35,7 +35,7 @@ std::vector<std::byte> save(const T& value);
 template <class T>
 std::size_t restore(T& value, std::span<const std::byte> bytes);
 
-/// Returns the FNV-1a hash of the saved bytes, without saving them.
+/// Returns the FNV-1a hash of the saved bytes.
 template <class T>
 std::uint64_t hash(const T& value);
 

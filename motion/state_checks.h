@@ -1,5 +1,6 @@
-// Checks of a restored value, for state.cpp: any bytes may come in, and a few numbers have more bit patterns
-// than states. They make sure that later ticks neither leave a table nor run away.
+// Checks of restored values, for state_fields.h. Saved bytes may be anything, and a few numbers have more bit
+// patterns than valid values. The checks make sure that later ticks neither index beyond a table nor run
+// away.
 #pragma once
 
 #include <array>
@@ -127,7 +128,7 @@ inline void check_restored(const Axis& axis) {
        {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses}) {
     require_reach(pulses);
   }
-  // Plan by the law now, as a later tick will: it must not be one that a command would have refused.
+  // Plan by the law now, as a later tick will: a command must not have refused it.
   const bool has_law = axis.task == Task::move || axis.task == Task::endless;
   if (has_law) {
     require_accepted([&] {

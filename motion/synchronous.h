@@ -1,7 +1,7 @@
 // Synchronous actions between axes: events on one axis make others start, stop or latch their positions.
 //
 // As on the MCX314, a trigger axis has factors (a mask of its events) and a mask of the axes it activates.
-// Each axis has one action, which it does when any trigger activates it. Source: RS-M8194H manual 7.3.
+// Each axis has one action, which it performs when any trigger activates it. Source: RS-M8194H manual 7.3.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct SyncAction {
   bool operator==(const SyncAction&) const = default;
 };
 
-/// The actions that up to four axes do for each other. Axes are numbered 0 .. 3; masks have one bit an axis.
+/// The actions that up to four axes do for each other. Axes are numbered 0 .. 3; masks have one bit per axis.
 struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 
@@ -62,7 +62,7 @@ struct SyncTable {
   bool operator==(const SyncTable&) const = default;
 };
 
-/// The part of the actions that the owner has to do.
+/// The part of the actions that the owner must perform.
 struct SyncOutcome {
   Events fired = 0;                  // factors of the trigger that fired
   std::uint8_t outputs = 0;          // axes whose action has an output
@@ -74,9 +74,9 @@ struct SyncOutcome {
 };
 
 /// Acts on events of the axis `trigger` at this moment; the activated axes are brought here, in order.
-/// Latches, stops and speeds have the values of this moment. A drive has its beginning in the next tick, like
-/// one commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes
-/// that do not exist are omitted. Counters belong to the owner: latches give travel.
+/// Latches, stops and speeds have the values of this moment. A drive begins in the next tick, like one
+/// commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes that
+/// do not exist are omitted. Counters belong to the owner: latches give travel.
 SyncOutcome act(SyncTable& table, std::size_t trigger, Events events, SharedTick& tick);
 
 }  // namespace understudy::motion

@@ -5,7 +5,7 @@
 
 namespace understudy::motion {
 
-/// Simulated milliseconds since power-up: the tick that every axis steps by.
+/// Simulated milliseconds since power-up. Every axis is stepped once per tick.
 using Tick = std::int64_t;
 
 inline constexpr double kTicksPerSecond = 1000.0;

@@ -45,9 +45,9 @@ struct CapturedPacket {
   SimTime time{0};  // when its first character began
   std::span<const std::uint8_t> bytes;
   Remark remark = Remark::none;
-  bool is_text = false;  // of a line of text, and not a Modbus frame
-  std::string_view
-      faults{};  // effects of faults; without bytes: on a message that was dropped or captured before
+  bool is_text = false;  // part of a line of text, not a Modbus frame
+  // Effects of faults. Without bytes, they concern a message that was dropped or captured before.
+  std::string_view faults{};
   std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
 };
 

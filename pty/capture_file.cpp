@@ -52,7 +52,7 @@ void CaptureFile::begin(std::vector<CapturedLine> lines) {
   } catch (const OutputError& error) {
     refuse(path_, error);
   }
-  // Each packet is one write, so that a reader finds whole packets at any time, also after a kill.
+  // Each packet is one write, so that a reader finds whole packets at any time, even after a kill.
   writer_ = std::make_unique<BackgroundWriter>(kMaxWaiting,
                                                [this](std::string_view bytes) { return file_.write(bytes); });
 }

@@ -73,7 +73,7 @@ void CaptureFrames::on_speech(const Speech& speech) {
   faults_.clear();
 }
 
-/// A text station sends a reply in pieces, and not at once.
+/// A text station sends its reply later and in pieces, so the strikes are a packet of their own.
 void CaptureFrames::on_strike(const StruckMessage& message) {
   give_strikes();
   faults_ = text_of(message.strikes);
@@ -89,7 +89,7 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
   faults_.clear();
 }
 
-/// Reports strikes on a reply that was not sent in the end.
+/// Reports strikes on a reply that was never sent.
 void CaptureFrames::give_strikes() {
   if (faults_.empty()) return;
   sink_({line_, Way::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
@@ -101,7 +101,7 @@ void CaptureFrames::run(SimTime now) {
     const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const TimedByte& character) {
       return character.number == frame->last_character;
     });
-    if (last == waiting_.end()) continue;  // given up before it came to this
+    if (last == waiting_.end()) continue;  // given up earlier
     const auto end = static_cast<std::size_t>(last - waiting_.begin()) + 1;
     if (end < frame->size) continue;
     give_dropped(end - frame->size);

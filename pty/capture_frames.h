@@ -45,9 +45,9 @@ class CaptureFrames final : public LineObserver {
   RtuFramer framer_;
   bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
-  bool is_heard_ = true;            // all of them
+  bool is_heard_ = true;            // true of all of them
   std::string faults_;              // of the next reply
-  SimTime struck_at_{0};            // the reply
+  SimTime struck_at_{0};            // when the faults acted on that reply
 };
 
 }  // namespace understudy::pty

@@ -161,8 +161,8 @@ void append_pcapng_packet(std::string& file, const CapturedPacket& packet, std::
   put(file, static_cast<std::uint32_t>(packet.line));
   put(file, static_cast<std::uint32_t>(time >> 32));
   put(file, static_cast<std::uint32_t>(time));
-  put(file, static_cast<std::uint32_t>(data.size()));  // captured,
-  put(file, static_cast<std::uint32_t>(data.size()));  // and on the wire
+  put(file, static_cast<std::uint32_t>(data.size()));  // length captured
+  put(file, static_cast<std::uint32_t>(data.size()));  // length on the wire
   put_padded(file, data);
   if (const std::string comment = comment_of(packet); !comment.empty()) put_option(file, kComment, comment);
   put_number_option(file, kFlags, flags_of(packet));

@@ -1,4 +1,4 @@
-// Encodes a capture as text, one line a packet:
+// Encodes a capture as text, one line per packet:
 //
 //   0.005333333 out rs485 01 03 02 C0 01 29 84  # remark
 //

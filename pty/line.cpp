@@ -285,7 +285,7 @@ void Line::deliver_characters() {
   for (std::size_t left = quiet_characters(); left > 0; --left) {
     tell_character();
     if (left > 1 && is_of_lump() && is_departed() == begun_departed) {
-      if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;  // by the same ones as the one before
+      if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;  // as the character before
       continue;
     }
     if (!state_.input.empty()) begin_character(state_.input.front().start);
@@ -301,7 +301,7 @@ std::size_t Line::quiet_characters() const {
   return least;
 }
 
-/// Delivers a character that has wholly arrived. If another one waits, it begins at that very moment.
+/// Delivers a character that has wholly arrived. If another one waits, it begins at that moment.
 void Line::deliver_character() {
   tell_character();
   if (!state_.input.empty()) begin_character(state_.input.front().start);
@@ -394,7 +394,7 @@ void Line::discard_pending(const Station& station, SimTime now) {
   }
 }
 
-/// Skips stations that are transmitting: they receive only themselves.
+/// Notifies the other stations, except those that are transmitting: they receive only themselves.
 void Line::notify_others(std::size_t speaker) {
   state_.members[speaker].noticed_at.reset();
   --notices_;

@@ -34,15 +34,15 @@ struct LineOptions {
   LineSettings settings;
   Timing timing = Timing::wire;
   bool echoes = false;           // the host hears its own bytes
-  bool enforce_settings = true;  // a station is deaf to a host with another baud or stop bits
-  std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // this much faster or slower is the same baud
+  bool enforce_settings = true;  // a station is deaf to a host with other settings
+  std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // a speed that differs by less counts as equal
 };
 
 /// An adapter between the wire and the host. The default one passes everything on at once.
 struct Adapter {
   bool echoes = false;  // the host receives its own bytes, even if the line's options do not say so
-  SimTime latency{
-      0};  // received bytes are delivered at multiples of it, or when the buffer is full; 0: at once
+  // The host receives bytes at multiples of this time, or when the buffer is full; 0: at once.
+  SimTime latency{0};
   bool is_unplugged = false;  // no byte passes in either direction
 
   bool operator==(const Adapter&) const = default;
@@ -58,13 +58,13 @@ struct LineCounters {
 
 class Line {
  public:
-  static constexpr std::size_t kInputCapacity = 1024;   // bytes the host is ahead of the wire
+  static constexpr std::size_t kInputCapacity = 1024;   // bytes by which the host may be ahead of the wire
   static constexpr std::size_t kOutputCapacity = 4096;  // bytes that wait for the host
-  static constexpr std::size_t kLump = 62;  // bytes that an adapter holds back, as those with USB do
+  static constexpr std::size_t kLump = 62;  // bytes that an adapter holds back, as USB adapters do
 
   /// `warn` receives one clear sentence for each problem that the user should know (a deaf station, a host
-  /// that set no speed, a collision), once for each opening of the line by a host. Throws
-  /// std::invalid_argument if the baud rate is not positive.
+  /// that set no speed, a collision), once each time a host opens the line. Throws std::invalid_argument if
+  /// the baud rate is not positive.
   Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn);
 
   /// Adds a station, which must outlive the line. Stations receive and transmit in the order of attaching.
@@ -90,14 +90,14 @@ class Line {
   /// Takes bytes that the host has written, seen at `now`. The first begins at `now`, or when the character
   /// before it is over. Bytes beyond room() are ignored.
   void receive(std::span<const std::uint8_t> bytes, SimTime now);
-  /// Like receive(), for bytes of a host that has closed the line since.
+  /// Like receive(), for bytes of a host that has since closed the line.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
 
   /// The host flushes its output: characters that are not on the wire yet are never sent.
   void host_purged();
 
-  /// The clock is stopped, and no byte has arrived for as long as a frame is waited for (Station::on_idle).
-  /// It has no effect while characters are in transit.
+  /// Reports that the clock is stopped, and that no byte has arrived for as long as a station waits for a
+  /// frame (Station::on_idle). It has no effect while characters are in transit.
   void nothing_more(SimTime now);
 
   /// A host opened the line. The previous host's settings are forgotten. A new line counts as opened.
@@ -117,8 +117,8 @@ class Line {
 
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
-  /// Must be called after the due() of a station or an observer has changed for any other reason than a call
-  /// from the line.
+  /// Call this after the due() of a station or an observer has changed for any reason other than a call from
+  /// the line.
   void due_changed() { next_.reset(); }
   /// Processes everything that is due at `now` or earlier, in chronological order. At equal times the order
   /// is: characters that arrive, observers, stations in the order of attaching, characters that leave. With
@@ -169,11 +169,11 @@ class Line {
     Warned warned;
     Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
-    bool is_heard = true;      // the character that arrives, at one station or more
+    bool is_heard = true;      // at least one station receives the character that arrives
     Queue<TimedByte> leaving;  // to the host, on the wire, in chronological order; numbered by their stations
     Adapter adapter;
-    Queue<std::uint8_t> lump;          // held back by the adapter,
-    std::optional<SimTime> lump_at{};  // until then
+    Queue<std::uint8_t> lump;          // held back by the adapter
+    std::optional<SimTime> lump_at{};  // when the adapter delivers it
     Edge edge;
   };
   const State& save() const { return state_; }

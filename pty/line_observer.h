@@ -31,7 +31,7 @@ struct Strike {
 struct StruckMessage {
   SimTime time{0};
   bool is_reply = false;  // otherwise a request
-  bool is_said = false;   // a reply that follows at once, as they have made it
+  bool is_said = false;   // a reply that follows at once, as the faults have changed it
   std::span<const Strike> strikes;
 };
 
@@ -43,7 +43,7 @@ class LineObserver {
   virtual void on_start_bit(SimTime at) = 0;
   /// A character from the host has ended. `is_heard` is true if at least one station received it.
   virtual void on_character(const TimedByte& character, bool is_heard) = 0;
-  /// No more characters have arrived for a while although the clock is stopped (Station::on_idle).
+  /// The clock is stopped, and no more characters have arrived for a while (Station::on_idle).
   virtual void on_nothing_more() = 0;
 
   // These report the host's actions when they happen. `bytes` are those that the line takes.

@@ -37,7 +37,7 @@ Descriptor open_lock(const std::string& path) {
     if (!lock) fail(errno, path);
     struct stat status = {};
     if (::fstat(lock.get(), &status) != 0) fail(errno, path);
-    if (!S_ISREG(status.st_mode) || status.st_size != 0) fail(EEXIST, path);  // a stranger's, not a lock
+    if (!S_ISREG(status.st_mode) || status.st_size != 0) fail(EEXIST, path);  // another file, not a lock
     return lock;
   }
 }

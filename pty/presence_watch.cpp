@@ -16,7 +16,7 @@
 namespace understudy::pty {
 namespace {
 
-/// A terminal that is not served for a while stores at most this many events. Beyond that, it must check
+/// A terminal that is not served for a while stores at most this many events. Beyond that, it must check for
 /// itself.
 constexpr std::size_t kMaxEvents = 256;
 

@@ -13,7 +13,7 @@ namespace understudy::pty {
 
 class PresenceWatch {
  public:
-  /// If the user has no instance left, nothing is watched, and each terminal must look for itself.
+  /// If the user has no instance left, nothing is watched, and each terminal must check for itself.
   PresenceWatch();
   PresenceWatch(const PresenceWatch&) = delete;
   PresenceWatch& operator=(const PresenceWatch&) = delete;
@@ -42,7 +42,7 @@ class PresenceWatch {
     void leave();
 
     PresenceWatch* watch_ = nullptr;
-    int number_ = -1;  // the kernel's, of the watch
+    int number_ = -1;  // the kernel's number of the watch
   };
 
  private:

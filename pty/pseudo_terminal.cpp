@@ -64,8 +64,8 @@ std::size_t unread_in(int descriptor) {
   return ::ioctl(descriptor, FIONREAD, &count) == 0 && count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-/// Returns how long to wait until the terminal has counted what was written to it. One that waits for whole
-/// lines counts no bytes, and one that takes some of them out (a `STOP` character) never counts those.
+/// Returns how long to wait for the terminal to count what was written to it. A terminal that reads whole
+/// lines counts no bytes, and one that removes some characters (such as STOP) never counts those.
 std::chrono::milliseconds longest_count(int descriptor) {
   termios settings = {};
   if (::tcgetattr(descriptor, &settings) != 0 || (settings.c_lflag & ICANON) != 0) return {};
@@ -109,7 +109,7 @@ Pair open_pair(const std::string& link_path) {
 void give_same_access(const std::string& from, const std::string& to) {
   struct stat access = {};
   if (::stat(from.c_str(), &access) != 0) return;
-  // The group is changed first: the old group must not gain any permission meanwhile.
+  // The group is changed first, so that the old group never gains a permission.
   if (::chown(to.c_str(), static_cast<uid_t>(-1), access.st_gid) != 0) return;
   ::chmod(to.c_str(), access.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
 }
@@ -139,7 +139,7 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
   // Closes and opens up to now are processed before these bytes are answered. Otherwise the answer to a new
   // host could be dropped as one that the old host did not read.
   follow_presence(false);
-  if (!is_present_) follow_presence(true);  // its opening was missed, or it has left already
+  if (!is_present_) follow_presence(true);  // its opening was missed, or it has closed already
   // A host that writes has done its tcsetattr, so the line can be prepared for its next one without
   // disturbing it.
   if (const auto taken = take_host_settings(master_.get())) settings_ = taken;
@@ -177,8 +177,9 @@ void PseudoTerminal::settle(std::size_t expected) const {
 // closed, we close our slave for a moment and see whether the master hangs up. Without inotify, each
 // poll_presence() does so.
 //
-// inotify is also early: a host's closing is reported a moment before the kernel releases the terminal. So a
-// present host, against the count, is believed only at the second check: until then it is in doubt.
+// inotify is also early: a host's closing is reported a moment before the kernel releases the terminal. So if
+// the count says that no host is left but the kernel shows one, that host is believed only at the second
+// check; until then it is in doubt.
 
 PseudoTerminal::Presence PseudoTerminal::poll_presence() {
   follow_presence(!is_watched());
@@ -212,11 +213,11 @@ bool PseudoTerminal::read_presence_events() {
   watch_->collect();
   bool has_closed = false;
   for (const std::uint32_t mask : place_.take_events()) has_closed = count_event(mask) || has_closed;
-  own_opens_ = own_closes_ = 0;  // or they were merged with a host's
+  own_opens_ = own_closes_ = 0;  // any left were merged with a host's
   return has_closed;
 }
 
-/// Returns true if the event says that a host has closed, or that events were lost.
+/// Returns true if the event reports that a host has closed, or that events were lost.
 bool PseudoTerminal::count_event(std::uint32_t mask) {
   if ((mask & IN_OPEN) != 0) {
     if (own_opens_ > 0) {

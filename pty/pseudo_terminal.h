@@ -46,11 +46,11 @@ class PseudoTerminal {
   /// thread of its own, and a host in simulated time must not wake up before it has them.
   void settle_writes() { settles_writes_ = true; }
 
-  /// What has happened since the last call. Both may be true; host_present() tells which came last.
+  /// The changes since the last call. Both may be true; host_present() tells which came last.
   struct Presence {
     bool opened = false;  // a host came (the line was free before)
-    bool closed =
-        false;  // the last host closed it: bytes it had not read are dropped, bytes it wrote are not
+    // The last host closed it: bytes that it had not read are dropped, bytes that it wrote are not.
+    bool closed = false;
   };
   Presence poll_presence();
   /// Returns true if the watch has collected something, or read() has noticed something, that
@@ -71,9 +71,9 @@ class PseudoTerminal {
   /// This process has the slave open. If it does not, a host's descriptor keeps the line up: then call
   /// poll_presence() when data_descriptor() is readable, because the line may have hung up.
   bool holds_slave() const { return static_cast<bool>(slave_); }
-  /// Tries to reopen a lost line. Returns true if it can be used again. If a host's claim (TIOCEXCL)
-  /// outlives the host, a new pseudo-terminal is behind the link, and path() and both descriptors have
-  /// changed. If it returns false, try again later.
+  /// Tries to reopen a lost line. Returns true if it can be used again. If a host's claim (TIOCEXCL) outlives
+  /// the host, the link leads to a new pseudo-terminal, and path() and both descriptors have changed. If it
+  /// returns false, try again later.
   bool recover();
 
   /// Returns the settings of the host that wrote the bytes just read, or nothing if it left the resting

@@ -8,7 +8,7 @@ namespace understudy::pty {
 enum class ReceiveError : std::uint8_t {
   bad_checksum,  // as long as a frame, but its checksum is not right
   overlong,      // longer than any frame
-  cut_off,       // it ends before a frame could
+  cut_off,       // ends before its frame is complete
 };
 
 }  // namespace understudy::pty

@@ -18,7 +18,7 @@ bool rtu_crc_ok(std::span<const std::uint8_t> frame);
 /// Completes a frame by appending the checksum of its bytes.
 void append_rtu_crc(std::vector<std::uint8_t>& frame);
 
-/// Like the above, in a fixed buffer whose first `size` bytes are the frame. Returns the new size. Requires
+/// Does the same in a fixed buffer whose first `size` bytes are the frame. Returns the new size. Requires
 /// buffer.size() >= size + 2.
 std::size_t append_rtu_crc(std::span<std::uint8_t> buffer, std::size_t size);
 

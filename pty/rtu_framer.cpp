@@ -53,7 +53,7 @@ enum class Fit {
 
 struct Verdict {
   Fit fit = Fit::waiting;
-  std::uint16_t size = 0;  // valid: size of the frame; waiting: number of bytes at which to check again
+  std::uint16_t size = 0;  // good: size of the frame; waiting: number of bytes at which to check again
 };
 
 constexpr std::uint16_t kOnlySilenceTells = kRtuMaxFrame + 1;
@@ -183,7 +183,8 @@ void RtuFramer::search() {
   if (undecided().size > kRtuMaxFrame) give_up_as_overlong(used());
 }
 
-/// Later characters of this lump are part of the same error.
+/// Gives up the undecided characters before `index`. Later characters of this lump are part of the same
+/// error.
 void RtuFramer::give_up_as_overlong(Index index) {
   const auto count = static_cast<std::uint64_t>(index - state_.undecided);
   if (count == 0) return;
@@ -196,7 +197,7 @@ void RtuFramer::give_up_as_overlong(Index index) {
 
 /// The characters since the last pause may be a frame, if the host has given up the one before.
 void RtuFramer::look_behind_pause() {
-  if (state_.resumed <= state_.undecided) return;  // decided meanwhile
+  if (state_.resumed <= state_.undecided) return;  // decided in the meantime
   const Verdict verdict = judge(bytes(state_.resumed, used()), true);
   if (verdict.fit != Fit::good) return;
   const auto end = static_cast<Index>(state_.resumed + verdict.size);
@@ -204,8 +205,8 @@ void RtuFramer::look_behind_pause() {
   decide_up_to(end);
 }
 
-/// Ends patience: takes the good frames out of the undecided part and drops the rest, except the beginning
-/// of a frame, which may wait longer.
+/// Acts when patience is over: takes the good frames out of the undecided part and drops the rest, except the
+/// beginning of a frame, which may wait longer.
 void RtuFramer::end_of_silence() {
   const bool is_pause = !framing_.strict && !state_.is_paused && framing_.rest_patience > usual_patience();
   // The whole is tried first: a shorter frame inside a good one of unknown length is its data.
@@ -221,8 +222,8 @@ void RtuFramer::end_of_silence() {
   state_.search_again_at = judge(bytes(state_.undecided, used()), false).size;
 }
 
-/// Returns where a frame begins that may wait for its rest: right after a silence, a valid frame or a pause;
-/// used() if there is none. `is_clean` says that the undecided part begins at such a place.
+/// Returns the beginning of a frame that may wait for its rest, or used() if there is none. Such a frame
+/// begins right after a silence, a good frame or a pause. `is_clean`: the undecided part begins there.
 RtuFramer::Index RtuFramer::beginning(bool is_clean) const {
   const auto may_wait = [this](Index first) {
     return first < used() && judge(bytes(first, used()), true).fit == Fit::waiting;
@@ -240,7 +241,7 @@ bool RtuFramer::take_whole(Index first) {
   return true;
 }
 
-/// Returns true if there was at least one.
+/// Queues the good frames of the undecided part. Returns true if there was at least one.
 bool RtuFramer::take_good_ones() {
   bool has_some = false;
   for (Index at = state_.candidate; at < used();) {
@@ -294,7 +295,7 @@ std::optional<ReceiveError> RtuFramer::take_error() {
   return std::nullopt;
 }
 
-/// Removes characters before the first ready frame or the undecided part: they are not needed any more.
+/// Removes characters before the first ready frame or the undecided part: they are no longer needed.
 void RtuFramer::forget_served() {
   const Index served = state_.ready.empty() ? state_.undecided : state_.ready.front().first;
   if (served == 0) return;

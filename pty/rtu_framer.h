@@ -7,9 +7,9 @@
 //    not form such a frame (unknown function, wrong checksum) end after `patience` of silence. A good frame
 //    that follows noise, even without a gap, is found. A frame inside another good one is data, never a
 //    request: a candidate that may still become complete covers the frames in it.
-//    That silence is a pause. A begun frame whose first bytes tell its length waits for its rest after a
-//    pause, for `rest_patience` in all. If a good frame begins behind the pause meanwhile, it takes the
-//    place of the begun one.
+//    That silence is a pause. An incomplete frame whose first bytes determine its length waits for its rest
+//    after a pause, for `rest_patience` in all. If a good frame begins after the pause in the meantime, it
+//    replaces the incomplete one.
 #pragma once
 
 #include <array>
@@ -136,7 +136,7 @@ class RtuFramer {
     Index first = 0;
     std::uint16_t size = 0;
   };
-  /// The characters, from low to high index:  [ready frames, noise between them] [undecided] In the
+  /// The characters, from low to high index, are [ready frames with noise between them] [undecided]. In the
   /// undecided part no frame begins before `candidate`. A frame that may begin there is judged again when it
   /// has `search_again_at` bytes. The undecided part never exceeds two frames: noise that may be the
   /// beginning of a long frame, and a candidate.

@@ -56,12 +56,12 @@ class Station {
   /// bytes are not delivered (see Line).
   virtual void hear_other_station() = 0;
 
-  /// No more characters have arrived for a while although the clock is stopped: the station abandons an
+  /// The clock is stopped, and no more characters have arrived for a while: the station abandons an
   /// incomplete request.
   virtual void on_idle() {}
 
   /// Returns when run() wants to be called next, or nothing if the station only waits for bytes. If it
-  /// changes for any other reason than a call from the line, the line must be told (Line::due_changed).
+  /// changes for any reason other than a call from the line, call Line::due_changed().
   virtual std::optional<SimTime> due() const = 0;
 
   /// Called at due() (never earlier). The station serves a complete request here, at its own time.

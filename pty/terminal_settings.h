@@ -1,5 +1,5 @@
-// Reads and writes the terminal settings of a pseudo-terminal, as its host's side has them. Every call works
-// through either descriptor of the pair: the master speaks for the slave.
+// Reads and writes the terminal settings on the host's side of a pseudo-terminal. Every call works through
+// either descriptor of the pair: the master speaks for the slave.
 #pragma once
 
 #include <optional>

@@ -1,10 +1,9 @@
 // Finds where lines of text end: a value that a station feeds with characters and that returns lines.
 //
-//  * CR ends a line, even an empty one; an LF right behind it is ignored. An LF alone ends a line that is
-//    not
+//  * CR ends a line, even an empty one; an LF right after it is ignored. An LF alone ends a line that is not
 //    empty, so hosts that send CR, LF or both are understood.
 //  * A line that is too long is reported at its end, without its text.
-//  * If the device echoes, a person types: BS and DEL remove the last character.
+//  * If the device echoes, a person is typing: BS and DEL remove the last character.
 //  * ESC is reported at once, and the unfinished line before it is forgotten.
 //  * If the device has flow control, XOFF and XON are reported at once and are not part of a line.
 #pragma once

@@ -20,7 +20,7 @@ class BackgroundWriter {
   /// on the helper thread.
   using Write = std::function<int(std::string_view piece)>;
 
-  /// At most `capacity` bytes wait in the queue while at most as many are being written.
+  /// At most `capacity` bytes wait in the queue; at most the same number is being written.
   BackgroundWriter(std::size_t capacity, Write write);
   ~BackgroundWriter();  // finishes
   BackgroundWriter(const BackgroundWriter&) = delete;

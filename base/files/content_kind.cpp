@@ -75,7 +75,7 @@ bool fits(const KindRow& row, std::string_view head) {
   return begins && text.find(row.within) != std::string_view::npos;
 }
 
-/// Returns true if `head` is a cut-off beginning of what our writers put first.
+/// Returns true if `head` is a cut-off beginning of what our writers write first.
 bool is_torn(const KindRow& row, std::string_view head) {
   const std::string dense = row.is_json ? without_spaces(head) : std::string();
   const std::string_view text = row.is_json ? dense : head;

@@ -34,7 +34,7 @@ enum class ContentKind : std::uint8_t {
   other,  // none of the kinds above
 };
 
-/// The number of first bytes that are enough to recognize a file.
+/// The number of leading bytes needed to recognize a file.
 inline constexpr std::size_t kReplyTaskBytes = std::size_t{64} << 10;
 
 /// Returns the name with an indefinite article: "a recording".
@@ -44,8 +44,8 @@ std::string the(ContentKind kind);
 
 /// Returns the kind of a file. `head` is the whole file, or at least its first kReplyTaskBytes.
 ContentKind content_of(std::string_view head);
-/// Returns true if `head` begins a file of `kind`, or could do so after more is written: it is empty, or was
-/// cut off within its first words.
+/// Returns true if `head` begins a file of `kind`, or could once more is written: it is empty, or was cut off
+/// within its first words.
 bool is_of_kind(ContentKind kind, std::string_view head);
 
 /// Returns why a file of `kind` may not replace a file that begins with `head`: "it is a bench; expected a
@@ -53,7 +53,7 @@ bool is_of_kind(ContentKind kind, std::string_view head);
 std::string why_not_replaceable_by(ContentKind kind, std::string_view head);
 
 /// Returns why a reader that wants `expected` refuses a file that begins with `head`: "is a scenario;
-/// expected a recording". Empty if the file is of that kind, or of none that this program knows.
+/// expected a recording". Empty if the file is of that kind or of an unknown one.
 std::string is_another_kind(std::string_view head, ContentKind expected);
 
 }  // namespace understudy

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxLinksFollowed = 40;  // from one to the next, as many as Linux follows
+constexpr int kMaxLinksFollowed = 40;  // the limit of Linux
 
 /// Returns the file that is created or written when the path is opened.
 std::string target_of(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
   for (int i = 0; i < kMaxLinksFollowed && fs::is_symlink(target, error); ++i) {
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces all
   }
   const fs::path canonical = fs::weakly_canonical(target, error);
   return (error ? target.lexically_normal() : canonical).string();

@@ -1,5 +1,5 @@
-// Records which files a command reads and which it writes. An output may be neither another output nor a
-// file that is read; otherwise a typing error would destroy a file. It is asked before anything is opened.
+// Records which files a command reads and which it writes. An output may be neither another output nor a file
+// that is read; otherwise a typing error would destroy a file. Commands check this before they open anything.
 // base/files/output_file.h has the other rules about outputs.
 #pragma once
 
@@ -19,9 +19,8 @@ struct FileClaim {
 };
 
 /// Two paths name the same file however they are spelled, through symbolic and hard links, and even before
-/// the file exists. Files that are not regular are left out: they have no content to lose. For a link or a
-/// socket that the program creates, the path itself is claimed, because replacing it would cut off its
-/// users.
+/// the file exists. Special files are ignored: they have no content to lose. For a link or a socket that the
+/// program creates, the path itself is claimed, because replacing it would cut off its users.
 class FileClaims {
  public:
   /// Claims a file. If it is claimed already, the first claim stays.

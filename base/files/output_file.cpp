@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxLinks = 40;  // from one to the next, as many as Linux follows
+constexpr int kMaxLinks = 40;  // the limit of Linux
 constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
@@ -37,7 +37,7 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
 
-/// Throws if a folder on the way to a file is a link that another user has left.
+/// Throws if a folder on the way to a file is another user's link in a folder that everyone can write to.
 void require_own_way(const fs::path& absolute) {
   fs::path way;
   for (const fs::path& step : absolute.parent_path()) {
@@ -101,7 +101,7 @@ std::string output_target(const std::string& path) {
       throw OutputError(
           "it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces all
     if (error) throw OutputError(error.message());
   }
   throw OutputError(error_text(ELOOP));

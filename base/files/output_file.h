@@ -40,8 +40,8 @@ std::string output_target(const std::string& path);
 /// Throws OutputError if the file at `target` is of another kind or cannot be read.
 void require_replaceable(const std::string& target, ContentKind kind);
 
-/// Returns why nothing of that kind can be written to `path`. Empty if it can be, or if only opening it will
-/// show.
+/// Returns why nothing of that kind can be written to `path`. Empty if it can be, or if only opening it can
+/// tell.
 std::string why_not_writable(const std::string& path, ContentKind kind);
 
 /// The owner, group and permissions of a file.
@@ -52,7 +52,8 @@ struct FileAccess {
 };
 /// Returns nothing if the file does not exist.
 std::optional<FileAccess> access_of(const std::string& path);
-/// Gives the file these permissions as far as this process may: an ordinary user cannot change the owner.
+/// Gives the file these permissions as far as this process is allowed to: an ordinary user cannot change the
+/// owner.
 void give_access(int file, const FileAccess& access);
 void give_access(const std::string& path, const FileAccess& access);
 /// Creates an empty file with these permissions. Errors are ignored: opening the file later reports them.
@@ -68,7 +69,7 @@ class OutputFile {
   /// Replaces the old content by these first bytes. Throws OutputError if they cannot be written, so that a
   /// run does not start with an output that fails.
   void begin(std::string_view head);
-  /// Keeps the first `size` bytes of the old content and continues behind them. Throws OutputError.
+  /// Keeps the first `size` bytes of the old content and continues after them. Throws OutputError.
   void go_on(std::uint64_t size);
   /// Writes the whole piece and returns 0, or writes none of it and returns the error number: half a packet
   /// would spoil the packets before it.

@@ -69,7 +69,7 @@ std::string difference_in_row(const T& a, const T& b, const std::string& path, E
     const auto& of_a = a[static_cast<Index>(i)];
     const auto& of_b = b[static_cast<Index>(i)];
     if constexpr (state_bytes::Numeric<std::remove_cvref_t<decltype(of_a)>>) {
-      if (state_bytes::as_bits(of_a) == state_bytes::as_bits(of_b)) continue;  // no path for each of many
+      if (state_bytes::as_bits(of_a) == state_bytes::as_bits(of_b)) continue;  // needs no path text
     }
     const std::string called = name == nullptr ? number_text(std::uint64_t{i}) : name(i);
     if (auto found = first_difference(of_a, of_b, path_to_element(path, called)); !found.empty()) {
@@ -115,7 +115,7 @@ std::string difference_in_fields(const T& a, const T& b, const std::string& path
 
 }  // namespace state_fields
 
-/// Like the above, for two values that copy_fields() has returned.
+/// Like first_difference(), for two values that copy_fields() returned.
 template <HasFields T>
 std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>& b,
                                  const std::string& path) {
@@ -169,7 +169,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
   }
 }
 
-/// The first difference of two values of a type as they were saved; both are read to their end.
+/// Reads a saved value from each reader, and returns the first difference between the two.
 template <class T>
 std::string difference_of_saved(StateReader& a, StateReader& b, const std::string& path = "") {
   const auto of_a = std::make_unique<T>();

@@ -14,12 +14,11 @@
 // The list is used to save, restore and hash a value (state_bytes.h) and to compare two (difference.h). Its
 // order is the order of the bytes. It does not compile if a member is missing from the list. A class with
 // private fields makes its StateOf a friend. That StateOf names them in a structured binding (they cannot be
-// counted otherwise) and has two numbers: `members`, of all members, and `apart`, of those that are not
-// state.
+// counted otherwise) and has two counts: `members` of all members, and `apart` of those that are not state.
 //
-// A type that is saved in another form than it has in memory (a ring, a program kept as its lines) has a
-// pair of functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have
-// `fields`, or `told(value)`, to compare two values. StateHeldBy (state_bytes.h) is such a pair.
+// A type whose saved form differs from its form in memory (a ring, a program kept as its lines) has a pair of
+// functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have `fields`,
+// or `told(value)`, for comparing two values. StateHeldBy (state_bytes.h) is such a pair.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +46,7 @@ struct NamedField {
   ElementName element = nullptr;  // null: by its number
 };
 
-/// A field that has another name than its member.
+/// A field whose name differs from its member's.
 template <class Owner, class T>
 constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, ElementName element = nullptr) {
   return {name, at, element};
@@ -63,7 +62,7 @@ constexpr std::string_view member_name() {
   return name.ends_with('_') ? name.substr(0, name.size() - 1) : name;
 }
 
-/// A field that is called like its member.
+/// A field named after its member.
 template <auto member>
 constexpr auto field(ElementName element = nullptr) {
   return field(member_name<member>(), member, element);
@@ -99,7 +98,7 @@ inline constexpr bool kIsOptional<std::optional<T>> = true;
 struct AnyMember {
   template <class T>
   requires(!kIsOptional<T>) operator T&() const {  // NOLINT(google-explicit-constructor)
-    std::abort();                                  // never asked: members are counted without being made
+    std::abort();                                  // never called: counting constructs no members
   }
 };
 
@@ -112,7 +111,7 @@ constexpr bool is_made_of(std::index_sequence<i...>) {
 template <class T, std::size_t count>
 constexpr bool has_members() {
   if constexpr (requires { StateOf<T>::members; }) {
-    return StateOf<T>::members == count;  // one that cannot be counted
+    return StateOf<T>::members == count;  // this class cannot be counted
   } else {
     return is_made_of<T>(std::make_index_sequence<count>()) &&
            !is_made_of<T>(std::make_index_sequence<count + 1>());

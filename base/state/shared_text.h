@@ -1,5 +1,5 @@
-// A text that its copies share. It never changes; it is only replaced by another. It suits large texts that
-// are rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for a
+// An immutable text that its copies share; it can only be replaced by another. It suits large texts that are
+// rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for a
 // number.
 #pragma once
 
@@ -36,8 +36,8 @@ class SharedText {
 
 using SharedTexts = std::vector<SharedText>;
 
-/// Saves the text itself or, if the writer shares texts, its digest, with the text kept with the bytes
-/// (state_bytes.h).
+/// Saves the text itself. If the writer shares texts, it saves only the digest, and keeps the text beside the
+/// bytes (state_bytes.h).
 template <>
 struct StateOf<SharedText> {
   template <class Writer>

@@ -1,5 +1,5 @@
 // Saves state as bytes that are the same on every machine: little-endian numbers, doubles by their bits, no
-// padding. A value's StateOf (fields.h) lists its fields, by which it is saved, restored and hashed.
+// padding. A value is saved, restored and hashed by the fields that its StateOf (fields.h) lists.
 #pragma once
 
 #include <algorithm>
@@ -152,7 +152,7 @@ class StateWriter {
     }
   }
 
-  // Has more room than is written yet, because thousands of numbers are appended one by one.
+  // Has spare room at its end, because thousands of numbers are appended one by one.
   std::vector<std::byte> bytes_;
   std::size_t size_ = 0;
   SharedTexts* shared_ = nullptr;

@@ -16,7 +16,7 @@ namespace understudy {
 
 namespace {
 
-constexpr std::size_t kLongestWord = 64;  // no name is longer, and the work grows with it
+constexpr std::size_t kLongestWord = 64;  // no known name is longer, and the work grows with the length
 constexpr std::size_t kMinBeginning = 3;
 constexpr std::size_t kMaxListed = 8;
 
@@ -53,9 +53,9 @@ std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::
 }
 
 /// Returns Levenshtein's distance, with a swap of two neighbours as one change, or `limit` if it is at least
-/// that. Each row stands for a longer beginning of `b`, each cell of a row for one of `a`, in lower case.
+/// that. Each row is for a prefix of `b`, each cell of a row for a prefix of `a`, which is in lower case.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
-  // A common beginning and a common end do not change the distance: names of one family share much.
+  // A common prefix or suffix does not change the distance, and related names often share one.
   const auto is_same = [](char x, char y) { return x == small(y); };
   const auto beginning = static_cast<std::size_t>(std::ranges::mismatch(a, b, is_same).in1 - a.begin());
   a.remove_prefix(beginning);
@@ -115,7 +115,7 @@ std::optional<std::string> near_word(std::string_view word, std::span<const std:
   bounds.reserve(known.size());
   for (const std::string& candidate : known) bounds.push_back(least_distance(written, letters, candidate));
   const auto limit_of = [&](const std::string& candidate) {
-    return std::min(least, candidate.size());  // something of a short one must be left
+    return std::min(least, candidate.size());  // at least one letter of a short word must match
   };
   if (!known.empty()) {
     // Start with the most similar word: the others then seldom need the full computation.

@@ -1,4 +1,4 @@
-// Words the suggestion in a message about an unknown word.
+// Writes the suggestion in a message about an unknown word.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Checks of a command's parameters against its row.
+// Checks a command's parameters against its row.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ struct CommandOptions {
   bool speeds_have_ends = false;
   /// True: a variable can be set only within the range of positions.
   bool variables_have_ends = false;
-  /// True: a move of no distance is refused. The next two: a helix that turns back, or that has no turn, is
-  /// refused.
+  /// True: a move of no distance is refused. The next two refuse a helix that turns back, or that has no
+  /// turn.
   bool zero_moves_are_refused = false;
   bool helix_turns_forward_only = false;
   bool helix_has_turns = false;
   /// True: LINE_SCAN_START accepts the types that are not available yet.
   bool uneven_scans_start = false;
-  /// True: SYNC_ACTION has one trigger axis. The next one: SET_OUT accepts X and Y only.
+  /// True: SYNC_ACTION has one trigger axis. With the next one, SET_OUT accepts X and Y only.
   bool one_trigger_axis = false;
   bool outputs_are_of_x_and_y = false;
   /// The order of the letters of `<=` that a message may have.
@@ -46,17 +46,17 @@ struct CommandOptions {
   bool knows_0cb2 = false;
   /// True: a variable may replace a constant only where the command's section says so.
   bool few_take_references = false;
-  /// True: sides and radii of a rectangle end at 200,000,000.
+  /// True: sides and radii of a rectangle are at most 200,000,000.
   bool rectangles_end_earlier = false;
   /// True: macros also store into the Initial Table.
   bool macros_store_initial = false;
-  /// True: of two faults, that of the state is answered, not that of the code.
+  /// True: if both the state and the code are wrong, the reply names the state.
   bool state_before_code = false;
 
   bool operator==(const CommandOptions&) const = default;
 };
 
-/// Options that accept everything that any choice accepts, for commands that have been checked before.
+/// Options that accept everything that any choice accepts, for commands that have been checked already.
 inline constexpr CommandOptions kAnyChoice{
     .rectangle_corners_must_fit = false, .uneven_scans_start = true, .macros_store_initial = true};
 
@@ -67,7 +67,8 @@ std::optional<std::size_t> bad_parameter(const Command& command, const CommandOp
 
 /// Returns the first wrong operator of IF, or the first wrong operand or operator of VAR_CALCULATE.
 std::optional<std::size_t> bad_operand(const Command& command);
-/// Like bad_operand(), as Fault::comparison or Fault::operand, which have their own codes in the download.
+/// Like bad_operand(), but returns Fault::comparison or Fault::operand, which have their own codes in a
+/// download.
 Fault operand_fault(const Command& command);
 
 /// Returns what is expected of a parameter: "1 to 7", "an axis mask (X to XYZU)", "VAR0 to VAR511".

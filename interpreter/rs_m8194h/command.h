@@ -46,7 +46,7 @@ constexpr std::size_t byte_variable_number(std::uint32_t value) {
 }
 
 /// Returns true if a parameter of a macro line is read from a variable when the line runs. Operands of
-/// program flow are read then, too.
+/// program flow count, too.
 constexpr bool is_reference(const Command& command, std::size_t parameter) {
   if (!command.is_macro_line()) return false;
   const Parameter& row = command.row().parameters[parameter];

@@ -1,5 +1,5 @@
 // The parts of a row of RS-M8194H's command table. A row is a function of the manual. Its low byte makes a
-// real-time code, 0x0Axx, a macro code, 0x0Cxx, or both, with the same parameters.
+// real-time code (0x0Axx), a macro code (0x0Cxx), or both with the same parameters.
 #pragma once
 
 #include <array>
@@ -68,8 +68,8 @@ enum class RealTime : std::uint8_t {
 /// Where a function is allowed, and how the FIFO and macros treat it.
 struct Use {
   RealTime real_time = RealTime::none;
-  bool in_mp = false;          // its macro code
-  bool in_isr = false;         // its macro code
+  bool in_mp = false;          // its macro code is allowed in an MP
+  bool in_isr = false;         // its macro code is allowed in an ISR
   bool initial = false;        // its real-time code also stores into the Initial Table
   bool starts_motion = false;  // locks, holds and waits apply
   bool refused_while_mp_runs = false;

@@ -100,7 +100,7 @@ inline constexpr std::array kReadVerbs = {
     Verb::get_error,  Verb::get_error_code, Verb::frnet_in,          Verb::frnet_read,
     Verb::get_latch};
 
-/// Those that decide, for observers: a block is entered, repeated or skipped, or a wait ends at once.
+/// Macro lines that decide, for observers: a block is entered, repeated or skipped, or a wait ends at once.
 inline constexpr std::array kDecidingVerbs = {Verb::for_, Verb::next, Verb::if_, Verb::stop_wait,
                                               Verb::frnet_wait};
 

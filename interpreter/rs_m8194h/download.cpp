@@ -34,7 +34,7 @@ constexpr auto kBlockRules = std::to_array<BlockRule>({
     {Verb::next, Fault::next_outside, Fault::next_outside, Fault::none},
     {Verb::label, Fault::none, Fault::label_in_if, Fault::label_in_for},
 });
-/// The fault of a line by how many blocks of its kind are open, innermost or not.
+/// The fault of a line if the number of open blocks of its kind, innermost or not, is out of range.
 struct DepthRule {
   Verb verb;
   Verb opener;

@@ -16,13 +16,13 @@ namespace understudy::interpreter::rs_m8194h {
 struct DownloadOptions {
   /// True: CLOSE counts as a line of the macro.
   bool close_takes_line = false;
-  /// True: the seven levels are those of FOR and IF together.
+  /// True: FOR and IF share the seven levels; false: each has seven.
   bool levels_are_of_both = false;
   /// True: a GOTO that leaves a block is refused; false: it is allowed.
   bool goto_stays_in_its_block = false;
   /// Input 112 shows a line's code as 0x0Axx, as in the worked example, or as it was sent.
   enum class ShownCode : std::uint8_t { real_time, as_sent } shown_code = ShownCode::real_time;
-  /// What inputs 112 and 113 show without an error.
+  /// Without an error, inputs 112 and 113 show 0, the CLOSE, or what they showed before.
   enum class GoodStatus : std::uint8_t { zero, of_close, stays } good_status = GoodStatus::zero;
   /// True: a wrong operator of VAR_CALCULATE has the error of a wrong operator of IF.
   bool operators_share_error = false;
@@ -30,8 +30,8 @@ struct DownloadOptions {
   bool faults_show_at_close = false;
   /// True: of several errors the last one is shown; false: the first.
   bool last_error_counts = false;
-  /// Whether a line that is refused for its class, its registers or a parameter is omitted, or invalidates
-  /// the download.
+  /// A line that is refused for its class, its registers or a parameter is omitted, or invalidates the
+  /// download.
   enum class RefusedLine : std::uint8_t { is_left_out, spoils } refused_line = RefusedLine::is_left_out;
 
   bool operator==(const DownloadOptions&) const = default;
@@ -61,7 +61,7 @@ struct Download {
   bool operator==(const Download&) const = default;
 };
 
-/// Returns the lines for which there is still room.
+/// Returns how many lines still fit.
 int room_of(const Download& download, const DownloadOptions& options);
 
 /// Adds a line that decode() accepts in this state. Returns the reason if it is refused, otherwise none.
@@ -73,10 +73,10 @@ struct Closed {
   Fault fault = Fault::none;        // of CLOSE itself
   std::optional<Macro> macro = {};  // replaces the old macro if there was no error
 };
-/// Ends the download. If it has an error, that is then in `download`.
+/// Ends the download. If there is an error, `download` then holds it.
 Closed close(Download& download, const DownloadOptions& options = {});
 
-/// Returns what inputs 110 to 114 show after a CLOSE; the number of the other kind of macro stays.
+/// Returns what inputs 110 to 114 show after a CLOSE; the number of the other kind of macro does not change.
 DownloadStatus status_of(const Download& closed, const DownloadStatus& before,
                          const DownloadOptions& options = {});
 

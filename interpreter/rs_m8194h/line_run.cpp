@@ -26,7 +26,7 @@ constexpr std::uint32_t packed(std::uint32_t group, std::uint32_t channel, std::
   return (level << 16U) | (group << 8U) | channel;
 }
 
-/// One line of one run.
+/// Runs one line of one run.
 class LineRun {
  public:
   LineRun(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine)
@@ -248,7 +248,7 @@ class LineRun {
   const RunOptions& options_;
   Machine& machine_;
   std::size_t leads_to_ = 0;
-  int watched_part_ = 0;  // set only if somebody looks on
+  int watched_part_ = 0;  // set only if there is an observer
   int watched_line_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Execution of one line of a macro.
+// Executes one line of a macro.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ MacroName name_of_level(const Run& run, const Level& level);
 
 void hold(Run& run, Hold what, std::int64_t until_ms = 0, std::uint32_t awaited = 0);
 
-/// Returns true if what the run waits for has come. A waiting drive is tried again by its line.
+/// Returns true if the run need not wait. A line that waits for the machine is simply run again.
 bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine);
 
 /// Returns true if `awaited` can be an input for FRNET_WAIT.

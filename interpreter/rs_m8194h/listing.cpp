@@ -39,7 +39,7 @@ std::optional<int> number_in(std::string_view text, int least, int most) {
   return static_cast<int>(*number);
 }
 
-/// "8.0" to "15.15".
+/// Parses "8.0" to "15.15".
 std::optional<int> channel_of(std::string_view text) {
   const std::size_t dot = text.find('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -54,7 +54,7 @@ class ListingReader {
  public:
   ListingReader(const CommandOptions& command_options, const DownloadOptions& download_options)
       : command_options_(command_options), download_options_(download_options) {
-    download_options_.faults_show_at_close = false;  // each error is reported to a text in its place
+    download_options_.faults_show_at_close = false;  // each error is reported at its place in the text
   }
 
   ParsedListing run(std::string_view text) {

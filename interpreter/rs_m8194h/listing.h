@@ -15,7 +15,7 @@
 //   TRIGGER 8.0 off_to_on MP21        ; group 8, channel 0
 //   TRIGGER 8.1 on hold X
 //   TRIGGER 15.15 change abort_macro  ; abort_command, abort_macro, pause, clear_stop
-//   TRIGGER 8.2 none                  ; the input starts nothing any more
+//   TRIGGER 8.2 none                  ; the input no longer starts anything
 //
 // Each macro passes the checks of a download.
 #pragma once

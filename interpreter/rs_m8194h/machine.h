@@ -24,8 +24,8 @@ struct ExecutionFault {
   bool operator==(const ExecutionFault&) const = default;
 };
 
-/// The interface to the controller. Commands have numbers in place of references, within the ranges of their
-/// rows.
+/// The interface to the controller. References in commands are already replaced by numbers within the ranges
+/// of their rows.
 class Machine : public Watched {
  public:
   virtual ~Machine() = default;
@@ -44,7 +44,7 @@ class Machine : public Watched {
   virtual bool stand(std::uint32_t axes) const = 0;
   /// For FRNET_WAIT: returns the input of group 8 to 15, channel 0 to 15.
   virtual bool frnet_input(std::uint32_t group, std::uint32_t channel) const = 0;
-  /// Executes all other lines. A drive without effect is done.
+  /// Executes all other lines. Returns `done` for a drive without effect.
   virtual Took carry_out(const Command& command) = 0;
 
   /// Returns the number of the ISR whose turn it is, or 0. The ISR is then running.

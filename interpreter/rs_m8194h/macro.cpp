@@ -74,7 +74,7 @@ class Linker {
   }
 
   Macro& macro_;
-  std::vector<std::size_t> ifs_;  // or the ELSE after it
+  std::vector<std::size_t> ifs_;  // each open IF, or the ELSE after it
   std::vector<OpenFor> fors_;
   std::array<std::uint16_t, kLabelCount> labels_{};
 };

@@ -23,8 +23,8 @@ class MacroStore {
     SharedText text;
   };
 
-  /// Replaces the stored macros by these, each at most once. A text that is not its macro's listing counts as
-  /// none.
+  /// Replaces the stored macros by these, each at most once. A text that is not a listing of its macro counts
+  /// as no macro.
   void update(std::span<const Stored> stored);
 
   /// Returns null if there is no such macro. The pointer is valid until the next update().

@@ -1,4 +1,4 @@
-// Functions with which the rows of the command table write their parameters.
+// Functions by which the rows of the command table define their parameters.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ constexpr Parameter axis_or_none(std::string_view name) {
   return {.name = name, .kind = Kind::axis_or_none, .least = 0, .most = 8};
 }
 
-/// A byte constant ends below 0x80, to let bVARn replace it in a macro.
+/// A byte constant is below 0x80, so that bVARn can replace it in a macro.
 constexpr Parameter byte(std::string_view name, std::int64_t least, std::int64_t most,
                          std::string_view values = {}) {
   return {

@@ -47,7 +47,7 @@ void watch(Execution& execution, std::int64_t now_ms, const RunOptions& options,
   settle(execution, machine);
 }
 
-/// False: it waits.
+/// Returns false if the run waits.
 bool run_line_of(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
                  Machine& machine) {
   if (!is_over(run, now_ms, options, machine)) return false;

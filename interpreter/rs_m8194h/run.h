@@ -50,7 +50,7 @@ struct RunOptions {
   bool raw_signals_are_not_returned = false;
   /// True: results of VAR_CALCULATE saturate at 32 bits; false: they wrap.
   bool results_end_at_32_bits = false;
-  /// True: a division by 0 leaves the result unchanged; false: it makes it 0.
+  /// True: a division by 0 leaves the result unchanged; false: it sets it to 0.
   bool division_by_zero_keeps = false;
   /// True: FOR with a count below 1 runs its block once.
   bool for_runs_once_at_least = false;

@@ -34,7 +34,7 @@ struct StateOf<interpreter::rs_m8194h::TriggerEvent> {
   static constexpr auto last = interpreter::rs_m8194h::TriggerEvent::clear_stop;
 };
 
-/// Saved as the registers in which it was sent.
+/// A command is saved as the registers in which it is sent.
 template <>
 struct StateOf<interpreter::rs_m8194h::Command> {
   static void write(const interpreter::rs_m8194h::Command& command, StateWriter& writer);

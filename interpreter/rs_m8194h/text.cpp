@@ -107,7 +107,7 @@ std::string text_of_value(const Command& command, std::size_t parameter) {
 
 // --- text as values ----------------------------------------------------------------------------
 
-/// "VAR12" with the name "VAR" is 12.
+/// Returns the number after a name: 12 for "VAR12" and "VAR".
 std::optional<std::int64_t> number_behind(std::string_view text, std::string_view name) {
   if (text.size() <= name.size() || !is_word(text.substr(0, name.size()), name)) return std::nullopt;
   const std::string_view digits = text.substr(name.size());

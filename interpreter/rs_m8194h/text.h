@@ -6,7 +6,7 @@
 //   RSM_MACRO_IF VAR1 <= VAR2
 //   RSM_MACRO_FRNET_OUT bVAR0, VAR1       ; with or without commas
 //
-// Names in upper or lower case; numbers decimal or 0x.
+// Names may be in upper or lower case, and numbers decimal or hexadecimal (0x).
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct ParsedCommand {
 
 /// Parses one line that decode() accepts in some state of the device. Operators are checked, too.
 ParsedCommand parse_command(std::string_view text, const CommandOptions& options = {});
-/// Like the above, for at least one token.
+/// Like parse_command(text), for at least one token.
 ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

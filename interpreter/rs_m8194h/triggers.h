@@ -1,4 +1,4 @@
-// The trigger table: what each FRnet input starts without a request of the host.
+// The trigger table: what each FRnet input starts without a request by the host.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ enum class TriggerEvent : std::uint8_t {
   none,
   call_mp,        // its number
   hold,           // an axis
-  abort_command,  // what waits
+  abort_command,  // the command that waits
   abort_macro,
   pause,
   clear_stop,

@@ -50,7 +50,7 @@ std::uint16_t meant_by(std::uint16_t code, const CommandOptions& options) {
   return code;
 }
 
-/// `<=` `>=` `!=`: the frame's order first, the table's second.
+/// Returns true for `<=`, `>=` and `!=`. Their first code has the frame's order, the second the table's.
 bool has_two_orders(const ComparisonRow& row) {
   return row.text.size() == 2 && row.comparison != Comparison::equal;
 }
@@ -70,7 +70,7 @@ std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
   return is_other || (is_single && options.single_signs_are_refused) ? 0 : row->codes[0];
 }
 
-/// The reverse: returns the form that the options accept.
+/// The reverse of comparison_of(): returns the form that the options accept.
 std::uint32_t sent_as(std::uint32_t comparison, const CommandOptions& options) {
   const ComparisonRow* const row = find_comparison(comparison);
   const bool is_other = row != nullptr && comparison == row->codes[0] && has_two_orders(*row) &&

@@ -71,7 +71,7 @@ class Assembler {
   struct Marks {
     std::vector<Token> names;         // labels that get a flag of their own
     std::optional<Token> mark;        // the first of them
-    std::optional<Token> flag_token;  // the author of the JMP cell, if it is given
+    std::optional<Token> flag_token;  // the mark that sets the JMP cell, if any
     std::optional<std::uint8_t> flag;
     bool promises_flag = false;  // by "JMP7:", which must then lead here
   };
@@ -320,7 +320,7 @@ class Assembler {
   void fill_in_flags() {
     for (const FlagUse& use : flag_uses_) {
       const int flag = flag_of(use.token);
-      if (use.number >= kLineCount) continue;  // an error already
+      if (use.number >= kLineCount) continue;  // already an error
       lines_[static_cast<std::size_t>(use.number)].data1 = static_cast<std::uint8_t>(flag);
     }
   }

@@ -17,88 +17,86 @@ struct Dialect {
   bool quirk_jump_timer1_does_not_work = false;
 
   // --- left open by the manual; our option is first --------------------------------------------
-  /// Whether a Loop of n makes n passes in all, or n further ones (0x04).
+  /// A Loop of n makes n passes in all, or n further ones (0x04).
   enum class LoopCount : std::uint8_t { passes, further_passes } loop_count = LoopCount::passes;
-  /// Whether a Loop that is left by a jump or a skip is forgotten, or continues its count when it is reached
-  /// again (0x04).
+  /// A Loop that is left by a jump or a skip is forgotten, or continues its count when it is reached again
+  /// (0x04).
   enum class LoopLeft : std::uint8_t { forgotten, remembered } loop_left = LoopLeft::forgotten;
-  /// When "No LOOP inside a LOOP" ends the program: when a Loop is reached while one around it counts, or
-  /// already when the outer Loop is reached for the first time (0x04).
+  /// "No LOOP inside a LOOP" ends the program when a Loop is reached while one around it counts, or already
+  /// when the outer Loop is reached for the first time (0x04).
   enum class LoopNesting : std::uint8_t { when_met, when_outer_starts } loop_nesting = LoopNesting::when_met;
-  /// What an unknown command does.
+  /// An unknown command does nothing, or ends the program.
   enum class UnknownCommand : std::uint8_t {
     does_nothing,
     ends
   } unknown_command = UnknownCommand::does_nothing;
-  /// What happens after line 255.
+  /// After line 255 the program ends, or continues at line 0.
   enum class AfterLastLine : std::uint8_t { ends, goes_on_at_0 } after_last_line = AfterLastLine::ends;
-  /// Whether a Delay_* lasts from its slot to the slot of the next line, or the next line's slot follows
-  /// after the delay.
+  /// A Delay_* lasts from its slot to the slot of the next line, or the next line's slot follows after the
+  /// delay.
   enum class DelayCounts : std::uint8_t {
     to_next_line,
     before_next_slot
   } delay_counts = DelayCounts::to_next_line;
-  /// When the test of a waiting line succeeds: whether its slot is over, or the next line runs in the same
-  /// slot.
+  /// When the test of a waiting line succeeds, its slot is over, or the next line runs in the same slot.
   enum class WaitSlot : std::uint8_t {
     slot_of_its_own,
     next_line_runs_in_it
   } wait_slot = WaitSlot::slot_of_its_own;
-  /// How Jump_Timer1_GE fails in firmware where it does not work.
+  /// In firmware where Jump_Timer1_GE does not work, it never jumps, or always jumps.
   enum class Timer1Defect : std::uint8_t {
     never_jumps,
     always_jumps
   } timer1_defect = Timer1Defect::never_jumps;
-  /// What an input, output, STATUS bit, counter or timer that does not exist does: it is OFF or 0 and has no
-  /// effect, or it ends the program.
+  /// An input, output, STATUS bit, counter or timer that does not exist is OFF or 0 and has no effect, or it
+  /// ends the program.
   enum class UndefinedOperand : std::uint8_t {
     harmless,
     ends
   } undefined_operand = UndefinedOperand::harmless;
-  /// What a parameter number without a meaning does: the machine decides (it reads 0), or it ends the
-  /// program.
+  /// A parameter number without a meaning reads 0 (the machine decides), or it ends the program.
   enum class UndefinedParameter : std::uint8_t {
     reads_zero,
     ends
   } undefined_parameter = UndefinedParameter::reads_zero;
-  /// What a write to a read-only parameter does: it has no effect, or it ends the program.
+  /// A write to a read-only parameter has no effect, or it ends the program.
   enum class ReadOnlyParameter : std::uint8_t {
     ignored,
     ends
   } read_only_parameter = ReadOnlyParameter::ignored;
-  /// How an operand that should be 1 for ON or 0 for OFF, but is neither, is read: as ON, or by its lowest
-  /// bit.
+  /// An operand that should be 1 for ON or 0 for OFF, but is neither, is read as ON, or by its lowest bit.
   enum class Logic : std::uint8_t { not_zero_is_on, lowest_bit } logic = Logic::not_zero_is_on;
-  /// What happens to a value that a register, a delay or a command cannot hold.
+  /// A value that a register, a delay or a command cannot hold is clamped, or first reduced to its low 16
+  /// bits.
   enum class ValueOutOfRange : std::uint8_t {
     clamped,
     low_16_bits
   } value_out_of_range = ValueOutOfRange::clamped;
-  /// What happens to a result beyond signed 32 bits.
+  /// A result beyond signed 32 bits wraps, or saturates.
   enum class Overflow : std::uint8_t { wraps, saturates } overflow = Overflow::wraps;
-  /// In which direction a quotient is rounded; the remainder follows from it.
+  /// A quotient is rounded towards zero, or downwards; the remainder follows from it.
   enum class Division : std::uint8_t { towards_zero, downwards } division = Division::towards_zero;
-  /// What happens to a counter that is counted or set beyond 0 to 65535.
+  /// A counter that is counted or set beyond 0 to 65535 wraps, or saturates.
   enum class CounterOverflow : std::uint8_t { wraps, saturates } counter_overflow = CounterOverflow::wraps;
 
-  /// What a jump or a Loop to flag 0, or to a flag beyond the last, does: it acts as if no line had the flag,
-  /// or the line has no effect.
+  /// A jump or a Loop to flag 0, or to a flag beyond the last, acts as if no line had the flag, or has no
+  /// effect.
   enum class UndefinedFlag : std::uint8_t { line_0, line_void } undefined_flag = UndefinedFlag::line_0;
-  /// How Jump_Timer*_GE compares 32 bits.
+  /// Jump_Timer*_GE compares 32 bits as unsigned numbers, or as signed ones.
   enum class TimerCompare : std::uint8_t {
     without_sign,
     with_sign
   } timer_compare = TimerCompare::without_sign;
 
-  /// What a waiting line does if its move is cut short: it ends, or it waits until a later move completes, or
+  /// If the move of a waiting line is cut short, the line ends, or it waits until a later move completes, or
   /// the program ends.
   enum class WaitCutShort : std::uint8_t {
     line_is_over,
     waits_on,
     program_ends
   } wait_cut_short = WaitCutShort::line_is_over;
-  /// What happens to a line that is overwritten while it waits: the new line runs in the next slot, or the
-  /// wait continues as it began.
+  /// If a line is overwritten while it waits, the new line runs in the next slot, or the wait continues as it
+  /// began.
   enum class RewrittenLine : std::uint8_t { read_anew, waits_on } rewritten_line = RewrittenLine::read_anew;
 
   bool operator==(const Dialect&) const = default;

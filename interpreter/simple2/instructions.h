@@ -35,7 +35,7 @@ struct Instruction {
   std::string_view meaning;  // description in the documentation
 };
 
-/// In the order of opcodes. An opcode that is not in the table is not an instruction.
+/// The instructions in the order of opcodes. An opcode that is not in the table is not an instruction.
 inline constexpr std::array<Instruction, 115> kInstructions{{
     {0x00, "NOP", Operand::none, Operand::none, "Does nothing"},
     {0x01, "Wait_IO", Operand::input, Operand::logic, "Waits here until the input is ON, or OFF"},

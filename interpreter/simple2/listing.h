@@ -1,7 +1,6 @@
 // A Simple2-R3 program as text and back, without loss: any 1024 cells survive disassemble() and assemble().
 //
-//         Delay_mSec 1500          ; an instruction a line, in the manual's spelling, upper or lower case
-//         alike
+//         Delay_mSec 1500          ; one instruction per line, in the manual's spelling, in any case
 // again:  Out DOUT_0 ON            ; a label: some flag that is free, 1 to 64
 //         VAR_DirectAdd MEM3 -5    ; parameters by the manual's aliases, or by number
 //         Wait_IO DIN_3, OFF       ; with or without commas

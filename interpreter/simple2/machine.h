@@ -9,7 +9,7 @@ namespace understudy::interpreter::simple2 {
 
 enum class Axis : std::uint8_t { a, b };
 
-/// What a program can read.
+/// The values that a program can read.
 class MachineView {
  public:
   virtual ~MachineView() = default;
@@ -30,14 +30,15 @@ class MachineView {
   virtual bool cut_short(Axis) const { return false; }
 };
 
-/// What a program can do. An action is in effect for the next line at once. Only parameter numbers are
+/// The actions of a program. Each is already in effect for the next line. Only parameter numbers are
 /// unchecked: all other arguments are within the ranges that their comments give.
 class Machine : public MachineView, public Watched {
  public:
   /// Sets DOUT n to the level of bit n, for each bit 0 to 6 that is set in `which`.
   virtual void set_outputs(std::uint8_t which, std::uint8_t levels) = 0;
   /// Writes a parameter as a host would, including persistence. A value that the parameter cannot hold is
-  /// limited to its range; writes to an undefined or read-only parameter have no effect.
+  /// brought into its range, or by choice ignored; writes to an undefined or read-only parameter have no
+  /// effect.
   virtual void set_parameter(int number, std::int32_t value) = 0;
   /// Starts or stops timer 1 or 2; its value is a parameter.
   virtual void run_timer(int timer, bool run) = 0;
@@ -45,9 +46,9 @@ class Machine : public MachineView, public Watched {
   virtual void move_incremental(Axis axis, std::int32_t pulses) = 0;
   virtual void move_absolute(Axis axis, std::int32_t pulses) = 0;
   virtual void go_home(Axis axis) = 0;
-  /// Sets the speed of the next position move: 0 to 32768 RPM.
+  /// Sets the speed of position moves, 0 to 32768 RPM: from the next one on or, by choice, at once.
   virtual void set_speed(Axis axis, std::int32_t rpm) = 0;
-  /// Sets the times of the next position move: 0 to 3000, in 10 ms.
+  /// Sets the ramps of position moves, as set_speed() does. Times are 0 to 3000, in 10 ms.
   virtual void set_ramps(Axis axis, std::int32_t acceleration_10ms, std::int32_t deceleration_10ms) = 0;
   virtual void stop(Axis axis) = 0;
   virtual void switch_servo(Axis axis, bool on) = 0;

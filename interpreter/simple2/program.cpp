@@ -32,7 +32,7 @@ void Program::set_cell(int number, std::uint8_t value) {
   changed.*member = value;
   if (rules_.found == FlagRules::Found::when_told) return;
   if (member == &Line::command && rules_.after_end == FlagRules::AfterEnd::do_not_count) {
-    find_flags();  // an END may have come or gone
+    find_flags();  // an END may have been added or removed
   } else if (member == &Line::flag) {
     flag_written(static_cast<int>(line_of(number)), flag_before);
   }

@@ -25,11 +25,11 @@ using Lines = std::array<Line, kLineCount>;
 
 /// Options about the line of a flag that the manual leaves open; our option is first.
 struct FlagRules {
-  /// Which of several lines with the same flag counts: the last of them, or the one written last.
+  /// Of several lines with the same flag, the last of them counts, or the one written last.
   enum class Several : std::uint8_t { last_line, last_written } several = Several::last_line;
-  /// Whether a line after the first END can have a flag.
+  /// Flags after the first END count, or do not.
   enum class AfterEnd : std::uint8_t { count, do_not_count } after_end = AfterEnd::count;
-  /// When the lines are searched for flags: at every write, or only in find_flags().
+  /// The lines are searched for flags at every write, or only in find_flags().
   enum class Found : std::uint8_t { at_every_write, when_told } found = Found::at_every_write;
 
   bool operator==(const FlagRules&) const = default;

@@ -1,5 +1,5 @@
-// Which commands are allowed where: stored in a program, typed while no program runs, or from outside while
-// one runs. The manual prints three columns without an explanation, and only for its second list.
+// Decides which commands are allowed where: stored in a program, typed while no program runs, or from outside
+// while one runs. The manual prints three columns without an explanation, and only for its second list.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ enum class Place : std::uint8_t {
 
 /// Options about the columns that the manual leaves open.
 struct Columns {
-  /// What is allowed while a program runs: also queries and what a host needs to end a pause; or only what is
-  /// printed; or also RESET.
+  /// While a program runs, the host may give the printed commands, queries, and what it needs to end a pause
+  /// (lenient); only the printed commands (strict); or RESET as well (with_reset).
   enum class External : std::uint8_t { lenient, strict, with_reset } external = External::lenient;
-  /// Whether moves from variables may be typed, which the column 立即 does not allow.
+  /// Moves from variables can only be stored, as the column 立即 prints, or typed as well.
   enum class VariableForms : std::uint8_t {
     as_printed,
     typed_too
   } variable_forms = VariableForms::as_printed;
 
-  /// Whether SAVE C, SAVE D, SAVE P and DF may be stored; their list has no columns.
+  /// SAVE C, SAVE D, SAVE P and DF can only be typed, or stored as well; their list has no columns.
   enum class Saves : std::uint8_t { typed_only, stored_too } saves = Saves::typed_only;
 
   bool operator==(const Columns&) const = default;

@@ -111,7 +111,7 @@ enum class Verb : std::uint8_t {
   continuous_path,  // variant: mode 0 to 2
 };
 
-/// What may stand in one place after a command's name.
+/// The operands that a place after a command's name can take.
 enum class Slot : std::uint8_t {
   none,
   real,           // a constant

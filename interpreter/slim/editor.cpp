@@ -30,12 +30,12 @@ bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& opti
   return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
 }
 
-/// The first word of an editing command.
+/// The arguments of an editing command.
 struct Desk {
   Editor& editor;
   Program& program;
   const ProgramOptions& options;
-  int line;  // that the command names
+  int line;  // the line that the command names
 };
 using Beginning = Error (*)(const Desk&);
 

@@ -1,4 +1,4 @@
-// Entry of a program line by line: PG, PA, PE, PI, PD and DLP.
+// Enters a program line by line: PG, PA, PE, PI, PD and DLP.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// The use of lines from the host as program lines.
+/// How lines from the host become program lines.
 struct Editor {
   enum class Mode : std::uint8_t {
     none,

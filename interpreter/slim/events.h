@@ -13,11 +13,11 @@ namespace understudy::interpreter::slim {
 
 /// Options about events that the manual leaves open.
 struct EventOptions {
-  /// Whether an event fires whose condition is already true when it becomes complete (SET EV and ON EV) or
-  /// when the program starts, or waits until the condition has been false.
+  /// If its condition is already true when an event becomes complete (SET EV and ON EV) or when the program
+  /// starts, the event fires, or it waits until the condition has been false.
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
-  /// Whether an event that occurs during another event's routine fires if its condition is false again at the
-  /// RET.
+  /// If an event occurs during another event's routine and its condition is false again at the RET, it fires,
+  /// or it is dropped.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
   /// Conditions are checked in the milliseconds that this divides; changes in between are not seen.
   int look_every_ms = 1;
@@ -42,7 +42,7 @@ using Events = std::array<Event, kEventCount>;
 
 /// Executes `SET EV` or `ON EV`, in a program or typed.
 void define_event(Events& events, const Command& command, const EventOptions& options);
-/// Arms the events at the start of a program: earlier occurrences are dropped, the definitions stay.
+/// Arms the events at the start of a program: earlier occurrences are dropped, and the definitions are kept.
 void arm_events(Events& events, const EventOptions& options);
 
 /// Checks all conditions. Returns the error of a condition that cannot be tested; that event is disabled.

@@ -48,7 +48,7 @@ std::int64_t moment_from(std::int64_t ms, int every_ms) {
   return past_ms == 0 ? ms : ms + (every_ms - past_ms);
 }
 
-/// One line of one tick.
+/// Runs one line in a tick.
 class LineRun {
  public:
   LineRun(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
@@ -238,7 +238,7 @@ class LineRun {
   const Program& program_;
   const FlowOptions& options_;
   Machine& machine_;
-  bool begins_ = false;  // set only if somebody looks on
+  bool begins_ = false;  // set only if there is an observer
 };
 
 constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(

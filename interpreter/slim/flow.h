@@ -1,4 +1,4 @@
-// A running SLIM program: one line in a tick of 1 ms, unless chosen otherwise. Its state is a plain value;
+// A running SLIM program: one line per tick of 1 ms, unless chosen otherwise. Its state is a plain value;
 // these functions advance it over the lines. Commands that are not program flow go to the machine, which may
 // make the program wait.
 #pragma once
@@ -24,16 +24,16 @@ struct FlowOptions {
   int window_unit_ms = 1;  // unit of tm in JTI and JNTI
   int call_depth = 16;
   EventOptions events = {};
-  /// What happens to the number of a GETI or GETR alone on its line: it is dropped, or stored in N0 or R0.
+  /// The number of a GETI or GETR alone on its line is dropped, or stored in N0 or R0.
   enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
   /// True: events need a running program; false: they also call their routine without one.
   bool events_need_program = true;
-  /// What WT and JTI do after an interruption by an event: they start again, or their time has continued.
+  /// If an event interrupts WT or JTI, it starts again afterwards, or its time has continued.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
     goes_on
   } interrupted_timer = InterruptedTimer::begins_again;
-  /// What a line does that the machine refuses: it ends the program, or is skipped.
+  /// A line that the machine refuses ends the program, or is skipped.
   enum class FailedLine : std::uint8_t { ends_program, is_passed } failed_line = FailedLine::ends_program;
 
   bool operator==(const FlowOptions&) const = default;

@@ -32,11 +32,11 @@ class Machine : public Watched {
 
   /// Returns input 1 to 8.
   virtual bool input(int number) const = 0;
-  /// Returns the value of a variable, an array element (its index is a constant, within its range), AIN or
-  /// TM.
+  /// Returns the value of a variable, an array element (its index is a constant, within its range), AIN, TM
+  /// or a quantity.
   virtual double value(const Operand& operand) const = 0;
-  /// Executes all commands except program flow, program editing, and GETI and GETR alone. DN, TpDN and XDN
-  /// are included, which wait. Indices are constants, and GETI and GETR are replaced by the numbers that the
+  /// Executes all commands except program flow, program editing, and GETI and GETR alone. That includes DN,
+  /// TpDN and XDN, which wait. Indices are constants, and GETI and GETR are replaced by the numbers that the
   /// host has sent.
   virtual Outcome carry_out(const Command& command) = 0;
 };

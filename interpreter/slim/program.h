@@ -22,21 +22,21 @@ struct ProgramOptions {
   Columns columns = {};
   int capacity = 1000;   // lines
   int first_number = 0;  // number of the first line, in addresses and in PE, PI, PD and PL
-  /// When a line is refused that no program can execute: as it is entered, or as it runs.
+  /// A line that no program can execute is refused when it is entered, or when it runs.
   enum class Check : std::uint8_t { as_entered, as_run } check = Check::as_entered;
   /// Checks a command as far as the machine can without its state, such as whether a parameter exists; null:
   /// no check.
   Error (*check_command)(const Command& command) = nullptr;
-  /// What an empty line does during entry.
+  /// During entry, an empty line ends the editing, or is ignored.
   enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
-  /// What a refused line does after PE or PI: they wait for another line, or end.
+  /// After a refused line, PE and PI wait for another line, or end.
   enum class RefusedLine : std::uint8_t {
     is_asked_for_again,
     ends_pe_and_pi
   } refused_line = RefusedLine::is_asked_for_again;
-  /// What happens to a line with the label of another line: it is refused, or only the first one is found.
+  /// A line with the label of another line is refused, or only the first one is found.
   enum class SameLabel : std::uint8_t { refused, first_counts } same_label = SameLabel::refused;
-  /// What PL shows: "0: MA 100", or the line alone.
+  /// PL shows "0: MA 100", or the line alone.
   enum class Listing : std::uint8_t { numbered, bare } listing = Listing::numbered;
 
   bool operator==(const ProgramOptions&) const = default;
@@ -45,8 +45,8 @@ struct ProgramOptions {
 struct StoredLine {
   std::string text;  // as entered, without surrounding blanks
   ParsedLine parsed;
-  Error error =
-      Error::none;  // of Check::as_run: what the line fails with when it is reached; it may have a label
+  // With Check::as_run, the error with which the line fails when it is reached. It may have a label.
+  Error error = Error::none;
 
   bool operator==(const StoredLine&) const = default;
 };
@@ -56,8 +56,8 @@ class Program {
   int size() const { return static_cast<int>(lines_.size()); }
   const StoredLine& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
 
-  /// `number` may be size(), to insert after the last line. insert() and replace() refuse, and change
-  /// nothing: a line that does not parse, or is empty; a command that is not allowed in a program
+  /// `number` may be size(), to insert after the last line. insert() and replace() refuse the following, and
+  /// change nothing: a line that does not parse, or is empty; a command that is not allowed in a program
   /// (not_allowed); a label of another line (address); a number that does not exist (range); more lines than
   /// fit (buffer_full). With Check::as_run they refuse only empty lines, lines that are too long, and lines
   /// that end a transfer; of lines with the same label the first is good, and the others fail with `address`,
@@ -83,7 +83,7 @@ class Program {
   bool operator==(const Program&) const = default;
 
  private:
-  /// The line that `text` makes in place of line `replaced`; -1: it replaces none.
+  /// The line that `text` would become in place of line `replaced`, or -1 if it replaces none.
   struct Checked {
     Error error = Error::none;
     StoredLine line = {};

@@ -58,7 +58,7 @@ Error check_real(Operand& operand, Range range) {
   return in_range(operand.number, range);
 }
 
-/// A constant, variable or function for a variable of one type.
+/// Checks a constant, variable or function for a variable of one type.
 Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
   switch (operand.kind) {
     case Kind::integer:
@@ -229,7 +229,7 @@ class Matching {
     if (is_known) item.error = check_typed(item.operand, holds_integer(variable.operand.kind), dialect_);
     add(std::move(item));
   }
-  /// A blank, not a comma, is between an event and its condition.
+  /// An event and its condition are separated by a blank, not by a comma.
   void take_event(Slot slot) {
     const std::string_view first = items_.front();
     const std::size_t blank = std::min(first.find(' '), first.find('\t'));
@@ -296,7 +296,7 @@ constexpr std::array<Matching::Rule, static_cast<std::size_t>(Slot::text) + 1> M
     {Slot::data, &Matching::take_data},
     {Slot::milliseconds, &Matching::take_one, &Matching::whole, kNoNegatives},
     {Slot::pulse_width, &Matching::take_one, &Matching::whole, {1, 65535}},
-    // In kHz 0.001 Hz, in Hz what ticks are told.
+    // The unit is kHz or Hz: 1e-6 kHz is 0.001 Hz, and 1e6 Hz is 1 MHz.
     {Slot::frequency, &Matching::take_one, &Matching::real, {1e-6, 1e6}},
     {Slot::percent, &Matching::take_one, &Matching::real, {0, 100}},
     {Slot::thrust_level, &Matching::take_one, &Matching::whole, {1, 20000}},

@@ -1,4 +1,4 @@
-// Verbs by the part that executes them. The machine (machine.h) executes those in none of these lists.
+// Verbs by the part that executes them. The machine (machine.h) executes all that flow.h and editor.h do not.
 #pragma once
 
 #include <algorithm>

@@ -180,7 +180,7 @@ std::optional<Operand> parse_number(std::string_view text) {
 
 double rounded_real(double number) {
   constexpr double kMax = std::numeric_limits<float>::max();
-  constexpr double kNext = 0x1.ffffffp127;  // half way to what would be the next one
+  constexpr double kNext = 0x1.ffffffp127;  // halfway from kMax to 2^128
   return std::abs(number) < kNext ? std::clamp(number, -kMax, kMax) : number;
 }
 

@@ -17,8 +17,8 @@ constexpr bool is_letter(char c) { return capital(c) >= 'A' && capital(c) <= 'Z'
 
 std::string_view without_blanks(std::string_view text);  // in front and after
 std::string in_capitals(std::string_view text);
-/// Takes the leading letters and digits of the text, in capitals. So JG0 is another word than JG, and HON
-/// another than H.
+/// Takes the leading letters and digits of the text, in capitals. So JG0 is a different word from JG, and HON
+/// from H.
 std::string take_word(std::string_view& text);
 /// Splits a text into its items between commas, without surrounding blanks; none for an empty text.
 std::vector<std::string_view> split_at_commas(std::string_view text);
@@ -26,8 +26,8 @@ std::vector<std::string_view> split_at_commas(std::string_view text);
 /// Returns true if the text is `letters` followed by a number: "EV12", "N0".
 bool is_numbered(std::string_view word, std::string_view letters);
 
-/// Returns `number`, limited to the largest 32-bit real if it exceeds that by rounding only: that real is
-/// written with fewer digits than it has, which makes it a little larger.
+/// Returns `number`, or the largest 32-bit real if the number exceeds it only by rounding: written with fewer
+/// digits, that real can become slightly larger.
 double rounded_real(double number);
 
 struct Item {

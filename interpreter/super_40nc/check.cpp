@@ -1,4 +1,4 @@
-// A text line by line, each instruction by its row; then each area as a whole (structure.h).
+// Checks a text line by line, each instruction against its row, and then each area as a whole (structure.h).
 #include <algorithm>
 #include <array>
 #include <cstddef>

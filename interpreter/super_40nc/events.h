@@ -88,8 +88,8 @@ constexpr Reaction reaction_of(Event event, Phase phase) {
   return kReactions[static_cast<std::size_t>(event)][static_cast<std::size_t>(phase)];
 }
 
-/// What happens to motions outside the lines (a DRV with CHK 0, VDRV), and to axes that follow the wheel by
-/// MPG. The machine receives the same calls as for its line.
+/// The effect of an event on motions outside the lines (a DRV with CHK 0, VDRV), and on axes that follow the
+/// wheel by MPG. The machine receives the same calls as for its line.
 enum class Beside : std::uint8_t { goes_on, is_held, is_stopped, machine_knows };
 struct BesideRow {
   Event event;

@@ -186,7 +186,7 @@ constexpr std::size_t place_of_needed(Op op) {
   return op == Op::cwr || op == Op::ccwr ? 2 : kNone;
 }
 
-/// How the condition of an instruction counts in the PLC.
+/// How an instruction uses its condition in the PLC.
 enum class InPlc : std::uint8_t {
   nothing,  // not in the PLC, or without a condition
   contact,  // it makes the condition

@@ -52,7 +52,7 @@ class LadderMaker {
     ladder_.steps_.clear();
     int step = base_of(Area::plc, options_);
     LadderStep end;
-    bool is_over = false;  // lines behind END are kept, but never run
+    bool is_over = false;  // lines after END are kept, but never run
     for (std::size_t i = 0; i < ladder_.program_.lines.size(); ++i) {
       const Instruction& line = ladder_.program_.lines[i];
       ladder_.step_numbers_.push_back(step);

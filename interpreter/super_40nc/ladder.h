@@ -50,7 +50,7 @@ struct LadderStep {
   Act act = Act::end;
   Bank bank_a = Bank::cells;
   Bank bank_b = Bank::cells;
-  std::uint8_t flags = 0;  // kInverted, kFalling, kKept; for a comparison its Relations
+  std::uint8_t flags = 0;  // kInverted and the like; for a comparison, its Relations
   std::uint16_t line = kNoLine;
   std::uint16_t memory = 0;  // for edges
   std::uint32_t a = 0;       // cell, index into the constants, or number of a special contact or register

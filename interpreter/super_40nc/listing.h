@@ -1,7 +1,7 @@
 // Programs as text and back, without loss: list() and check() again give the same program.
 //
 //   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: its first step, if not the area's
-//   500 LD X0                ; an instruction a line, in upper or lower case; its step is checked if given
+//   500 LD X0                ; one instruction per line, in any case; its step is checked if given
 //   501 CJ K10               ; K: constants and labels
 //       END
 //       LAB K10

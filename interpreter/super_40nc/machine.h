@@ -28,7 +28,7 @@ struct CellLayout {
 
 /// The result of a motion that a step program requests.
 enum class Begun : std::uint8_t {
-  done,     // nothing had to move; its signal has come
+  done,     // there is nothing to wait for
   runs,     // runs until is_running() returns false
   taken,    // an axis is taken: nothing has changed, and the program tries again at the next tick
   ignored,  // has no effect; the machine has reported why, if there is a code for it
@@ -65,11 +65,11 @@ class Machine : public Watched {
   virtual void report(Code code, Area area, int step) = 0;
 
   // --- step programs ------------------------------------------------------------------------------
-  /// Returns true if M8x02, M8002 or CEMG is ON, so the program cannot start.
+  /// Returns true if M8x02, M8002 or CEMG is ON, or the axis's STOP key pressed, so the program cannot start.
   virtual bool is_held_in_reset(Area area) const = 0;
-  /// Called when a program starts or continues: D8094 to D8096 are cleared.
+  /// Called when a program starts or continues; clears D8094 to D8096, unless a choice keeps them.
   virtual void program_starts(Area area) = 0;
-  /// Called when a program has reached END: its signal comes (Y9, Y4 to Y7).
+  /// Called when a program has reached END; gives its signal (Y9, Y4 to Y7).
   virtual void program_ended(Area area) = 0;
 
   virtual Begun begin(Area by, const LinearMove& move) = 0;
@@ -92,8 +92,8 @@ class Machine : public Watched {
   virtual void go_on(Area by) = 0;
   /// Drops held motion.
   virtual void drop_held(Area by) = 0;
-  /// STP: for C, stops at once everything that C moves; for another area, whatever moves its axis. Returns
-  /// the other programs that have thereby lost the motion of a line: they are reset.
+  /// STP: for C, stops everything that C moves; for another area, whatever moves its axis. Returns the other
+  /// programs that have thereby lost the motion of a line: they are reset.
   virtual Areas stop(Area area) = 0;
   /// Called when a program is over, or begins again: the motion that it waited for continues without it.
   virtual void waits_no_more(Area by) = 0;
@@ -104,7 +104,7 @@ class Machine : public Watched {
   virtual void plc_drive(const Drive& drive, int step) = 0;
   virtual void plc_home(const HomeSearch& search, int step) = 0;
   /// Called at the end of each scan in which an axis is to be jogged, or was to be in the scan before.
-  /// `steps` are those of the lines, counted as by D8095. Returns true if anything may change by it.
+  /// `steps` are those of the lines, counted as by D8095. Returns true if anything may change because of it.
   virtual bool plc_jog(const Jogs& jogs, const JogSteps& steps) = 0;
 
   // --- both -----------------------------------------------------------------------------------------

@@ -41,7 +41,7 @@ Calculated divide(const Instruction& line, Access& access, const Options& option
   if (options.remainder_needs_room && !next_to(line.fields[2]).is_set()) return {false, Code::out_of_range};
   Calculated result;
   if (divisor == 0) result.code = Code::division_by_zero;
-  std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
+  std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // rounded towards 0
   std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
   const bool is_above = remainder != 0 && (remainder < 0) != (divisor < 0);
   if (is_above && options.quotient == Options::Quotient::downwards) {
@@ -128,7 +128,7 @@ constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
                  const auto&) { return gives(line, 0, value(line, 0, access) - 1, access); }},
     {Op::abs,
      [](const auto& line, auto& access, const auto&) {
-       return gives(line, 0, std::abs(value(line, 0, access)), access);  // the minimum stays
+       return gives(line, 0, std::abs(value(line, 0, access)), access);  // INT32_MIN stays as it is
      }},
 };
 constexpr std::array kCalculationOps{Op::mov, Op::zrst, Op::fmv, Op::add, Op::sub,

@@ -16,15 +16,15 @@ struct Options {
   int c_capacity = 1500;  // D9042
   int stack_depth = 16;   // depth of blocks and branches
   int if_depth = 8;
-  /// What happens to CJ, CJN or IF without contacts before it, and to contacts without one of them after.
+  /// CJ, CJN or IF without contacts before it, and contacts without one of them after, are refused, or
+  /// allowed: the jump then takes the last result.
   enum class LooseGroups : std::uint8_t {
     are_refused,
     take_last_result
   } loose_groups = LooseGroups::are_refused;
-  /// What happens to two OUTs of one coil.
+  /// Of two OUTs of one coil, the last wins, or they are refused.
   enum class DoubleCoils : std::uint8_t { last_wins, are_refused } double_coils = DoubleCoils::last_wins;
-  /// What happens to a duplicate label in one area: the first is used and the duplicate is reported, or it is
-  /// refused.
+  /// If a label appears twice in one area, the first is used and the duplicate is reported, or it is refused.
   enum class DoubleLabels : std::uint8_t { load, are_refused } double_labels = DoubleLabels::load;
   /// True: after an output only its result remains of all blocks; false: all blocks remain.
   bool outputs_clear_blocks = false;
@@ -32,7 +32,7 @@ struct Options {
   bool labels_are_common = false;
   /// True: RST and ZRST accept T and C.
   bool timers_can_be_reset = true;
-  /// What happens to lines that the manual calls void in their area.
+  /// Lines that the manual calls void in their area do nothing, or are refused.
   enum class VoidLines : std::uint8_t { do_nothing, are_refused } void_lines = VoidLines::do_nothing;
   bool knows_mset = true;
   bool end_may_be_missing = false;
@@ -43,7 +43,7 @@ struct Options {
   bool labels_must_exist = false;   // true: targets of jumps must exist; false: the program stops at the jump
 
   // --- numbers --------------------------------------------------------------------------------------
-  /// What FMV does beyond the end of its block.
+  /// An FMV that reaches beyond the end of its block writes up to the end, or does nothing.
   enum class FillBeyond : std::uint8_t { is_clipped, does_nothing } fill_beyond = FillBeyond::is_clipped;
   enum class DivisionByZero : std::uint8_t {
     changes_nothing,
@@ -51,11 +51,11 @@ struct Options {
   } division_by_zero = DivisionByZero::changes_nothing;
   enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
   bool sums_saturate = false;  // for ADD and SUB; false: they wrap
-  /// What ZRST does with the higher end first.
+  /// ZRST with the higher end first is refused, clears only that end, or clears the whole range.
   enum class Swapped : std::uint8_t { is_refused, clears_first, clears_all } swapped = Swapped::is_refused;
   /// True: DIV does nothing if the remainder has no room; false: it stores the quotient alone.
   bool remainder_needs_room = false;
-  /// In which direction a quotient is rounded; the remainder follows from it.
+  /// A quotient is rounded towards 0, or downwards; the remainder follows from it.
   enum class Quotient : std::uint8_t { towards_0, downwards } quotient = Quotient::towards_0;
   /// True: RPM of 0 or less keeps an axis's speed; false: it means the minimum speed.
   bool rpm_0_keeps_speed = false;
@@ -67,8 +67,8 @@ struct Options {
   bool timers_ignore_writes = false;
   /// True: a counter counts beyond its preset; false: it stops there.
   bool counts_beyond_preset = false;
-  /// Whether a counter's contact compares value and preset at each scan, or is closed by the last count and
-  /// opened only by RST.
+  /// A counter's contact compares value and preset at each scan, or is closed by the last count and opened
+  /// only by RST.
   enum class CounterContact : std::uint8_t {
     compares,
     is_latched
@@ -87,7 +87,7 @@ struct Options {
   bool all_timers_hold = false;
   bool timers_count_on = false;     // timers count beyond the preset
   bool empty_presets_close = true;  // a preset of 0 or less closes the contact at once
-  /// When the PLC may move axes of C (C21): while M8000 is OFF, whenever they are free, or never.
+  /// The PLC may move axes of C (C21) while M8000 is OFF, whenever they are free, or never.
   enum class PlcMoves : std::uint8_t {
     while_c_rests,
     any_axis,
@@ -103,16 +103,16 @@ struct Options {
     stops_program,
     is_ignored
   } loose_return = LooseReturn::stops_program;
-  /// What CAL does with a count below 1.
+  /// CAL with a count below 1 is skipped, or repeats without end.
   enum class NoPasses : std::uint8_t { are_skipped, mean_endless } no_passes = NoPasses::are_skipped;
-  /// What motion does for an axis that the program does not own (C21).
+  /// Motion of an axis that the program does not own (C21) has no effect, or stops the program.
   enum class NotOwned : std::uint8_t { is_void, stops_program } not_owned = NotOwned::is_void;
-  /// What START of an empty area does.
+  /// START of an empty area ends silently, or is an error.
   enum class EmptyProgram : std::uint8_t {
     ends_silently,
     is_an_error
   } empty_program = EmptyProgram::ends_silently;
-  /// What loads F, plane, speeds and modes again.
+  /// F, plane, speeds and modes are loaded again by a start with the pointer at 0, or by every start.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
   // true: MRK of an axis program uses the axis's own field; false: the first one
   bool mark_is_by_own_field = false;

@@ -281,7 +281,7 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
 
 namespace {
 
-/// Whether a contact conducts in scans that change nothing: no edge comes.
+/// Returns true if a contact conducts in scans that change nothing and so have no edges.
 bool conducts_quietly(const Instruction& line, const Access& access) {
   if (const Relations relations = relations_of(line.op); relations != 0) {
     return (relation_of(access.value(line.fields[0]), access.value(line.fields[1])) & relations) != 0;

@@ -16,10 +16,10 @@ namespace understudy::interpreter::super_40nc {
 struct PlcState {
   bool runs = false;
   bool is_first_scan = false;          // the first scan since RUN
-  std::vector<std::uint8_t> memories;  // what each edge contact has last seen
+  std::vector<std::uint8_t> memories;  // the last state that each edge contact has seen
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
-  bool has_modes = false;    // the modes are those of an earlier RUN, if they stay
+  bool has_modes = false;    // the modes are those of an earlier RUN, if they survive it
   Jogs jogs;                 // jogs of the last scan
   std::int32_t unit_ms = 0;  // milliseconds of the current unit, while timers with a larger unit run
   std::vector<std::int32_t> timed = {};  // by memory: values of timers, if writes to them are ignored

@@ -116,10 +116,10 @@ struct Jogs {
   bool operator==(const Jogs&) const = default;
 };
 
-/// For each axis the step of the line that requests the jog.
+/// For each axis, the step of the line that requests the jog.
 using JogSteps = std::array<int, kAxisCount>;
 
-/// PSET: in the work coordinate. MSET: in the machine coordinate.
+/// PSET uses work coordinates, MSET machine coordinates.
 struct SetPositions {
   AxisValues position_lu;
   bool of_machine = false;

@@ -150,7 +150,7 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
   return Slice::is_over;
 }
 
-/// Returns true if the line waits for a time in a register that is read in each scan.
+/// Returns true if the line waits for a time in a register that is read in each tick.
 bool StepPrograms::follows_register(Area area) const {
   const int line = code(area).line_at(state(area).step);
   return options_.waits_follow_registers && line >= 0 && code(area).line(line).fields[0].letter == Letter::d;

@@ -1,4 +1,4 @@
-// The motion instructions of a step program: what they ask of the machine, and whether the program waits.
+// The motion instructions of a step program: what they request of the machine, and whether the program waits.
 // (Manual, Motion 指令一覽表.)
 #include <algorithm>
 #include <array>

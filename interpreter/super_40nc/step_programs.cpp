@@ -35,7 +35,7 @@ void StepPrograms::take(Event event, Area area) {
     case Reaction::nothing:
     case Reaction::pause_later:
     case Reaction::motions_wait:
-    case Reaction::rest_waits: break;  // asked for when their time comes
+    case Reaction::rest_waits: break;  // checked when their time comes
     case Reaction::fresh_start:
     case Reaction::go_on:
     case Reaction::resume: begin(area, reaction); break;
@@ -289,7 +289,7 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
   if (program.waits_to_resume) return is_inhibited() ? kForEver : 0;
   const Operand contact = awaited(area);
   if (!contact.is_set())
-    return is_inhibited() ? kForEver : 0;  // an axis that is taken is asked for in each tick
+    return is_inhibited() ? kForEver : 0;  // an axis that is taken is requested in each tick
   const bool waits_for_on = code(area).line(code(area).line_at(program.step)).op == Op::wat;
   return access_.contact(contact) == waits_for_on ? 0 : kForEver;
 }

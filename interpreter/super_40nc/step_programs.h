@@ -36,8 +36,8 @@ struct StepState {
   std::int32_t wait_ms = 0;          // the last time that TMR has read, if it keeps reading
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // result of the last contacts
-  bool owns_pointer =
-      false;  // not state: a line is running, and nothing else has moved its program's pointer
+  // Not state: a line is running, and nothing else has moved its program's pointer.
+  bool owns_pointer = false;
   // Modal values: loaded at a fresh start, kept at any other start. F and the plane are D8006 and D8007.
   bool has_modes = false;
   Targets targets = Targets::absolute;
@@ -83,7 +83,7 @@ class StepPrograms : public StepControl {
 
   /// Returns how many ticks a slice would only count, if no contact, register or axis changes.
   std::int64_t quiet_ms(Area area) const;
-  /// Runs that many ticks at once.
+  /// Runs `ticks` ticks at once, at most quiet_ms().
   void cross(Area area, std::int64_t ticks);
   /// Returns the contact that WAT or WTN waits for, or unset.
   Operand awaited(Area area) const;

@@ -184,8 +184,8 @@ class Structure {
   std::vector<Fault> faults_;
   int line_ = 0;
   Op before_ = Op::end;  // the last line except for NOP
-  int blocks_ = 0;       // begun in the area so far
-  int pending_ = 0;      // begun since something has read the result
+  int blocks_ = 0;       // number begun in the area so far
+  int pending_ = 0;      // number begun since the result was last read
   int branches_ = 0;
   bool has_end_ = false;
   bool is_full_ = false;

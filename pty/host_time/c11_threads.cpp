@@ -1,5 +1,5 @@
-// The names that C11 has for threads. libc makes them of its own functions, where nothing can be inserted, so
-// they are made here of those that we have (threads.cpp). libc's types are the same under both names.
+// C11's functions for threads. libc builds them on internal functions that cannot be replaced, so they are
+// built here on ours (threads.cpp). libc's types are the same under both names.
 #include <errno.h>
 #include <pthread.h>
 #include <threads.h>

@@ -109,7 +109,7 @@ Message message_of(Said what) {
   return message;
 }
 
-/// The connection of this thread, made if it has none.
+/// Returns the connection of this thread. Connects first if it has none.
 int own_descriptor() {
   struct stat status;
   if (connection.descriptor >= 0 && fstat(connection.descriptor, &status) == 0 && S_ISSOCK(status.st_mode) &&
@@ -182,7 +182,7 @@ Message receive_one(int descriptor) {
   }
 }
 
-/// Ends a wait that something else has ended. The bench may have ended it too meanwhile.
+/// Tells the bench that something else has ended a wait. The bench may have ended it too in the meantime.
 void cancel(int descriptor, const Message& wait) {
   Message message = wait;
   message.what = Said::cancel;
@@ -204,7 +204,7 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
   for (nfds_t i = 0; i < wait.other_count; ++i) entries[i + 1] = wait.others[i];
   Woken woken = Woken::by_bench;
   while (true) {
-    // A plain recv: the kernel continues it or not, as the signal's handler wishes.
+    // A plain recv: after a signal, the kernel restarts it if the handler has SA_RESTART.
     const bool is_plain = wait.is_restartable;
     const long result =
         is_plain ? 1 : UNDERSTUDY_REAL(ppoll)(entries, wait.other_count + 1, nullptr, wait.mask);
@@ -294,7 +294,7 @@ long wait_for_either(uint32_t* word, uint32_t value, bool is_shared, const uint3
   words[1].flags = FUTEX_32;
   const long result = UNDERSTUDY_REAL(syscall)(SYS_futex_waitv, words, 2U, 0U, nullptr, CLOCK_MONOTONIC);
   if (result >= 0 || errno != ENOSYS) return result;
-  const timespec soon = {0, 1'000'000};  // a kernel before 5.16: it looks at both from time to time
+  const timespec soon = {0, 1'000'000};  // before Linux 5.16: checks both from time to time
   return UNDERSTUDY_REAL(syscall)(SYS_futex, word, is_shared ? FUTEX_WAIT : FUTEX_WAIT_PRIVATE, value, &soon,
                                   nullptr, 0);
 }

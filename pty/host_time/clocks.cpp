@@ -71,7 +71,7 @@ UNDERSTUDY_EXPORT int timespec_get(timespec* time, int base) noexcept {
   return base;
 }
 
-/// What <sys/timeb.h> had. New programs cannot call ftime any more, old ones do.
+/// The structure from <sys/timeb.h>. New programs can no longer call ftime, but old ones do.
 struct timeb_of_old {
   time_t time;
   unsigned short millitm;

@@ -63,7 +63,7 @@ bool is_stream(int descriptor) {
          type == SOCK_STREAM;
 }
 
-/// Puts a local socket that is connected to the bench in the place of the host's. Returns as connect() does.
+/// Replaces the host's socket with a local one that is connected to the bench. Returns as connect() does.
 int connect_to_door(int descriptor, int door) {
   if (is_door(descriptor, nullptr)) {
     errno = EISCONN;
@@ -102,7 +102,7 @@ void put_address(in_addr_t host, uint16_t port, sockaddr* place, socklen_t* size
   *size = sizeof address;
 }
 
-/// Waits until a read of the socket would not. Returns false, with the error, if it must not be tried.
+/// Waits until a read of the socket would not block. Returns false, with errno set, if it must not be tried.
 bool wait_for_socket(int descriptor, int number, int flags) {
   const int modes = fcntl(descriptor, F_GETFL);
   if ((flags & MSG_DONTWAIT) != 0 || modes < 0 || (modes & O_NONBLOCK) != 0) return true;
@@ -128,7 +128,7 @@ bool wait_for_socket(int descriptor, int number, int flags) {
   }
 }
 
-/// Receives; with MSG_WAITALL until everything is there.
+/// Receives bytes; with MSG_WAITALL, until all have arrived.
 ssize_t receive(int descriptor, int number, void* place, size_t size, int flags, sockaddr* from,
                 socklen_t* from_size) {
   size_t done = 0;
@@ -192,7 +192,7 @@ UNDERSTUDY_EXPORT int getsockname(int descriptor, sockaddr* place, socklen_t* si
   return 0;
 }
 
-/// A local socket does not have what TCP has, such as the choice not to collect small packets.
+/// A local socket lacks TCP's options, such as TCP_NODELAY. Setting one succeeds and has no effect.
 UNDERSTUDY_EXPORT int setsockopt(int descriptor, int level, int name, const void* value,
                                  socklen_t size) noexcept {
   const int result = UNDERSTUDY_REAL(setsockopt)(descriptor, level, name, value, size);

@@ -36,7 +36,7 @@ bool is_connected_outside(int descriptor) {
   return ntohl(address.sin_addr.s_addr) >> IN_CLASSA_NSHIFT != IN_LOOPBACKNET;
 }
 
-/// Sorts the descriptors of a wait: lines of the bench, and others, for which it keeps room.
+/// Sorts the descriptors of a wait into lines of the bench and others, which it stores.
 class Sorted {
  public:
   explicit Sorted(nfds_t most) {
@@ -61,7 +61,7 @@ class Sorted {
     others_[wait.other_count++] = {descriptor, events, 0};
     wait.others = others_;
   }
-  /// Nothing but sockets to other machines.
+  /// Returns true if all descriptors are sockets to other machines.
   bool is_all_outside() const { return is_all_outside_ && !is_empty_; }
 
  private:
@@ -72,7 +72,8 @@ class Sorted {
   bool is_empty_ = true;
 };
 
-/// Waits in real time while simulated time is stopped; then simulated time has its turn.
+/// Waits in real time while simulated time is stopped. If nothing is ready then, the same time passes in the
+/// simulation.
 template <class Look>
 int look_outside(int64_t length_ns, Look look) {
   begin_outside();
@@ -158,7 +159,7 @@ int64_t length_of_ms(int milliseconds) {
   return milliseconds < 0 ? kNever : int64_t{milliseconds} * 1'000'000;
 }
 
-/// Returns false, with the error, if it is not a length.
+/// Returns false, with errno set, if it is not a valid length.
 bool take_length(const timespec* time, int64_t& length_ns) {
   length_ns = time == nullptr ? kNever : ns_of(*time);
   if (length_ns >= 0) return true;

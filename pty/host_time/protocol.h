@@ -15,7 +15,7 @@ inline constexpr uint32_t kVersion = 2;
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
 inline constexpr const char* kPageEnding = ".page";
-/// What follows in the paths of the sockets that stand for the TCP addresses of the bench, before a number.
+/// The ending, before a number, of the paths of the sockets that stand for the TCP addresses of the bench.
 inline constexpr const char* kDoorEnding = ".door";
 
 /// The dates that a host sees at simulated time 0. They are always the same, so that a host that writes dates
@@ -28,15 +28,15 @@ inline constexpr int64_t kNever = INT64_MAX;
 inline constexpr uint32_t kMaxLines = 256;  // of a bench, which a host can distinguish from other terminals
 inline constexpr uint32_t kLinesInMessage = 6;
 inline constexpr uint32_t kMaxDoors = 64;
-/// Messages name a door by this and its number: no pseudo-terminal has such a number.
+/// Messages identify a door by this plus its number: no pseudo-terminal has such a high number.
 inline constexpr int kFirstDoor = 1 << 20;
 inline constexpr uint32_t kAnyLine = UINT32_MAX;
 
-/// Threads that wait for each other cannot watch their connection. The bench increments such a word, and
-/// wakes it, when it ends the wait of a thread whose number has it.
+/// Threads that wait for each other cannot watch their connection. When the bench ends the wait of a thread,
+/// it increments the word that the thread's number selects, and wakes it.
 inline constexpr uint32_t kWords = 1024;
 
-/// A TCP address of the bench. Without an address it is this machine itself.
+/// A TCP address of the bench. An empty address is this machine itself.
 struct Door {
   uint16_t port;
   char address[46];  // as inet_ntop writes it
@@ -57,10 +57,10 @@ enum class Said : uint32_t {
   // the host's thread
   hello = 1,  // the first message; `sequence` is the version
   child,      // `process` is a new child of this process
-  wait,       // until `until_ns`, or until something comes on one of the lines
-  cancel,     // it no longer waits: something else has woken it
-  outside,    // it waits for something that is not simulated: time must not go on; no answer
-  inside,     // it does so no longer; no answer
+  wait,       // until `until_ns`, or until something arrives on one of the lines
+  cancel,     // the thread no longer waits: something else has woken it
+  outside,    // the thread waits for something that is not simulated: time must stop; no answer
+  inside,     // that wait is over; no answer
   timer,  // the timer `sequence` of this process: first at `until_ns`, then every `interval_ns`; no answer
   // the bench
   go,         // the wait `sequence` is over
@@ -78,7 +78,7 @@ struct Message {
   int32_t target;  // of a timer: the thread that gets its signal; 0: any of the process
   int32_t signal;  // of a timer: the signal that it sends; 0: it counts in the descriptor of the message
   uint32_t is_for_drain;           // the wait ends when what was written to the line has left the wire
-  uint32_t is_on_word;             // it watches its word of the page, not its connection
+  uint32_t is_on_word;             // the thread watches its word of the page, not its connection
   uint32_t has_others;             // the thread also waits for descriptors that are not lines
   uint32_t line_count;             // how many of `lines` it waits for, or kAnyLine
   int32_t lines[kLinesInMessage];  // numbers of pseudo-terminals and doors

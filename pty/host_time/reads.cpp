@@ -44,8 +44,8 @@ bool take_patience(int descriptor, size_t size, int* number, Patience& patience)
   return true;
 }
 
-/// Waits until a read of the line would not. Returns how many bytes it may ask for; 0: time is up; -1: a
-/// signal came.
+/// Waits until a read of the line would not block. Returns how many bytes it may ask for; 0: time is up; -1:
+/// a signal came.
 ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& patience) {
   Wait wait;
   wait.add_line(number);
@@ -113,7 +113,7 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   if (is_active() && take_patience(descriptor, size, &number, patience)) {
     const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
     if (most <= 0) return most;
-    for (int i = 0; i < count; ++i) {  // a part is less than asked for, as with any terminal
+    for (int i = 0; i < count; ++i) {  // fills one part only: terminals may return less
       if (parts[i].iov_len > 0) {
         const size_t part =
             static_cast<size_t>(most) < parts[i].iov_len ? static_cast<size_t>(most) : parts[i].iov_len;

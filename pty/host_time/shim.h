@@ -1,5 +1,5 @@
-// The parts of the library that puts a host into simulated time. They run in another program's process, so
-// they use only libc, and must work before its `main`, in signal handlers and after a fork.
+// Declares the parts of the library that puts a host into simulated time. They run in another program's
+// process, so they use only libc, and must work before its `main`, in signal handlers and after a fork.
 #pragma once
 
 #include <dlfcn.h>
@@ -35,13 +35,13 @@ int64_t now_ns();
 
 constexpr int64_t kBillion = 1'000'000'000;
 
-/// Returns what the clock shows at simulated time 0, or -1 if it is not a clock of time that passes.
+/// Returns what the clock shows at simulated time 0, or -1 if it does not measure elapsed time.
 int64_t clock_begin_ns(clockid_t clock);
 timespec time_of(int64_t ns);
-/// Returns -1 if it is not a time.
+/// Returns -1 if the time is not valid.
 int64_t ns_of(const timespec& time);
 int64_t ns_of(const timeval& time);
-/// now + length, or kNever.
+/// Returns now + length_ns, at most kNever.
 int64_t after(int64_t length_ns);
 
 const Page& the_page();
@@ -52,8 +52,8 @@ bool is_line(int descriptor, int* number);
 /// Returns true if the descriptor is a connection with a TCP address of the bench. `number`, which may be
 /// null, is that of its door in messages.
 bool is_door(int descriptor, int* number);
-/// Before a read: if it would wait for such a connection, the bench does. Returns false, with the error, if
-/// the read must not be tried.
+/// Call this before a read. If the read would wait for such a connection, this waits as the bench decides.
+/// Returns false, with errno set, if the read must not be tried.
 bool wait_for_door(int descriptor);
 void address_of_door(int door, sockaddr_un* address);
 /// Returns the number of the door that has this address, or -1.
@@ -61,13 +61,13 @@ int number_of_door(const sockaddr_un& address);
 
 enum class Woken : uint8_t { by_bench, by_descriptor, by_signal };
 
-/// What a thread waits for.
+/// Describes what a thread waits for.
 struct Wait {
   int64_t until_ns = kNever;
   uint32_t line_count = 0;  // or kAnyLine
   int32_t lines[kLinesInMessage] = {};
   bool is_for_drain = false;
-  bool is_restartable = false;  // after a signal with SA_RESTART; without others and a mask
+  bool is_restartable = false;  // restarts after a signal with SA_RESTART; only without others and a mask
   pollfd* others = nullptr;     // descriptors that are not lines: they wake it as well
   nfds_t other_count = 0;
   const sigset_t* mask = nullptr;  // of signals, while it waits
@@ -81,25 +81,25 @@ struct Wait {
   }
 };
 
-/// Waits as the bench decides. by_bench: look again, it may have been the end or a line.
+/// Waits as the bench decides. After by_bench, check again: the time may be over, or a line may be ready.
 Woken wait_for(const Wait& wait);
 
 /// Waits until simulated time `until_ns`. Returns false if a signal has ended it.
 bool sleep_until(int64_t until_ns);
 
-/// Waits while the word has this value, until simulated time `until_ns`: by_descriptor is then a wake by
-/// another thread. It may wake for nothing.
+/// Waits while the word has this value, until simulated time `until_ns`. Here by_descriptor means that
+/// another thread has woken it. Spurious wake-ups are possible.
 Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until_ns);
 
-/// This thread waits for something outside the bench, while simulated time is stopped.
+/// Enclose a wait of this thread for something outside the bench. Simulated time is stopped in between.
 void begin_outside();
 void end_outside();
 
-/// Informs the bench how a timer is set. It counts expirations in the descriptor, unless that is -1.
+/// Informs the bench how a timer is set. The bench counts expirations in the descriptor, unless that is -1.
 void tell_timer(Message message, int descriptor);
 /// Returns true if the descriptor is one of timers.cpp's.
 bool is_timer(int descriptor);
-/// A child has none of its parent's.
+/// Forgets the parent's timers: a child process does not inherit them.
 void forget_timers();
 
 /// Informs the bench of a new child process.

@@ -1,8 +1,8 @@
-// Waits of threads for each other that have an end: conditions, semaphores, mutexes.
+// Timed waits of threads for each other: conditions, semaphores, mutexes.
 //
-// libc waits for these internally, where nothing can be inserted. So conditions are entirely ours: a number
-// that counts signals, and the kernel's wait for its change. Semaphores keep libc's form, which no release
-// may change, because programs have them in their memory.
+// libc waits for these internally, where nothing can be replaced. So conditions are entirely ours: a count of
+// signals, and a wait in the kernel until it changes. Semaphores keep libc's form, which no release may
+// change, because programs have them in their memory.
 #include <errno.h>
 #include <linux/futex.h>
 #include <pthread.h>
@@ -56,7 +56,7 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
   return !is_signalled && now_ns() >= until_ns ? ETIMEDOUT : 0;
 }
 
-/// Returns the simulated time of an absolute time of a clock; false if it is not valid.
+/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid.
 bool take_end(clockid_t clock, const timespec* time, int64_t& until_ns) {
   const int64_t begin = clock_begin_ns(clock);
   if (begin < 0 || time->tv_nsec < 0 || time->tv_nsec >= kBillion) return false;
@@ -94,7 +94,7 @@ int wait_for_post(sem_t* place, clockid_t clock, const timespec* time) {
   }
 }
 
-/// Locks are rarely waited for with an end: they are tried again and again in simulated time.
+/// Timed waits for locks are rare, so the lock is tried again and again in simulated time.
 template <class Try>
 int try_until(clockid_t clock, const timespec* time, Try try_once) {
   constexpr int64_t kMostBetween_ns = 10'000'000;
@@ -212,7 +212,7 @@ UNDERSTUDY_EXPORT int pthread_timedjoin_np(pthread_t thread, void** result, cons
 
 namespace {
 
-/// A futex wait with an end. Returns as the call does.
+/// A timed futex wait. Returns as the system call does.
 long wait_on_futex(uint32_t* word, int operation, uint32_t value, const timespec* time) {
   const int command = operation & FUTEX_CMD_MASK;
   int64_t until = kNever;

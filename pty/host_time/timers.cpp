@@ -17,7 +17,7 @@ using namespace understudy::host_time;
 
 namespace {
 
-/// When it expires next, and then again and again. 0: it is not set.
+/// When a timer expires next, and the interval after that. next_ns is 0 if it is not set.
 struct Setting {
   int64_t next_ns;
   int64_t interval_ns;
@@ -39,7 +39,7 @@ itimerspec spec_of(const Setting& setting) {
   return spec;
 }
 
-/// Returns false if the times are none.
+/// Returns false if the times are not valid.
 bool take_setting(const itimerspec& spec, bool is_absolute, clockid_t clock, Setting& setting) {
   const int64_t value = ns_of(spec.it_value);
   const int64_t interval = ns_of(spec.it_interval);
@@ -63,7 +63,7 @@ Message message_of(uint32_t number, const Setting& setting) {
 // --- timers as descriptors -----------------------------------------------------------------------
 
 constexpr int kMaxDescriptors = 1024;
-constexpr uint32_t kFirstDescriptor = 1U << 16;  // numbers of timers: signals' are below
+constexpr uint32_t kFirstDescriptor = 1U << 16;  // timers that send signals have lower numbers
 
 struct DescriptorTimer {
   bool is_timer;
@@ -125,7 +125,7 @@ UNDERSTUDY_EXPORT int timerfd_settime(int descriptor, int flags, const itimerspe
   }
   if (before != nullptr) *before = spec_of(timer->setting);
   timer->setting = setting;
-  uint64_t ignored;  // expirations of the setting before
+  uint64_t ignored;  // expirations of the previous setting
   const int error = errno;
   pollfd entry = {descriptor, POLLIN, 0};
   if (UNDERSTUDY_REAL(poll)(&entry, 1, 0) == 1) [[maybe_unused]]
@@ -189,7 +189,7 @@ UNDERSTUDY_EXPORT unsigned alarm(unsigned seconds) noexcept {
   return whole == 0 && rest.tv_nsec > 0 ? 1 : whole + (rest.tv_nsec >= kBillion / 2 ? 1 : 0);
 }
 
-// --- signals that are waited for with an end -------------------------------------------------------
+// --- timed waits for signals -----------------------------------------------------------------------
 
 UNDERSTUDY_EXPORT int sigtimedwait(const sigset_t* set, siginfo_t* info, const timespec* time) {
   if (!is_active() || time == nullptr) return UNDERSTUDY_REAL(sigtimedwait)(set, info, time);
@@ -200,7 +200,7 @@ UNDERSTUDY_EXPORT int sigtimedwait(const sigset_t* set, siginfo_t* info, const t
     return -1;
   }
   const int64_t until = after(length);
-  const int pending = signalfd(-1, set, SFD_CLOEXEC);  // readable while one of them is there
+  const int pending = signalfd(-1, set, SFD_CLOEXEC);  // readable while one of them is pending
   pollfd entry = {pending, POLLIN, 0};
   int result = -1;
   while (true) {

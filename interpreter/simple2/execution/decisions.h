@@ -18,7 +18,7 @@ enum class Decision : std::uint8_t {
   wait,       // is over at once, or waits
 };
 
-/// By the mnemonics, which the manual has named by what they do.
+/// Decides by the mnemonic, because the manual names instructions by what they do.
 constexpr Decision decision_of(std::string_view mnemonic) {
   if (mnemonic.starts_with("Wait_")) return Decision::wait;
   if (mnemonic.starts_with("Jump_") || mnemonic == "Loop") return Decision::jump;
@@ -38,7 +38,7 @@ inline constexpr std::array<Decision, 256> kDecisions = [] {
 
 constexpr Decision decision_of(std::uint8_t opcode) { return kDecisions[opcode]; }
 
-/// Nothing: the program has ended in place of a decision.
+/// Returns nothing if the instruction does not decide, or if the program has ended instead.
 constexpr std::optional<bool> outcome_of(Decision decision, Then then) {
   const bool ends = then >= Then::end;
   if (decision == Decision::none || ends) return std::nullopt;

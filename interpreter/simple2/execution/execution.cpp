@@ -34,7 +34,7 @@ Line without_flag(const Line& line) {
 
 bool holds(const Execution& execution) { return execution.held.command != 0; }
 
-/// Returns true if the current line waits and has been replaced meanwhile.
+/// Returns true if the current line waits and has been replaced in the meantime.
 bool must_be_read_anew(const Execution& execution, const Program& program, const Dialect& dialect) {
   return dialect.rewritten_line == Dialect::RewrittenLine::read_anew && holds(execution) &&
          without_flag(program.line(execution.now_line)) != execution.held;
@@ -137,7 +137,7 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
   if (!holds(execution) || must_be_read_anew(execution, program, dialect)) return false;
   const Line& line = line_to_run(execution, program, dialect);
   if (ends_for_an_operand(line, dialect)) return false;
-  // The line also waits for an axis that has begun to move meanwhile.
+  // The line also waits for an axis that has begun to move in the meantime.
   const bool all_noted = (execution.waits_for_a || !machine.moving_for_wait(Axis::a)) &&
                          (execution.waits_for_b || !machine.moving_for_wait(Axis::b));
   const bool notes = dialect.wait_cut_short != Dialect::WaitCutShort::line_is_over && !all_noted;

@@ -27,7 +27,7 @@ enum class Ending : std::uint8_t {
   wait_cut_short,
 };
 
-/// What the next slot starts with.
+/// The next slot starts with one of these.
 enum class Phase : std::uint8_t {
   line,   // a line
   delay,  // the end of a delay
@@ -55,13 +55,14 @@ struct Execution {
   bool waits_for_b = false;
   bool waits = false;  // the current line was tested and holds the program; set only if a choice needs it
   LoopState loop = {};
-  Line held =
-      {};  // the line at work as it began to wait, without its flag; NOP, which never waits: it does not
+  // The current line as it was when it began to wait, without its flag. NOP, which never waits, if none
+  // waits.
+  Line held = {};
 
   bool operator==(const Execution&) const = default;
 };
 
-/// Starts a program at a line, 0 to 255, whatever was running. The line runs in the next slot.
+/// Starts a program at a line, 0 to 255, even if a program is running. The line runs in the next slot.
 void start(Execution& execution, std::uint8_t line);
 /// Stops a running program at once. What it has started continues.
 void stop(Execution& execution);

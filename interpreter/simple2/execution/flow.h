@@ -11,7 +11,7 @@ inline Then jump(Step&) { return Then::flag; }
 
 // --- inputs and STATUS ---------------------------------------------------------------------------
 
-/// Returns OFF for an input, and 0 for a bit, that does not exist.
+/// An input that does not exist is OFF, and a bit that does not exist is 0.
 inline bool input(const MachineView& machine, std::uint8_t din) {
   return is_defined(Operand::input, din) && machine.input(din);
 }
@@ -77,7 +77,7 @@ inline Then loop(Step& step) {
   }
 
   if (!is_counting_here) state = {.counts = true, .loop_line = static_cast<std::uint8_t>(here), .passes = 1};
-  state.first_line = static_cast<std::uint8_t>(first);  // the flag may have moved meanwhile
+  state.first_line = static_cast<std::uint8_t>(first);  // the flag may have moved in the meantime
   const int count = step.line.data2;
   if (count == 0) return Then::flag;  // endless
   const bool counts_further = step.dialect.loop_count == Dialect::LoopCount::further_passes;
