@@ -1,5 +1,6 @@
-// The lines of a device's program: from the source to its instructions and back. The source is the bench's
-// program if the device still has it, otherwise the listing that is read back from the device.
+// Finds the instructions of source lines in a device's program, and the source lines of instructions. The
+// source is the bench's program if the device still has it, otherwise the listing that is read back from the
+// device.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@ class ProgramLines {
     bool operator==(const Told&) const = default;
   };
 
-  /// The device must have power and take a program.
+  /// The device must have power and support programs.
   explicit ProgramLines(const Device& device);
 
   /// Returns the bench's file, or an empty text for the listing.
@@ -36,7 +37,7 @@ class ProgramLines {
   int last_line() const;
   /// Returns the first instruction of each part on that line.
   std::vector<Told> at(int line) const;
-  /// Returns the part of that name. An empty name is the only part's.
+  /// Returns the part with that name, or null. An empty name means the only part.
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
   std::optional<InstructionPlace> place(Told told) const;
@@ -49,8 +50,8 @@ class ProgramLines {
   std::string source_;
   std::string text_;
   std::vector<std::string> texts_;    // of the source, by line
-  std::vector<ProgramPart> parts_;    // of the source; of those with one number the first
-  std::vector<ProgramPart> listing_;  // likewise, with the lines of the listing
+  std::vector<ProgramPart> parts_;    // of the source; only the first of those with the same number
+  std::vector<ProgramPart> listing_;  // the same with the lines of the listing
 };
 
 }  // namespace understudy::emulator::world

@@ -50,7 +50,7 @@ std::vector<std::string> names_in_text(const World& world, std::string_view text
   return names;
 }
 
-/// Returns "feeder.A" of "feeder.A.lost": what events name.
+/// Returns "feeder.A" for "feeder.A.lost", because events have only that name.
 std::string base_of(const std::string& name) {
   const std::size_t second = name.find('.', name.find('.') + 1);
   return name.substr(0, second);

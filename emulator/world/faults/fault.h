@@ -39,15 +39,15 @@ struct Fault {
     // Faults of a message on the wire (pty/wire_fault.h).
     drop,
     delay,             // by `amount` ns
-    corrupt_checksum,  //
+    corrupt_checksum,  // its last byte is inverted
     truncate,          // to `amount` bytes
     duplicate,         // the second `amount` ns after the first
     noise,             // `before` and `after`
     collision,         // with `before`
     split,             // its first `amount` bytes arrive on time, the rest `over_ticks` later
     // Faults of a reply on its way from a gateway to a master.
-    wrong_transaction,  //
-    wrong_unit,         //
+    wrong_transaction,  // with the next transaction's number
+    wrong_unit,         // with the next unit's number
     hang_up,            // the connection ends after its first `amount` bytes
   } kind = Kind::stall;
   std::size_t device = 0;  // for a fault of a line: the bench's first device on it
@@ -57,8 +57,8 @@ struct Fault {
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
   std::int64_t over_ticks = 0;
-  bool on_line = false;   // its whole line
-  bool of_input = false;  // of `turn`: the place is a counted input
+  bool on_line = false;   // it acts on the whole line
+  bool of_input = false;  // for `turn`: the place is a counted input
   enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
   std::vector<std::uint8_t> before{};
   std::vector<std::uint8_t> after{};
@@ -87,10 +87,10 @@ bool waits(const Fault& fault);
 struct FaultText {
   std::string kind;
   std::string place;
-  std::vector<std::pair<std::string, std::string>> fields;  // by their names
+  std::vector<std::pair<std::string, std::string>> fields;  // name and value
 };
 
-/// Reports an error in one field of a fault.
+/// Thrown for an error in one field of a fault.
 struct FaultFieldError : NameError {
   FaultFieldError(const std::string& kind, std::string field_name, std::string what_is_wrong)
       : NameError(kind + ": " + field_name + ": " + what_is_wrong),
@@ -100,7 +100,7 @@ struct FaultFieldError : NameError {
   std::string diagnostic;
 };
 
-/// Reports the place of a fault. Its fields have not been checked.
+/// Thrown for an error in the place of a fault. Its fields have not been checked.
 struct FaultPlaceError : NameError {
   using NameError::NameError;
 };
@@ -109,7 +109,7 @@ struct FaultPlaceError : NameError {
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
 /// Throws NameError for errors of a fault that do not depend on its place.
 void require_fault_fields(const KnownDevices& devices, const FaultText& text);
-/// Returns a fault as find_fault() accepts it, also as one line.
+/// Returns a fault in the form that find_fault() accepts, also as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 

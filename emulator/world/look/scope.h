@@ -33,13 +33,13 @@ class Scope final : private TickWatcher {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// The world was put into another state: earlier samples are dropped, because they did not lead there. Has
-  /// no effect once the scope is done.
+  /// Called when the world was put into another state: drops earlier samples, because they did not lead
+  /// there. Has no effect once the scope is done.
   void begin_anew();
 
   const ScopeSetup& setup() const { return setup_; }
   State state() const { return state_; }
-  /// The tick of the first sample, and the number of samples.
+  /// Return the tick of the first sample, and the number of samples.
   Tick first_tick() const { return next_tick_ - static_cast<Tick>(count_); }
   std::size_t count() const { return count_; }
   /// Valid only after the trigger.
@@ -64,7 +64,7 @@ class Scope final : private TickWatcher {
   std::vector<std::int32_t> handles_;
   std::vector<double> present_;
   std::vector<double> ring_;  // a row of names for each tick
-  std::size_t rows_ = 0;      // that it has room for
+  std::size_t rows_ = 0;      // the number of rows that it has room for
   std::size_t count_ = 0;
   Tick next_tick_ = 0;
   State state_ = State::armed;

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// Both must outlive it. Without peaks their names are known but have no value.
+  /// Both must outlive it. Without `peaks`, the names of peaks are known but have no value.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
       : view_(view), peaks_(peaks), names_(view) {}
 

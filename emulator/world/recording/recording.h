@@ -19,12 +19,12 @@ namespace understudy::emulator::world {
 
 /// The beginning of a recording, which is enough to make the world again.
 struct RecordingHeader {
-  std::string version;  // of the program that recorded
-  std::string bench;    // as bench_text.h has it, memories included
+  std::string version;  // the version of the program that recorded it
+  std::string bench;    // in the form of bench_text.h, memories included
   WorldOptions options;
   std::uint64_t seed = 0;
-  std::string
-      snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; otherwise empty
+  /// The world's state (snapshot_file.h) if it ran before the recording began; otherwise empty.
+  std::string snapshot;
 };
 
 /// The failure of a scenario that ends a recording.

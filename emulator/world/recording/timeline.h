@@ -57,7 +57,7 @@ class Timeline {
   std::vector<RecordedEvent> events_;
   SimTime end_;
   std::vector<Keyframe> keyframes_;
-  std::size_t next_event_ = 0;  // the first that has not happened where the world is
+  std::size_t next_event_ = 0;  // the first event that is not in the world's past
 };
 
 }  // namespace understudy::emulator::world

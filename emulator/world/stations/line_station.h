@@ -29,12 +29,13 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Drops incomplete input and unsent output.
   virtual void reset() = 0;
 
-  /// Sets the source of faults for frames; null: none. It receives the numbers with each frame.
+  /// Sets the source of faults for frames; null: none. It receives these numbers with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     wire_.set_faults(faults, device, line);
   }
 
-  /// The device may have something to send unasked. Returns true if it has; due() has changed then.
+  /// Called when the device may have something to send unasked. Returns true if it has; due() has changed
+  /// then.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
