@@ -107,7 +107,7 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
   keeps_peaks_ = names_peaks(scenario.steps);
   executor_->with_world([&](world::World& world) {
     eyes_ = std::make_unique<Eyes>(world, with_hash);
-    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before the watchers that ask for peaks
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before the watchers that need peaks
   });
 }
 
@@ -153,7 +153,7 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
 void Performance::throw_if_broken() {
   bool is_broken = false;
   executor_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
-  if (is_broken) throw StepError("");  // explain_failure() knows more
+  if (is_broken) throw StepError("");  // explain_failure() finds the reason
 }
 
 Failure Performance::explain_failure(const StepError& error) {

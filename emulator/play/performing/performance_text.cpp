@@ -12,7 +12,7 @@ void Performance::perform(const TextStep& step) {
   moment_in(step.within);  // throws if there is no such moment
   const world::LinesWanted wanted{.lines = step.lines.value_or(std::vector<std::string>()),
                                   .is_answer = step.text.has_value()};
-  // Without an expected answer, a line is over when the device has received it.
+  // Without an expected answer, the step is over when the device has received the line.
   if (!step.lines) return executor_->send_text(step.line, *step.text);
   std::vector<std::string> heard = executor_->exchange_text(step.line, step.text, wanted, step.within);
   if (heard == wanted.lines) return;

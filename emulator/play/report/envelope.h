@@ -1,5 +1,5 @@
-// One signal over time in a bounded number of points. If there are too many values, the first, the smallest,
-// the largest and the last of each stretch of time are kept, each at its own time.
+// Keeps one signal over time in a bounded number of points. If there are too many values, it keeps the first,
+// the smallest, the largest and the last of each stretch of time, each at its own time.
 #pragma once
 
 #include <cstddef>

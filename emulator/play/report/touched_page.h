@@ -1,4 +1,4 @@
-// A report for people: what a suite has exercised of the devices.
+// Shows what a suite has exercised of the devices.
 #pragma once
 
 #include <string>

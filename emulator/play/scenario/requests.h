@@ -36,7 +36,7 @@ bool can_be_sent(const Target& target);
 /// are the words of its register.
 Words words_of(const Target& target, bool low_word_first);
 
-/// A request, and the entries that it is for.
+/// A request, and the entries that it serves.
 struct Request {
   Words words;
   std::vector<std::size_t> entries;
@@ -58,7 +58,7 @@ struct Limits {
 };
 Limits limits_of(const Target& target);
 
-/// Returns a register's value as a number, also a real one. Nothing if the bits of a real are not a number.
+/// Returns a register's value as a number, which may be real. Nothing if the bits of a real are not a number.
 std::optional<world::Number> number_of(const Target& target, Value value);
 /// Returns the value for a number. Nothing for a fraction if the target is whole, or if it exceeds single
 /// precision.

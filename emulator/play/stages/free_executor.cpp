@@ -35,7 +35,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
   return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
 }
 
-/// The master on one line. It knows when the line was last busy, and takes the output for the host.
+/// The master on one line. It knows when the line was last busy, and receives its output.
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
@@ -250,7 +250,7 @@ void FreeExecutor::put_text(Host& host, const std::string& text) {
   host.send_text(bytes);
 }
 
-/// Sends a frame after t3.5 and the gap. On return, all of it is on the line, but not over.
+/// Sends a frame after t3.5 and the gap. On return, the line has all of it, but may still be sending it.
 void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   writing_ = nullptr;
   for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
@@ -271,7 +271,7 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Advances to the next event, at most to `limit`. A write is executed at such a moment.
+/// Advances to the next event, but not beyond `limit`. A write is executed at such a moment.
 void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;

@@ -1,4 +1,4 @@
-// Runs libmodbus. No other file of this folder includes it.
+// Runs libmodbus. No other file of this folder includes its header.
 #include "emulator/play/stages/libmodbus_host.h"
 
 #include <errno.h>
