@@ -57,7 +57,7 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
-/// How a line receives from its hosts. This is a setting, not a state, but two worlds with different settings
+/// A line's treatment of its hosts. This is a setting, not a state, but two worlds with different settings
 /// have different futures.
 struct Hearing {
   bool is_strict = false;         // requires the silence between frames
@@ -107,7 +107,7 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
-/// Returns how many places for such a fault a device of that model has.
+/// Returns how many places for the fault a device of that model has.
 std::size_t places_of(const Model& model, const Fault& fault) {
   switch (fault_kind(fault.kind).place) {
     case FaultKindRow::Place::axis: return model.axes.size();

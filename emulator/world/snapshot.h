@@ -55,7 +55,7 @@ void restore(World& world, const WorldState& state);
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
 /// Returns a hash of everything that affects the model. It leaves out bytes that a host has not read yet, and
-/// whether ticks were skipped in bulk and how many.
+/// how ticks were skipped.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

@@ -78,7 +78,7 @@ class World final : public WorldView {
   void host_settings(std::size_t line, const std::optional<pty::HostSettings>& settings) {
     lines_[line]->line.host_settings(settings);
   }
-  /// Receives bytes from the present host, at most line().room(). `at` is this moment or a later one.
+  /// Receives bytes from the current host, at most line().room(). `at` is this moment or a later one.
   void receive(std::size_t line, std::span<const std::uint8_t> bytes, SimTime at) {
     lines_[line]->line.receive(bytes, at);
   }

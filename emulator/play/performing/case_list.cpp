@@ -84,7 +84,7 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
   const bool is_held = !file.is_varied && held_ + file.size <= kMaxHeld;
-  // This depends neither on where the files are nor on how their paths are spelled.
+  // The hash depends neither on where the files are nor on how their paths are spelled.
   std::set<std::uint64_t> contents;
   opened.check([&](Scenario scenario) {
     look(scenario);

@@ -1,5 +1,5 @@
-// Observes a scenario for something that is made afterwards, such as a report or the findings about a host.
-// The scenario runs the same with or without it.
+// Observes a scenario to produce something at its end, such as a report or the findings about a host. The
+// scenario runs the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::play {
 
-/// All its functions are called on the thread that runs the world, between two ticks.
+/// All functions are called on the thread that runs the world, between two ticks.
 class Observer {
  public:
   virtual ~Observer() = default;

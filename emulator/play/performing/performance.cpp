@@ -203,7 +203,7 @@ void Performance::restore(const Checkpoint& checkpoint) {
     if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
     std::vector<SpanWatch::Span> spans = checkpoint.spans;
     for (SpanWatch::Span& span : spans) {
-      // The condition is parsed anew, because its handles belong to the probes of another performance.
+      // The condition is parsed again, because its handles belong to the probes of another performance.
       span.condition = world::parse_expression(span.condition.text, eyes_->probes);
     }
     eyes_->spans.restore(spans);

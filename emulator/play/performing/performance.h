@@ -97,7 +97,7 @@ class Performance {
   /// Reads the words of each target, one after another.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          const Answer& answer, const Via& via);
-  /// Returns the line and the present station number of a device.
+  /// Returns the line and the current station number of a device.
   Place spoken_to(std::size_t device, const Via& via);
   void require(const HostReply& reply, const Answer& answer, const std::string& what);
   void require_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,

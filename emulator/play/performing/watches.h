@@ -57,7 +57,7 @@ class SpanWatch final : public world::TickWatcher {
 /// Records the ticks at which a condition was true, from the moment when it is added to the world.
 class ConditionHistory final : public world::TickWatcher {
  public:
-  /// Its observations so far, as a value.
+  /// The observations so far.
   struct State {
     std::vector<Tick> changes;  // true from the first tick, false from the second one, and so on
     Tick last = 0;

@@ -26,7 +26,7 @@ struct WrittenStep {
 /// A disturbance of a course.
 struct Disturbance {
   std::size_t entry = 0;  // its index in `may`
-  std::size_t step = 0;   // it comes before this step of the scenario
+  std::size_t step = 0;   // it happens before this step of the scenario
   enum class When : std::uint8_t {
     here,  // at once
     at,    // a fault that waits for a time
@@ -46,7 +46,7 @@ class HuntPlan {
     std::vector<Variation> values;  // in the order written
     std::size_t most = 1;           // how often it may happen
     SimTime within{-1};             // all of them happen within this time; negative: at any time
-    std::size_t first = 0;          // the steps of the scenario before which it may come
+    std::size_t first = 0;          // the steps of the scenario before which it may happen
     std::size_t last = 0;
     std::vector<Disturbance::When> ways;  // the kinds of moments that it may have
     bool has_end = false;                 // a fault that ends by itself
@@ -61,7 +61,7 @@ class HuntPlan {
   const world::YamlFields& head() const { return head_; }
   /// Returns the steps as they were written. Parameters have their values, and loops are unrolled.
   const std::vector<WrittenStep>& steps() const { return steps_; }
-  /// Returns true if a disturbance may come before that step.
+  /// Returns true if a disturbance may happen before that step.
   bool has_room_before(std::size_t step) const { return step < steps_.size() && !steps_[step].continues; }
   /// Returns the steps that check what must hold, which come before all others.
   const std::vector<world::YamlFields>& spans() const { return spans_; }

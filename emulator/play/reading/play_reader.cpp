@@ -335,8 +335,9 @@ void PlayReader::read_command(const world::YamlFields& root, const Parameters& p
   }
 }
 
-/// Checks the paths that a case saves: they must be in the folder for that, and nothing else may use them. A
-/// case may save a path twice, but two cases may not share one, because several may run at once.
+/// Checks the paths that a case saves: they must be in the folder for saved files, and nothing else may use
+/// them. A case may save a path twice, but two cases may not share one, because several may run at the same
+/// time.
 void PlayReader::require_own_paths(const StepsReader& steps, Scenario& scenario) {
   FileClaims claims;
   claims.add(scenario.files);

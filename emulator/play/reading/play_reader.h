@@ -26,7 +26,7 @@ struct FilePlays {
   std::optional<std::uint64_t> seed;  // instead of the file's own
   std::vector<std::string> command;   // as in ReadingOptions
   FileReading reading;
-  /// The files that earlier cases save, while all cases are read.
+  /// The files that earlier cases save. Set only while all cases are read.
   std::optional<std::vector<FileClaim>> saved_before{};
   /// The file's own parameters that a play has used.
   std::set<std::string> used_parameters{};

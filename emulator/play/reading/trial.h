@@ -45,7 +45,7 @@ class Trial {
   void require_program(const world::YamlFields& field, const ProgramStep& program) const;
   /// Reads a fault that this world can have. `other_key` is left to other readers.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
-  /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: at once).
+  /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: immediate).
   world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
                     const std::string& place) const;
   void require_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;

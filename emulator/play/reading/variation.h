@@ -1,5 +1,5 @@
-// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values
-// are computed by number, so that a million values take no more memory than one.
+// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values are
+// computed by number, so a million values take no more memory than one.
 #pragma once
 
 #include <cstdint>

@@ -79,7 +79,7 @@ std::string without_numbers(std::string_view text) {
       at += hex;
       add_sign(made);
     } else if (is_letter(text[at])) {
-      // This is a name, with all parts that its dots join.
+      // A name, with all parts that its dots join.
       while (at < text.size() && (is_digit_or_letter(text[at]) || (text[at] == '.' && at + 1 < text.size() &&
                                                                    is_digit_or_letter(text[at + 1])))) {
         made += text[at++];

@@ -74,7 +74,7 @@ class JsonLines final : public ResultsFile {
 
  private:
   static constexpr std::string_view kBeginOfRow = "{\"file\":\"";
-  // This is the lowest bit of a case's entry; the other bits are of its hash.
+  // The lowest bit of a case's entry; the other bits are from its hash.
   static constexpr std::uint64_t kFailed = 1;
 
   [[noreturn]] void refuse(const std::string& why) const {

@@ -26,7 +26,7 @@ struct ResultRow {
   std::optional<std::string> hash;
   std::string simulated_s;
   std::uint64_t seed = 0;
-  // Only for a failure.
+  // Set only for a failure.
   std::optional<std::string> kind;
   std::optional<std::string> failure;
   std::optional<std::string> at_s;

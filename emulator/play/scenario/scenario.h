@@ -95,7 +95,7 @@ struct AdvanceStep {
   SimTime by{0};
 };
 
-/// assert: EXPRESSION, or a list of them: checks the present values without using the line.
+/// assert: EXPRESSION, or a list of them: checks the current values without using the line.
 struct AssertStep {
   std::vector<std::string> expressions;
 };
@@ -227,7 +227,7 @@ struct Scenario {
   SimTime gap{0};  // between two requests of the host, beyond t3.5
   std::uint64_t seed = 0;
   Steps steps;
-  std::vector<FileClaim> files{};    // all that it was read from, including the bench's
+  std::vector<FileClaim> files{};    // all files that it was read from, including the bench's
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
   std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values

@@ -182,7 +182,7 @@ bool RealExecutor::run_until(const Awaited& awaited, SimTime deadline) {
     found_at_ = look.wait(kLook);
     if (found_at_) return true;
     throw_if_given_up();
-    // The question brings the world to the present and shows every tick up to it.
+    // Asking for the time brings the world up to date and shows every tick up to now.
     const auto rest = wall_time_until(deadline);
     if (rest == serve::WallTime{0}) {
       found_at_ = look.wait(serve::WallTime{0});

@@ -26,7 +26,7 @@ class BenchNames {
   bool is_lost_part(const std::string& name) const { return lost_parts_.contains(name); }
   /// Returns true if a text names a part that could not be read.
   bool names_lost(std::string_view text) const;
-  /// Returns true if a value of a map names such a part.
+  /// Returns true if a value of a map names a part that could not be read.
   bool has_lost(const YamlFields& map) const;
 
   // --- what was read: these fail with the names that are valid, or throw AlreadyReported ----------

@@ -38,7 +38,7 @@ inline constexpr std::array kFaultKeys{
         &kDeviceOrLineName},
     Key{"wrong_unit", "Over Modbus TCP, replies have the next unit's number.", &kDeviceOrLineName},
     Key{"hang_up", "Over TCP, the connection closes in the middle of replies.", &kDeviceOrLineName},
-    // Their fields.
+    // The fields of the kinds.
     Key{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
     Key{"pulses", "slip: how many pulses.", &kText},
     Key{"level", "stuck: on or off.", &kText},

@@ -105,7 +105,7 @@ class YamlFields {
   [[noreturn]] void refuse_key(const std::string& key, std::span<const Key> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  // All nodes of the document share both.
+  // Shared by all nodes of the document.
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const YamlNode> node_;
   std::string field_;

@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 struct CoveredLine {
   std::int64_t runs = 0;
   bool decides = false;
-  std::int64_t yes = 0;  // jumps taken, conditions and contacts that held, waits that were over at once
+  std::int64_t yes = 0;  // jumps taken, conditions and contacts that held, waits that did not wait
   std::int64_t no = 0;
 
   void add(const CoveredLine& other);

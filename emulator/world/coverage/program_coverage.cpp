@@ -116,7 +116,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   }
 
   CoverageReport report(const std::vector<ProgramSource>& sources) {
-    present();  // the present program, even if it has never run
+    present();  // the current program, even if it has never run
     std::vector<std::pair<std::string, std::vector<ProgramPart>>> known;
     const DeviceSettings& settings = device_.settings();
     if (!settings.program_name.empty()) known.emplace_back(settings.program_name, parts_of(settings.program));

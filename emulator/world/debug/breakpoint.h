@@ -36,11 +36,10 @@ struct BreakpointSetup {
 struct Breakpoint {
   int number = 0;
   BreakpointSetup setup{};
-  int line = 0;  // the source line where it really is; 0: nowhere in the present program
+  int line = 0;  // the source line where it really is; 0: nowhere in the current program
   std::uint64_t hits = 0;
 };
 
-/// Where an instruction is.
 struct InstructionPlace {
   std::string program{};  // the part; empty if there is only one
   int number = 0;         // within the part, from 0

@@ -236,7 +236,7 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   settle();
 }
 
-/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's present
+/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's current
 /// line.
 void Debugger::begin_at(Step& step, const std::string& program) const {
   const Device& device = world_.device(step.device);

@@ -24,7 +24,7 @@ struct Event {
   /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
   /// stop, logpoint
   std::string_view what;
-  std::string by;      // host, control or page; empty if no one caused it
+  std::string by;      // host, control or page; empty if nobody caused it
   std::string line{};  // the line of the host that caused it
   std::string device{};
   std::string name{};   // of the register or terminal, as the control socket takes it

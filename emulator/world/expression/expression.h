@@ -34,7 +34,7 @@ class NameResolver {
 class ValueSource {
  public:
   virtual ~ValueSource() = default;
-  /// Returns the present value. Nanoseconds and millivolts are whole numbers.
+  /// Returns the current value. Nanoseconds and millivolts are whole numbers.
   virtual Number value(std::int32_t handle) const = 0;
 };
 
@@ -86,7 +86,7 @@ inline bool is_true(const Expression& expression, const ValueSource& source) {
 
 /// Returns the expression as it was written, on one line.
 std::string to_text(const Expression& expression);
-/// Returns the text with the present value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
+/// Returns the text with the current value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
 std::string explain(const Expression& expression, const ValueSource& source);
 
 /// Returns the handles of all names in the expression, which can change only when one of them does.

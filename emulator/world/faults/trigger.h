@@ -14,7 +14,7 @@
 namespace understudy::emulator::world {
 
 struct FaultTrigger {
-  // Which frames match. Matching frames are numbered from 1.
+  // These decide which frames match. Matching frames are numbered from 1.
   std::int64_t function = -1;       // -1: any
   std::int64_t station = -1;        // the addressed station; 0: broadcasts; -1: any
   std::int64_t first_address = -1;  // the frame is about a register from here to `last_address`; -1: any

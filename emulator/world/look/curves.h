@@ -51,7 +51,7 @@ class Curves final : private TickWatcher {
   SimTime from_;
   SimTime to_;
   std::size_t dots_;
-  std::size_t dot_ = 0;  // the present dot
+  std::size_t dot_ = 0;  // the current dot
   bool has_values_ = false;
   bool is_watching_ = false;
   std::vector<Row> rows_;

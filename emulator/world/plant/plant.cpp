@@ -19,7 +19,7 @@ PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - puls
 
 bool holds(PulseSpan span, std::int64_t at) { return at >= span.first && at <= span.last; }
 
-/// Returns the positions in which a switch is on, given its present state.
+/// Returns the positions in which a switch is on, given its current state.
 PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
   return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }

@@ -156,8 +156,8 @@ class alignas(64) PlantAxis {
     return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
            (!setup_.drive || state_.ready);
   }
-  /// Returns where a switch is on as long as nothing about the machine changes, or nothing if it is never on
-  /// or does not move with the machine. The index is not such a switch, because it repeats.
+  /// Returns the positions at which a switch is on, given its current state, or nothing if it is never on or
+  /// does not move with the machine. The index is not among these switches, because it repeats.
   std::optional<SwitchSetup> way_of(Contact which) const;
   /// Turns the encoder's wheel evenly over this many ticks, beginning with the next. The rest of an earlier
   /// turn is added.
@@ -264,8 +264,8 @@ class alignas(64) PlantAxis {
   void turn_wheel();
   /// Updates the switches after a move that began at `from`.
   void move_switches(std::int64_t from);
-  // The ranges in which the switches are on in their present state: a switch that is on releases later than
-  // it came on.
+  // Return the ranges in which the switches are on, given their current state: a switch that is on stays on
+  // within its hysteresis.
   PulseSpan home_span() const;
   std::int64_t lower_limit_end() const;
   std::int64_t upper_limit_end() const;

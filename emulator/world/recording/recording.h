@@ -82,7 +82,7 @@ struct RecordingError : std::runtime_error {
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Applies an event to the world at the world's present time. `said`, `wait` and `end` have no effect.
+/// Applies an event to the world at the world's current time. `said`, `wait` and `end` have no effect.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

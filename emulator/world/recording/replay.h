@@ -35,7 +35,7 @@ struct Replayed {
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
-  /// Called at the world's present time, before the event is applied; `line_number` is its line in the
+  /// Called at the world's current time, before the event is applied; `line_number` is its line in the
   /// recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
   /// Called when the replay reached the end of the recording, or a difference.

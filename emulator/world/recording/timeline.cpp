@@ -72,7 +72,7 @@ void Timeline::go_to(SimTime time,
   const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
   const Keyframe& from = *(later - (has_near ? 2 : 1));
   take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
-  restore(world_, from.state);  // restores the hosts of that time as well, not the present ones
+  restore(world_, from.state);  // restores the hosts of that time as well, instead of the current ones
   next_event_ = play(world_, from.next_event, time);
 }
 

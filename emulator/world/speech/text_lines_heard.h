@@ -22,7 +22,7 @@ std::string lines_text(std::span<const std::string> lines);
 /// The lines that a step waits for.
 struct LinesWanted {
   std::vector<std::string> lines;  // none: any lines, until the time is over
-  /// They answer what was just sent; the last line may lack a line end, as a prompt does.
+  /// The lines answer what was just sent; the last one may lack a line end, as a prompt does.
   bool is_answer = false;
 };
 /// Returns true if the wanted lines, or others instead, have arrived.

@@ -307,7 +307,7 @@ ModbusReply serve_other(RegisterBank& bank, const RtuRules& rules, OtherFunction
   return exception(pdu, nullptr, bad_value(Cause::unknown_function));
 }
 
-/// Returns null if the model does not know such a function.
+/// Returns null if the model does not know the function.
 const OtherFunctionRow* find_other(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;

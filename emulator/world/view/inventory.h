@@ -1,4 +1,4 @@
-// Describes the contents of a world, by name and number, but not its present state. That is enough to resolve
+// Describes the contents of a world, by name and number, but not its current state. That is enough to resolve
 // names and to check whether a fault is possible. A running world has an inventory, and so does a bench from
 // which no world has been made.
 #pragma once

@@ -1,5 +1,5 @@
-// The readable side of a running world: what it contains (inventory.h) and its present state. Observers
-// (probes, peaks) use only this interface; reading changes nothing.
+// The readable side of a running world: its contents (inventory.h) and its current state. Observers (probes,
+// peaks) use only this interface; reading changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct WorldLine {
   LineStations stations;
   pty::RtuFraming framing{};  // that of its stations; the shortest silence if they differ
 
-  /// These use `speech`.
+  /// These functions use `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
     return speech.request_text(stations, request);
   }
