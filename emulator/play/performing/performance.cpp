@@ -161,7 +161,7 @@ Failure Performance::explain_failure(const StepError& error) {
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
   executor_->with_world([&](world::World& world) {
     failure.frames = eyes_->frames.last(kFramesTold);
-    // A broken span comes first, because it happened before any other failure.
+    // A violated span comes first, because it was violated before anything else failed.
     if (const auto& violation = eyes_->spans.violation()) {
       failure.at = violation->at;
       failure.what = violation->what + " did not hold at " + format_duration(violation->at);

@@ -139,7 +139,7 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
   --depth_;
 }
 
-/// Reads a step. If it cannot be read, restores the state before it.
+/// Reads a step. If it cannot be read, restores the reader's state before it.
 void StepsReader::read_or_complain(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const auto outer = std::pair(may_lack_name_, has_failed_);

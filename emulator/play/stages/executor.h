@@ -25,7 +25,7 @@ struct HostReply {
   } kind = Kind::silence;
   int exception = 0;
   std::vector<std::uint16_t> words;  // the words that were read; in tables of bits, one bit each
-  std::vector<std::uint8_t> bytes;   // as received, with checksum (virtual time), or as the host decoded them
+  std::vector<std::uint8_t> bytes;   // as received, with checksum; empty if libmodbus received them
 };
 
 /// A condition that may become true at the end of a tick.

@@ -57,7 +57,8 @@ class RealExecutor final : public Executor {
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
-  /// After run_until(), returns the tick at which its condition was true; only valid right after that call.
+  /// After run_until(), returns the time of the tick at which its condition was true, until time passes
+  /// again.
   SimTime now() override;
   Tick tick_of_last_write() override;
 

@@ -18,7 +18,7 @@ class Turns final : public serve::Companion {
   // --- called by the thread that runs the world ----------------------------------------------------
   void act(SimTime now) override;
   std::optional<SimTime> next_act() const override;
-  /// Ends the scenario's wait, because the scenario must end.
+  /// Gives the scenario up. Its wait ends at the next act().
   void give_up();
   /// Called when the world no longer runs. The scenario may then act on it at any time.
   void leave();

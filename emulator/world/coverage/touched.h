@@ -38,7 +38,7 @@ struct TouchedTable {
   bool operator==(const TouchedTable&) const = default;
 };
 
-/// The tables of a model, those with the largest gaps first.
+/// The tables of a model, those whose gaps matter most first.
 using TouchedModel = std::vector<TouchedTable>;
 
 /// A cell that no run has touched.

@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 /// The sources that drive a terminal at this moment.
 struct TerminalDrivers {
-  bool device = false;   // it is an output of the device
+  bool device = false;   // it is an output of a device with power
   bool fault = false;    // stuck: overrides the others
   bool held = false;     // from outside
   bool machine = false;  // a switch of the machine

@@ -1,5 +1,5 @@
 // Records the values of some names at each tick around the moment at which a condition becomes true, like an
-// oscilloscope's single shot. While it records, the world runs every tick and shows it.
+// oscilloscope's single shot. While it records, the world skips only ticks in which nothing changes.
 #pragma once
 
 #include <cstddef>

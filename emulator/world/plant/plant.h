@@ -181,7 +181,8 @@ class alignas(64) PlantAxis {
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
   bool ready() const { return state_.ready; }
-  /// Returns true if a contact is closed. A contact that the machine does not have is open.
+  /// Returns true if a contact is closed. A contact that the machine does not have is open, but without a
+  /// drive, an injected alarm still closes the alarm contact.
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
   bool has_encoder() const { return encoder_.counts_per_revolution != 0; }

@@ -38,7 +38,7 @@ class ReplayWatcher {
   /// Called at the world's current time, before the event is applied; `line_number` is its line in the
   /// recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
-  /// Called when the replay reached the end of the recording, or a difference.
+  /// Called at the end of the replay, whatever its verdict.
   virtual void ended() {}
 };
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
