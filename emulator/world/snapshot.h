@@ -43,7 +43,7 @@ WorldState save(const World& world);
 
 /// Reads a state. The result puts the world into that state; it can be called repeatedly and does not throw.
 /// Throws StateError "part: what is wrong" if such a world cannot be in the state. Watchers, observers and
-/// listeners stay. The world must outlive the result.
+/// listeners stay attached. The world must outlive the result.
 std::function<void()> read_state(World& world, const WorldState& state);
 
 /// Reads a state and puts it into effect at once. If it throws, nothing has changed.

@@ -262,7 +262,7 @@ class World final : public WorldView {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Axes*> axes_;  // of each device
   std::vector<std::unique_ptr<WorldLine>> lines_;
-  std::vector<WorldLine*> unasked_lines_;              // those with devices that may send unasked
+  std::vector<WorldLine*> unasked_lines_;              // lines with devices that may send unasked
   std::vector<std::vector<PlantAxis>> plants_;         // [device][axis]
   std::vector<std::vector<std::size_t>> driven_axes_;  // by device: those with a drive
   std::vector<std::vector<ContactWire>> contacts_;     // by device; as wired in the bench

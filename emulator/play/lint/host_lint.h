@@ -55,7 +55,7 @@ class HostLint final : public pty::LineObserver {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
-    std::string command{};          // its name, if it has one
+    std::string command{};          // the name of its command; empty: none
     std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is executed
   };
 
@@ -73,7 +73,7 @@ class HostLint final : public pty::LineObserver {
   SimTime silence_{0};
   SimTime longest_gap_{0};
   pty::RtuFramer framer_;
-  std::vector<Character> waiting_;    // characters of no frame yet
+  std::vector<Character> waiting_;    // characters that are not in a frame yet
   std::optional<SimTime> under_way_;  // the start of a character that has not ended
   std::optional<SimTime> busy_until_;
   std::uint64_t last_number_ = 0;

@@ -53,7 +53,7 @@ class CaseList {
     std::uint64_t size = 0;
     bool is_varied = false;
     std::uint64_t made_of = 0;
-    std::vector<std::shared_ptr<const Scenario>> held;  // all its cases, or none
+    std::vector<std::shared_ptr<const Scenario>> held;  // all cases, or none
   };
   std::uint64_t hash_of_file(const std::string& path);
   void claim_saved(const Scenario& scenario) const;

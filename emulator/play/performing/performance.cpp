@@ -107,7 +107,7 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
   keeps_peaks_ = names_peaks(scenario.steps);
   executor_->with_world([&](world::World& world) {
     eyes_ = std::make_unique<Eyes>(world, with_hash);
-    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before the watchers that need peaks
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // must come before the watchers that need peaks
   });
 }
 

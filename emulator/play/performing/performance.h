@@ -46,7 +46,7 @@ class Performance {
     std::vector<std::pair<std::string, std::size_t>> faults;
     Tick last_write = 0;
     std::map<std::string, ConditionHistory::State> histories;
-    std::vector<SimTime> quiet_since;  // as in Executor
+    std::vector<SimTime> quiet_since;  // see Executor::quiet_since()
     std::uint64_t hash = 0;
   };
 
@@ -148,7 +148,7 @@ class Performance {
   bool keeps_peaks_ = false;
   const Step* step_ = nullptr;                               // the one that is being executed
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
-  Tick last_write_ = 0;                                      // from a checkpoint, until the next write
+  Tick last_write_ = 0;                                      // the checkpoint's, until the next write
 };
 
 }  // namespace understudy::emulator::play

@@ -63,7 +63,7 @@ class ConditionHistory final : public world::TickWatcher {
     Tick last = 0;
   };
 
-  /// The source must outlive it.
+  /// `values` must outlive it.
   ConditionHistory(world::Expression condition, const world::Probes& values)
       : condition_(std::move(condition)), values_(values) {}
 

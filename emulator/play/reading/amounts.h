@@ -38,7 +38,7 @@ class AmountScale {
 
  private:
   Amount::Kind kind_;
-  int decimals_ = 0;         // of a number
+  int decimals_ = 0;         // for numbers only
   std::int64_t finest_ = 0;  // 0: no amount was included
 };
 

@@ -25,7 +25,7 @@ struct WrittenStep {
 
 /// A disturbance of a course.
 struct Disturbance {
-  std::size_t entry = 0;  // its index in `may`
+  std::size_t entry = 0;  // an index into the entries of `may`
   std::size_t step = 0;   // it happens before this step of the scenario
   enum class When : std::uint8_t {
     here,  // at once
@@ -42,7 +42,7 @@ class HuntPlan {
  public:
   /// An entry of `may`.
   struct Entry {
-    world::YamlFields step;         // with values that are still to be drawn
+    world::YamlFields step;         // includes values that are still to be drawn
     std::vector<Variation> values;  // in the order written
     std::size_t most = 1;           // how often it may happen
     SimTime within{-1};             // all of them happen within this time; negative: at any time

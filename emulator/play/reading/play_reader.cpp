@@ -59,7 +59,7 @@ bool is_below(const std::string& path, const std::string& folder) {
   const fs::path file = fs::weakly_canonical(fs::absolute(target));
   const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
   const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
-  // A path with a slash at its end has an empty last name.
+  // A path with a slash at its end has an empty last component.
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 

@@ -24,7 +24,7 @@ struct FilePlays {
   std::string path;
   std::string save_below;             // saved files must be below this folder
   std::optional<std::uint64_t> seed;  // instead of the file's own
-  std::vector<std::string> command;   // as in ReadingOptions
+  std::vector<std::string> command;   // see ReadingOptions
   FileReading reading;
   /// The files that earlier cases save. Set only while all cases are read.
   std::optional<std::vector<FileClaim>> saved_before{};
@@ -60,7 +60,7 @@ class PlayReader {
   void require_own_paths(const StepsReader& steps, Scenario& scenario);
 
   world::YamlFields own_;   // as written
-  world::YamlFields root_;  // with the common part of the file
+  world::YamlFields root_;  // includes the common part of the file
   FilePlays& file_;
   bool is_one_of_several_ = false;
   CaseTable cases_;

@@ -72,7 +72,7 @@ enum class FileKind : std::uint8_t {
   bench,
   scenario,
   steps,  // for other scenarios to include
-  model,  // that benches name by its path (docs/import.md)
+  model,  // used by benches, which name it by its path (docs/import.md)
 };
 FileKind kind_of_file(const std::string& path);
 

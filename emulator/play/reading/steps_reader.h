@@ -22,7 +22,7 @@ namespace understudy::emulator::play {
 
 /// State that the cases of a file share.
 struct FileReading {
-  static constexpr int kMaxSteps = 100'000;  // of all cases
+  static constexpr int kMaxSteps = 100'000;  // for all cases together
   /// The limit for the bytes of their texts and messages.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   static constexpr int kDeepest = 32;  // loops, forks and includes within each other
@@ -111,7 +111,7 @@ class StepsReader {
   const Parameters* parameters_ = nullptr;
   Story story_;
   Steps* into_ = nullptr;
-  const Steps* top_ = nullptr;                   // those of the scenario, not of a branch
+  const Steps* top_ = nullptr;                   // the steps of the scenario, not of a branch
   std::vector<WrittenStep>* written_ = nullptr;  // what they were made from
   std::optional<world::YamlFields> current_;     // the step being read
   bool has_added_ = false;                       // it has already made a step

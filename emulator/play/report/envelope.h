@@ -43,7 +43,7 @@ class Envelope {
 
   std::size_t most_stretches_;
   Tick origin_ = 0;                 // where the first stretch begins
-  Tick length_ = 1;                 // of each stretch
+  Tick length_ = 1;                 // how long each stretch is
   std::vector<Stretch> stretches_;  // stretches in which nothing was added may be missing
   double least_ = 0;
   double greatest_ = 0;

@@ -32,7 +32,7 @@ struct Failure {
   std::vector<std::string> details{};  // expressions with their values, and other differences
   std::vector<std::string> led_to{};   // the events that led to it (world::Story)
   std::vector<std::string> frames{};   // the last frames on all lines, decoded
-  std::vector<std::string> state{};    // of the devices and machines
+  std::vector<std::string> state{};    // the state of the devices and machines
 };
 
 /// The result of a scenario, or of one of its branches.
@@ -47,10 +47,10 @@ struct ScenarioResult {
   std::vector<StepResult> steps{};           // the failed step is the last; a branch has only its own steps
   std::optional<Failure> failure{};          // if it failed
   SimTime simulated{0};                      // how long it ran; for a branch, from its fork on
-  std::uint64_t outcome_hash = 0;            // of all output, if requested (outcome_hash.h)
+  std::uint64_t outcome_hash = 0;            // the hash of all output, if requested (outcome_hash.h)
   std::shared_ptr<const RunLog> run_log{};   // for a report, if requested
   std::vector<std::string> lint_findings{};  // from a lint, if requested; single lines
-  std::string recording{};                   // its path, if there is one; the same for a trace and a capture
+  std::string recording{};                   // the path, if there is one; the same for a trace and a capture
   std::string trace{};
   std::string capture{};
   Case which{};  // within its file

@@ -31,7 +31,7 @@ struct ResultRow {
   std::optional<std::string> failure;
   std::optional<std::string> at_s;
   std::optional<std::string> step;       // "grid.yaml:17"
-  std::optional<std::string> recording;  // its path
+  std::optional<std::string> recording;  // the path
   std::string made_of;                   // a hash of the files and the program that made it
 };
 /// `with_hash` tells that outcome_hash was requested.

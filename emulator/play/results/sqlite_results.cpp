@@ -230,7 +230,7 @@ class SqliteResults final : public ResultsFile {
   std::unique_ptr<sqlite3, Closing> database_;
   Statement insert_;
   Statement find_;
-  std::set<std::string> names_;  // of parameters
+  std::set<std::string> names_;  // the names of parameters
   bool is_open_ = false;         // true during a transaction
   std::chrono::steady_clock::time_point begun_;
 };

@@ -30,7 +30,7 @@ struct Target {
   std::optional<NamedPlace> place{};
   Table table = Table::holding;  // only without `place`
   std::uint16_t address = 0;     // only without `place`: the number in `table`
-  bool is_value = false;         // of a device without registers: read directly, not over the line
+  bool is_value = false;  // true for a value of a device without registers: read directly, not over the line
 };
 
 /// How a device must answer each request of a step: normally, with an exception, or not at all.
@@ -124,7 +124,7 @@ struct TurnStep {
 /// inject: { stall: feeder.A, name: NAME }
 struct InjectStep {
   world::Fault fault;
-  std::string name;  // of this fault, for `clear`; its text, if no other was given
+  std::string name;  // the name for `clear`; the fault as text, if no other name was given
 };
 /// clear: NAME, or all
 struct ClearStep {
@@ -221,7 +221,7 @@ struct Step {
 
 /// One case of a scenario file. A file with a table of cases makes one for each row.
 struct Scenario {
-  std::string name;  // with the case's parameters: "a move takes its time (speed=200)"
+  std::string name;  // includes the case's parameters: "a move takes its time (speed=200)"
   std::string file;
   world::Bench bench;
   SimTime gap{0};  // between two requests of the host, beyond t3.5

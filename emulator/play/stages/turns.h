@@ -42,7 +42,7 @@ class Turns final : public serve::Companion {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Whose turn_ = Whose::world;
-  std::optional<SimTime> end_ = SimTime{0};  // of the scenario's wait; nothing after finish()
+  std::optional<SimTime> end_ = SimTime{0};  // when the scenario's wait ends; nothing after finish()
   const TickLook* look_ = nullptr;
   bool is_given_up_ = false;
   bool is_left_ = false;

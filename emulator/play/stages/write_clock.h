@@ -32,7 +32,7 @@ class WriteClock {
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   Tick last_ = 0;
-  Tick before_ = 0;  // the same for the write before
+  Tick before_ = 0;  // the tick of the write before
   static constexpr std::size_t kNone = SIZE_MAX;
   std::size_t unanswered_ = kNone;  // the line on which the last write waits for its reply
 };

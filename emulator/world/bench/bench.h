@@ -44,7 +44,7 @@ struct LineSetup {
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
   bool echoes = false;                                            // hosts receive their own bytes
-  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
+  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // how much a host's speed may differ
   SimTime byte_timeout = kUsualByteTimeout;  // for the rest of a frame, by the host's clock
   std::vector<StationSetup> stations;        // in the order written
 };
@@ -90,7 +90,7 @@ struct Bench {
   std::vector<InputSetup> inputs;
   std::vector<Fault> faults;       // the initial ones
   std::uint64_t seed = 0;          // the start of the random numbers
-  std::vector<FileClaim> files{};  // all that it was read from, except memories
+  std::vector<FileClaim> files{};  // all files that it was read from, except memories
 };
 
 /// The names of both ends of a wire: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".

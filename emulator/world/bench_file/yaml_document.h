@@ -19,7 +19,7 @@ struct YamlNode {
   int text_line = 0;
   int text_column = 0;
   std::string scalar{};
-  std::vector<const YamlNode*> parts{};  // of a list; of a map: key, value, key, value
+  std::vector<const YamlNode*> parts{};  // the elements of a list; for a map: key, value, key, value
 };
 
 /// Returns the single document of a text, which may be of any kind. Messages call it `what`. It stops at the

@@ -187,7 +187,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   Device& device_;
   std::map<std::string, std::unique_ptr<CountedProgram>> programs_;  // by text
   std::map<std::uint64_t, CountedProgram*> by_mark_;
-  std::optional<std::uint64_t> mark_;  // of the running program
+  std::optional<std::uint64_t> mark_;  // the running program's mark
   CountedProgram* program_ = nullptr;  // the running program's counts, once a line has run
 };
 

@@ -107,7 +107,7 @@ class TracefileReader {
   const std::string& file_;
   int line_ = 0;
   CoverageReport report_;
-  CoveredLines* lines_ = nullptr;  // of the current record; null between records
+  CoveredLines* lines_ = nullptr;  // the current record's lines; null between records
 };
 
 }  // namespace

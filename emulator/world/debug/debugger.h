@@ -113,7 +113,7 @@ class Debugger final : private TickWatcher {
   bool sleeps_ = false;
   int last_number_ = 0;
   std::uint64_t next_event_ = 0;
-  std::vector<Event> new_events_;  // of this tick
+  std::vector<Event> new_events_;  // the events of this tick
   std::vector<Sign> signs_;        // at the end of the last tick
 };
 

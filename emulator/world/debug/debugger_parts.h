@@ -27,13 +27,13 @@ struct Debugger::Point {
   Breakpoint told{};
   Expression condition{};
   std::vector<Piece> log{};
-  std::vector<ProgramLines::Told> places{};  // of a line or an instruction
+  std::vector<ProgramLines::Told> places{};  // for a line or an instruction
   std::uint64_t ran = 0;                     // how often these began in this tick
   std::optional<ProgramLines::Told> ran_last{};
   std::size_t depth = 0;          // the number of callers there
   bool was_true = false;          // for a condition
   std::string written{};          // for a write: the register, as events name it
-  std::int32_t handle = 0;        // its value
+  std::int32_t handle = 0;        // for a write: the register's value
   std::optional<Number> value{};  // at the end of the last tick
   std::string who{};              // what happened at the last hit of a write or an event
   std::string no_result{};        // why the condition has none; empty if it has one
@@ -48,7 +48,7 @@ struct Debugger::Step {
   StepKind kind = StepKind::instruction;
   std::size_t device = 0;
   std::optional<int> part{};                // the part that it steps in; none: any
-  std::string program{};                    // its name
+  std::string program{};                    // that part's name
   int line = 0;                             // where it began; 0: unknown
   std::size_t depth = 0;                    // the number of callers there; after the step: at its end
   std::optional<ProgramLines::Told> end{};  // the instruction at which the step ends

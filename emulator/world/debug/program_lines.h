@@ -49,9 +49,9 @@ class ProgramLines {
 
   std::string source_;
   std::string text_;
-  std::vector<std::string> texts_;    // of the source, by line
-  std::vector<ProgramPart> parts_;    // of the source; only the first of those with the same number
-  std::vector<ProgramPart> listing_;  // the same with the lines of the listing
+  std::vector<std::string> texts_;    // the source by line, without blanks around
+  std::vector<ProgramPart> parts_;    // the source's parts; only the first of those with the same number
+  std::vector<ProgramPart> listing_;  // the listing's parts, in the same way
 };
 
 }  // namespace understudy::emulator::world

@@ -27,8 +27,8 @@ struct Event {
   std::string by;      // host, control or page; empty if nobody caused it
   std::string line{};  // the line of the host that caused it
   std::string device{};
-  std::string name{};   // of the register or terminal, as the control socket takes it
-  std::string value{};  // as a number
+  std::string name{};   // the register or terminal, as the control socket takes it
+  std::string value{};  // a number as text
   std::string text{};   // more, for people
 };
 

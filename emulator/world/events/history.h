@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 struct Exchange {
   std::string line;
   SimTime begin{0};
-  SimTime end{0};         // of its last frame
+  SimTime end{0};         // the end of its last frame
   std::string request{};  // empty: a station has spoken unasked
   std::string reply{};    // empty: there was none
   std::string remark{};   // why a frame was dropped, and the like

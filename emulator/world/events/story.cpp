@@ -22,7 +22,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr std::size_t kMaxTouching = 16;  // events that touch the names
-constexpr std::size_t kMaxEvents = 24;    // with those of the same devices
+constexpr std::size_t kMaxEvents = 24;    // includes those of the same devices
 
 bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.';

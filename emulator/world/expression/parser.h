@@ -53,7 +53,7 @@ class ExpressionParser {
   Lexer lexer_;
   Token token_;  // the next token
   CodeWriter code_;
-  int nesting_ = 0;  // of parentheses, signs and choices
+  int nesting_ = 0;  // the depth of parentheses, signs and choices
 };
 
 }  // namespace understudy::emulator::world

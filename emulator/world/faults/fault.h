@@ -38,12 +38,12 @@ struct Fault {
     early_reply,  // requests are complete with their last character, without the device's silence
     // Faults of a message on the wire (pty/wire_fault.h).
     drop,
-    delay,             // by `amount` ns
+    delay,             // it is delayed by `amount` ns
     corrupt_checksum,  // its last byte is inverted
-    truncate,          // to `amount` bytes
-    duplicate,         // the second `amount` ns after the first
-    noise,             // `before` and `after`
-    collision,         // with `before`
+    truncate,          // only its first `amount` bytes arrive
+    duplicate,         // it is repeated `amount` ns later
+    noise,             // preceded by `before` and followed by `after`
+    collision,         // another sender sends `before` at the same time
     split,             // its first `amount` bytes arrive on time, the rest `over_ticks` later
     // Faults of a reply on its way from a gateway to a master.
     wrong_transaction,  // with the next transaction's number

@@ -18,7 +18,7 @@ namespace understudy::emulator::world {
 struct TerminalDrivers {
   bool device = false;   // it is an output of a device with power
   bool fault = false;    // stuck: overrides the others
-  bool held = false;     // from outside
+  bool held = false;     // it is held from outside
   bool machine = false;  // a switch of the machine
   bool wire = false;
 };
@@ -64,8 +64,8 @@ class LookedNames {
     std::uint64_t looked_at = 0;  // the number of the last look at it
     std::vector<std::string> names;
     std::vector<Known> known;
-    std::optional<std::vector<bool>> power;  // of all devices, when all names were last tried
-    std::vector<std::size_t> left;           // to be tried now, the next one last
+    std::optional<std::vector<bool>> power;  // whether each device had power when all names were last tried
+    std::vector<std::size_t> left;           // the names to be tried now, the next one last
     std::size_t next_again = 0;
   };
   Known find(const std::string& name);

@@ -24,7 +24,7 @@ struct KnownDevice {
   std::string name;
   const Model* model = nullptr;
   Firmware firmware = 0;
-  std::vector<std::string> lines{};  // its lines by port; empty: the port is not connected
+  std::vector<std::string> lines{};  // by port; empty: the port is not connected
 };
 using KnownDevices = std::vector<KnownDevice>;
 

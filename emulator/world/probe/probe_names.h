@@ -77,7 +77,7 @@ class ProbeNames final : public NameResolver {
   };
   struct Probe {
     What what = What::time;
-    std::size_t device = 0;  // or the line
+    std::size_t device = 0;  // also a line
     int place = 0;           // axis or terminal
     NamedPlace reg{};
     const TerminalGroup* group = nullptr;

@@ -31,15 +31,15 @@ struct RecordingHeader {
 struct RecordedFailure {
   std::string what{};  // "feeder.Cord_A is 31999; expected 32000"; empty: there was no failure
   SimTime at{0};
-  std::string scenario{};  // its name, with that of its branch
-  std::string place{};     // of the step: "fail.yaml:8"
+  std::string scenario{};  // includes the name of its branch
+  std::string place{};     // the step's place: "fail.yaml:8"
   std::string step{};      // "expect: feeder.Cord_A = 32000"
 };
 
 struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
-    closed,    // and closed it
+    closed,    // a host closed line `where`
     settings,  // the host set `host`; nothing: it left the settings as they were
     bytes,     // wrote `bytes`
     departed,  // bytes of a host that has closed since
@@ -53,7 +53,7 @@ struct RecordedEvent {
     write,    // `write`, bypassing the line
     assign,   // a device without registers was given the value `real` by the name `text`
     program,  // a device was given the program `text`; it refused it if `value` is not 0
-    command,  // and the command `text`, bypassing the line
+    command,  // a device was given the command `text`, bypassing the line
     wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` says
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;

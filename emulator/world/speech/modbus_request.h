@@ -16,7 +16,7 @@ struct ModbusRequest {
   Table table = Table::holding;
   std::uint16_t first = 0;
   std::size_t count = 0;
-  std::vector<std::uint16_t> words{};  // of a write; bits are 0 or 1
+  std::vector<std::uint16_t> words{};  // the values of a write; bits are 0 or 1
 
   bool is_write() const { return !words.empty(); }
 };

@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 struct StationCounters {
   std::uint64_t requests = 0;  // for this station: frames, broadcasts included, or lines
   std::uint64_t replies = 0;
-  std::uint64_t exceptions = 0;  // of the replies
+  std::uint64_t exceptions = 0;  // how many of the replies
 };
 
 class LineStation : public pty::Station, private FaultyWire::End {
@@ -65,7 +65,6 @@ class LineStation : public pty::Station, private FaultyWire::End {
   FaultyWire wire_;  // everything that it receives and sends passes through it
 };
 
-/// The stations on a line.
 using LineStations = std::vector<std::unique_ptr<LineStation>>;
 
 }  // namespace understudy::emulator::world

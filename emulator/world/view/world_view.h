@@ -23,7 +23,7 @@ struct WorldLine {
   pty::Line line;
   const LineProtocol& speech;
   LineStations stations;
-  pty::RtuFraming framing{};  // that of its stations; the shortest silence if they differ
+  pty::RtuFraming framing{};  // from its stations; the shortest silence if they differ
 
   /// These functions use `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
