@@ -101,7 +101,7 @@ class World final : public WorldView {
   void remove_observer(std::size_t line, pty::LineObserver& observer) {
     lines_[line]->line.remove_observer(observer);
   }
-  /// Reports what a fault has done to a message to the observers. It has no other effect.
+  /// Reports to the observers what a fault has done to a message. It has no other effect.
   void tell_strike(std::size_t line, const pty::StruckMessage& message) {
     lines_[line]->line.tell_strike(message);
   }

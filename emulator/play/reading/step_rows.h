@@ -18,7 +18,7 @@ class StepsReader;
 
 struct StepRow {
   world::Key key;
-  /// Adds the step that `value` describes. Its map `step` may have no other keys than those of `beside`.
+  /// Adds the step that `value` describes. Besides it, the map `step` may only have the keys of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::Key> beside{};
   /// This matters when a step cannot be read: later steps may need a name that it gives, or it wants a name

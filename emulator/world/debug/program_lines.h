@@ -27,7 +27,7 @@ class ProgramLines {
 
   /// Returns the bench's file, or an empty text for the listing.
   const std::string& source() const { return source_; }
-  /// Returns the text whose lines these are: of the bench's program, or of the listing.
+  /// Returns the text that the lines belong to: the bench's program, or the listing.
   const std::string& text() const { return text_; }
   /// Returns the lines that have an instruction, in order.
   std::vector<int> lines() const;
@@ -41,7 +41,7 @@ class ProgramLines {
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
   std::optional<InstructionPlace> place(Told told) const;
-  /// Returns the line of the source for one of the listing; 0 if it has none.
+  /// Returns the source line for a line of the listing, or 0 if there is none.
   int source_line(int listing_line) const;
 
  private:

@@ -32,7 +32,7 @@ struct Fault {
     lumps,   // received bytes are delivered at multiples of `amount` ns
     unplug,  // the adapter is unplugged
     slow,    // it executes each request `amount` ns late
-    // Faults of how a device, or all devices on a line, treat requests.
+    // Faults in the way a device, or every device on a line, treats requests.
     busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
     early_reply,  // requests are complete with their last character, without the device's silence
