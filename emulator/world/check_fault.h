@@ -12,9 +12,10 @@ namespace understudy::emulator::world {
 /// Throws NameError for an impossible fault, such as a condition with unknown names, or noise on an encoder
 /// that does not exist.
 void check_fault(const Inventory& inventory, const Fault& fault);
-/// Checks only the condition, and throws NameError if it cannot be understood.
+/// Checks only the condition. Throws NameError if it is not valid, or needs values that only scenarios have.
 void check_condition(const Inventory& inventory, const std::string& when);
-/// Parses a condition for use. Throws ExpressionError, or the errors of `names`.
+/// Parses a condition for use. Throws ExpressionError, the errors of `names`, or NameError for a duration or
+/// a voltage.
 Expression parse_condition(const std::string& text, const NameResolver& names);
 
 }  // namespace understudy::emulator::world

@@ -183,7 +183,7 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
   return frame.last_character == course.judged_character && course.was_hit;
 }
 
-/// Reports strikes to those who observe the line. This has no other effect.
+/// Reports strikes to the observers of the line. This has no other effect.
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;

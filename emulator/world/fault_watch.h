@@ -1,5 +1,5 @@
-// Watches the faults of a world that wait for something: stations ask it about frames, the world about time.
-// It does not exist while no fault waits.
+// Decides when the faults of a world strike: stations ask about each frame, and the world about time. It
+// exists only while a fault waits for something or changes with time.
 #pragma once
 
 #include <map>
@@ -20,8 +20,8 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
  public:
   using Faults = std::map<std::size_t, ArmedFault>;  // by number
 
-  /// All must outlive it. The faults must be possible in this world (check_fault). When a fault is added or
-  /// removed, make a new watch.
+  /// `world` and `faults` must outlive it. The faults must be possible in this world (check_fault). When a
+  /// fault is added or removed, make a new watch.
   FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
@@ -50,7 +50,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   World& world_;
   Faults& faults_;
   std::uint64_t seed_;
-  std::vector<std::vector<std::size_t>> lines_;  // of the devices, by their ports
+  std::vector<std::vector<std::size_t>> lines_;  // [device][port]: the line's number
   Probes probes_;
   std::map<std::string, Expression> conditions_;
 };

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 class OutcomeHash final : public TickWatcher {
  public:
-  /// Starts at this moment. The world must outlive it.
+  /// Starts hashing at this moment. The world must outlive it.
   explicit OutcomeHash(World& world);
   ~OutcomeHash() override;
   OutcomeHash(const OutcomeHash&) = delete;
@@ -26,7 +26,7 @@ class OutcomeHash final : public TickWatcher {
 
  private:
   class LineHasher;
-  /// Neighbouring outputs in a model's table.
+  /// Adjacent outputs of one kind in a model's table.
   struct Outputs {
     TerminalRow::Kind kind = TerminalRow::Kind::digital_out;
     int first = 0;

@@ -1,6 +1,6 @@
 // Reports everything that reaches a world from outside, except what hosts do on its lines
-// (pty/line_observer.h), for recorders. If it is repeated in a world of the same bench at the same simulated
-// times, the same things happen.
+// (pty/line_observer.h), for recorders. Repeating both in a world of the same bench, at the same simulated
+// times, reproduces the run.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class OutsideListener {
   virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
   /// A device without registers was given a value by name.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;
-  /// The program was given to the device, which took it or refused it.
+  /// A program was given to the device, which accepted or refused it.
   virtual void on_program(std::size_t device, std::string_view text, bool is_refused) = 0;
   /// A command was given by its name, without using the line.
   virtual void on_command(std::size_t device, std::string_view text) = 0;

@@ -57,8 +57,8 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
-/// How a line hears its hosts. This is a setting, not a state, but the future of two worlds is the same only
-/// if it agrees.
+/// A line's treatment of its hosts. This is a setting, not a state, but two worlds with different settings
+/// have different futures.
 struct Hearing {
   bool is_strict = false;         // requires the silence between frames
   bool enforces_settings = true;  // ignores a host with another speed

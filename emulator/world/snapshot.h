@@ -1,9 +1,9 @@
-// The state of a running world as a value, which is saved and restored in memory, and hashed. It can also be
+// Saves the state of a running world as a value, restores it, compares it and hashes it. A state can also be
 // restored into another world of the same bench. snapshot_file.h stores it in a file.
 //
-// A restored world continues as the saved one did: the same outside events at the same times lead to the
-// same states and the same bytes on its lines. These functions must not be called from within
-// World::advance_to(), that is by watchers.
+// A restored world continues as the saved one did: the same outside events at the same times lead to the same
+// states and the same bytes on its lines. These functions must not be called from within World::advance_to(),
+// that is, by watchers.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +41,9 @@ inline constexpr std::string_view kEdgePart = "edge";
 
 WorldState save(const World& world);
 
-/// Reads a state. Calling the result, as often as you like, puts the world into it and does not throw.
-/// Throws StateError "part: what is wrong" if such a world cannot be in it. Watchers, observers and the
-/// listener stay. The world must outlive the result.
+/// Reads a state. The result puts the world into that state; it can be called repeatedly and does not throw.
+/// Throws StateError "part: what is wrong" if such a world cannot be in the state. Watchers, observers and
+/// listeners stay attached. The world must outlive the result.
 std::function<void()> read_state(World& world, const WorldState& state);
 
 /// Reads a state and puts it into effect at once. If it throws, nothing has changed.
@@ -54,8 +54,8 @@ void restore(World& world, const WorldState& state);
 /// if they are equal. Throws StateError if either cannot be read.
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
-/// Returns a hash of everything that affects the model and of nothing else: not of bytes that a host has not
-/// read yet, nor of whether quiet ticks were skipped in bulk, nor of counts of that.
+/// Returns a hash of everything that affects the model. It leaves out bytes that a host has not read yet, and
+/// how ticks were skipped.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// Reads and writes the JSON of snapshots. No other file knows it.
+// Reads and writes the JSON of snapshots. Only this file uses it.
 #include "emulator/world/snapshot_file.h"
 
 #include <array>
@@ -43,7 +43,7 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// Returns a checksum of all parts and their names, which shows whether the text was changed.
+/// Returns a checksum of all parts and their names, which detects changes of the text.
 std::uint64_t checksum(const WorldState& state) {
   std::uint64_t sum = hash_of_text(std::to_string(state.time.count()), hash_of({}));
   for (const WorldState::Part& part : state.parts) sum = hash_of(part.bytes, hash_of_text(part.name, sum));
@@ -116,7 +116,7 @@ std::uint64_t bench_hash(const Bench& bench) {
 std::string to_text(const WorldState& state, std::uint64_t bench) {
   Json parts = Json::object();
   for (const WorldState::Part& part : state.parts) {
-    // The bytes come first, then each text after a point.
+    // The bytes come first, then each text after a dot.
     std::string encoded = to_base64(part.bytes);
     for (const SharedText& text : part.texts) {
       encoded += '.';

@@ -11,7 +11,8 @@
 
 namespace understudy::emulator::world {
 
-/// Reports a snapshot that cannot be used, as one line: "field: what is wrong; what was expected".
+/// Thrown for a snapshot that cannot be used. The message is one line: "field: what is wrong; what was
+/// expected".
 struct SnapshotError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -20,7 +21,7 @@ struct SnapshotError : std::runtime_error {
 /// because the state has its own.
 std::uint64_t bench_hash(const Bench& bench);
 
-/// Replaces bench_hash() in a state within a recording, whose header has the bench.
+/// Used instead of bench_hash() for a state within a recording, whose header contains the bench.
 inline constexpr std::uint64_t kBenchOfRecording = 0;
 
 std::string to_text(const WorldState& state, std::uint64_t bench);

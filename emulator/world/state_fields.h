@@ -123,7 +123,7 @@ struct StateOf<emulator::world::World> {
                 field<&Value::faults_>(),      field<&Value::next_fault_>(), field<&Value::disturbed_>(),
                 field<&Value::now_>(),         field<&Value::done_>(),       field<&Value::input_turns_>()};
   static constexpr std::size_t members = 27;
-  /// Members for setup, for observers, and for how ticks were run.
+  /// The number of members for setup, for observers, and for how ticks were run.
   static constexpr std::size_t apart = 18;
   static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,
@@ -136,7 +136,7 @@ struct StateOf<emulator::world::World> {
   static pty::Line& line(Value& world, std::size_t number) { return world.lines_[number]->line; }
   static auto& ticks(auto& world) { return world.ticks_; }
   static void rearm(Value& world) { world.arm_faults(); }
-  /// Called when all parts are restored.
+  /// Called after all parts have been restored.
   static void tell(Value& world) {
     for (std::size_t d = 0; d < world.devices_.size(); ++d) world.tell_edges_anew(d);
   }

@@ -1,6 +1,5 @@
-// Parses JSON more strictly than its library, which silently keeps the last of two equal keys and follows
-// brackets as deep as memory allows. Only files that read JSON include this, because the library is slow to
-// compile.
+// Parses JSON more strictly than its library, which silently keeps the last of two equal keys and allows any
+// depth that memory does. Only files that read JSON include this, because the library is slow to compile.
 #pragma once
 
 #include <climits>
@@ -20,16 +19,15 @@ struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
-/// Thrown for an object with more members than anyone needs. The library looks through all of them for each
-/// new one.
+/// Thrown for an object with too many members. The library searches all of them for each new one.
 struct TooManyMembers : std::runtime_error {
   explicit TooManyMembers(std::size_t most)
       : std::runtime_error("an object has more than " + std::to_string(most) + " members") {}
 };
 
-/// How large parsed text may be.
+/// Limits on the parsed text.
 struct JsonBounds {
-  int deepest = INT_MAX;                // objects and lists that are open
+  int deepest = INT_MAX;                // how deeply objects and lists may nest
   std::size_t most_members = SIZE_MAX;  // of one object
 };
 
@@ -37,7 +35,7 @@ struct JsonBounds {
 /// TooManyMembers for text beyond `bounds`, and nlohmann's own exceptions for text that is not JSON.
 template <typename Json, typename Twice>
 Json parse_strict_json(std::string_view text, const Twice& twice, const JsonBounds& bounds = {}) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::vector<std::set<std::string>> keys;  // one set for each open object
   return Json::parse(text, [&](int depth, typename Json::parse_event_t event, Json& parsed) {
     const bool opens =
         event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;

@@ -47,7 +47,7 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
     ask_for_large_pages(first, last);
 }
 
-/// Converts a time of the host's clock to simulated time, which may be faster, as `patience` tells.
+/// Converts a time of the host's clock to simulated time, which may run faster, as `patience` tells.
 SimTime as_long_as(SimTime time, SimTime patience) {
   const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
   const double scaled = static_cast<double>(time.count()) * factor;
@@ -125,7 +125,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   begin_edges();
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
-  // Nobody could have seen what devices send at power-up, so the sending begins with the first tick.
+  // No host could see anything that devices send at power-up, so sending begins with the first tick.
   look_for_speech(kTickLength);
 }
 
@@ -157,7 +157,7 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 }
 
 void World::advance_to(SimTime time) {
-  // Ticks do not change when lines are due, except for devices that send without being asked; watchers may.
+  // Ticks do not change when lines are due, unless devices send unasked. Watchers may change it.
   SimTime line_time = next_line_time();
   // True if watchers have seen a quiet tick and nothing has happened since.
   bool is_at_rest = false;
@@ -208,7 +208,7 @@ void World::advance_to(SimTime time) {
   now_ = std::max(now_, time);
 }
 
-/// Returns the last tick up to which quiet ticks look like the last one to all watchers.
+/// Returns the last tick up to which no watcher needs to see quiet ticks.
 Tick World::last_alike() const {
   Tick next = kNever;
   for (const TickWatcher* watcher : watchers_) {
@@ -226,7 +226,7 @@ void World::show_tick(bool is_rest) {
 
 std::optional<SimTime> World::next_due() const {
   Tick tick = std::min(next_active_tick(), next_fault_tick());
-  // While axes only move on, the process need not wake up, unless watchers want to see it.
+  // While axes only continue to move, the process need not wake up, unless watchers want to see it.
   if (tick == done_ + 1 && !disturbed_ && watchers_.empty()) tick = next_event_tick(kNever);
   const SimTime due = std::min(next_line_time(), time_of(tick));
   if (due == kForever) return std::nullopt;
@@ -261,7 +261,7 @@ void World::run_lines(SimTime time) {
   if (fault_watch_) settle_faults();
 }
 
-/// Lets lines send what a tick or an act from outside gave a device to say.
+/// Lets lines send what devices have to send after a tick or an outside event.
 void World::look_for_speech(SimTime now) {
   for (WorldLine* line : unasked_lines_) {
     for (const auto& station : line->stations) {
@@ -390,7 +390,7 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
-/// Runs what is due at this moment first, in the same order as the replay of a recording.
+/// Runs what is due at this moment first, in the same order as a replay does.
 void World::begin_act() {
   if (now_ > SimTime{0}) run_lines(now_);
 }

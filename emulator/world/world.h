@@ -1,8 +1,8 @@
-// A world is a running bench. It advances only by advance_to(). Everything in it is a function of its setup
-// and of its inputs with their simulated times.
+// A world is a running bench. Only advance_to() advances it. Everything in it is a function of its setup and
+// of its inputs with their simulated times.
 //
 // Each tick runs the same phases for all devices: inputs, interpreters, motion, plant, outputs. Between
-// ticks lines process what is due on them. At the same instant a tick comes before the lines, and lines run
+// ticks, lines process what is due on them. At the same instant a tick comes before the lines, and lines run
 // in the bench's order.
 #pragma once
 
@@ -31,14 +31,14 @@ struct WorldOptions {
   bool strict_framing = false;
   /// How long an incomplete frame waits with tolerant framing (simulated time).
   SimTime patience = kFramePatience;
-  bool enforce_settings = true;  // devices are deaf to a host with another speed
+  bool enforce_settings = true;  // devices ignore a host with another speed
 };
 
 class FaultWatch;
 
 class World final : public WorldView {
  public:
-  /// Throws SettingError if a model refuses something, NameError if a fault waits for something unknown.
+  /// Throws SettingError if a model refuses a setting, NameError if this world cannot have one of the faults.
   World(const Bench& bench, const WorldOptions& options, const std::function<void(const std::string&)>& log);
   ~World();
   World(const World&) = delete;
@@ -50,20 +50,21 @@ class World final : public WorldView {
   /// Returns when something happens next without outside events, or nothing if only those can change
   /// anything.
   std::optional<SimTime> next_due() const;
-  std::uint64_t ticks_run() const { return ticks_.run; }          // one by one
-  std::uint64_t ticks_skipped() const { return ticks_.crossed; }  // in bulk
+  std::uint64_t ticks_run() const { return ticks_.run; }          // those run one by one
+  std::uint64_t ticks_skipped() const { return ticks_.crossed; }  // those skipped in bulk
 
-  /// Runs every tick one by one if false. The results are the same (this exists to prove it).
+  /// If `on` is false, every tick is run one by one. The results are the same, which tests check.
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
 
-  /// Adds a watcher until it is removed. Watchers see a tick in the order of adding.
+  /// Adds a watcher, which stays until it is removed. Watchers see each tick in the order in which they were
+  /// added.
   void add_watcher(TickWatcher& watcher) { watchers_.push_back(&watcher); }
   void remove_watcher(TickWatcher& watcher) { std::erase(watchers_, &watcher); }
-  /// Called by a watcher while it is shown a tick: advance_to() ends at that tick, after all watchers have
-  /// seen it.
+  /// Called by a watcher during on_tick(): advance_to() ends at that tick, after all watchers have seen it.
   void stop_here() { stops_here_ = true; }
 
-  /// Adds a listener until it is removed. Listeners are called in the order of adding.
+  /// Adds a listener, which stays until it is removed. Listeners are called in the order in which they were
+  /// added.
   void add_listener(OutsideListener& listener) { listeners_.push_back(&listener); }
   void remove_listener(OutsideListener& listener) { std::erase(listeners_, &listener); }
 
@@ -77,17 +78,18 @@ class World final : public WorldView {
   void host_settings(std::size_t line, const std::optional<pty::HostSettings>& settings) {
     lines_[line]->line.host_settings(settings);
   }
-  /// Takes bytes of the present host, at most line().room(). `at` is this moment or a later one.
+  /// Receives bytes from the current host, at most line().room(). `at` is this moment or a later one.
   void receive(std::size_t line, std::span<const std::uint8_t> bytes, SimTime at) {
     lines_[line]->line.receive(bytes, at);
   }
   void receive(std::size_t line, std::span<const std::uint8_t> bytes) { receive(line, bytes, now_); }
-  /// Takes bytes, at this moment, of a host that has closed since.
+  /// Receives bytes, at this moment, from a host that has since closed the line.
   void receive_departed(std::size_t line, std::span<const std::uint8_t> bytes) {
     lines_[line]->line.receive_departed(bytes, now_);
   }
   void host_purged(std::size_t line) { lines_[line]->line.host_purged(); }
-  /// The clock is stopped, and nothing more has arrived for as long as a frame is waited for.
+  /// Called when the clock is stopped and the host has sent nothing for as long as the line waits for a
+  /// frame.
   void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
   /// The host has taken this many bytes of the line's output.
   void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
@@ -99,7 +101,7 @@ class World final : public WorldView {
   void remove_observer(std::size_t line, pty::LineObserver& observer) {
     lines_[line]->line.remove_observer(observer);
   }
-  /// Passes the strike to the observers. It has no other effect.
+  /// Reports to the observers what a fault has done to a message. It has no other effect.
   void tell_strike(std::size_t line, const pty::StruckMessage& message) {
     lines_[line]->line.tell_strike(message);
   }
@@ -113,12 +115,12 @@ class World final : public WorldView {
   std::int64_t sent_pulses(std::size_t device, int axis) const override {
     return sent_pulses_[device][static_cast<std::size_t>(axis)];
   }
-  /// Holds a digital input on, or releases it; switches and wires on the same input act as well. For an
-  /// analog input it sets millivolts; it also sets a switch on the housing.
+  /// Holds a digital input on, or releases it; switches and wires on the same input act as well. Also sets
+  /// the millivolts of an analog input, and a switch on the housing.
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
   /// Returns the level last set by set_external_input().
   std::int32_t external_input(std::size_t device, int terminal) const;
-  /// The sources that drive an input. A stuck input hides the others.
+  /// The sources that drive an input. `stuck` overrides the others.
   struct Input {
     std::int32_t external = 0;
     bool wired = false;
@@ -130,7 +132,7 @@ class World final : public WorldView {
   }
   /// Writes a register without using the line.
   Refusal write(std::size_t device, const PreparedWrite& write);
-  /// Sets a value by its name, for a device without registers. Returns nothing, or why it is refused; then
+  /// Sets a value by its name, for a device without registers. Returns nothing, or why it was refused; then
   /// nothing has changed.
   std::optional<std::string> assign(std::size_t device, const std::string& name, double value);
   /// Throws ProgramError.
@@ -146,8 +148,8 @@ class World final : public WorldView {
   const std::vector<WireSetup>& wires() const { return wires_; }
 
   // --- faults --------------------------------------------------------------------------------
-  /// Adds a fault, in effect from the next tick on or when its trigger says so. Returns its number for
-  /// clear_fault(). Throws NameError if this world cannot have it; then nothing has changed.
+  /// Adds a fault, which takes effect from the next tick on, or when its trigger says so. Returns its number
+  /// for clear_fault(). Throws NameError if this world cannot have it; then nothing has changed.
   std::size_t inject(const Fault& fault);
   /// Returns false if there is no fault with that number.
   bool clear_fault(std::size_t number);
@@ -157,7 +159,7 @@ class World final : public WorldView {
 
  private:
   template <class T>
-  friend struct understudy::StateOf;  // state_fields.h tells which members are state
+  friend struct understudy::StateOf;  // state_fields.h lists the members that are state
 
   /// A contact of an axis's machine, and the device's input to which it is wired.
   struct ContactWire {
@@ -183,7 +185,7 @@ class World final : public WorldView {
     Tick ticks_left = 0;
   };
 
-  /// Limits attempts to skip ticks after one has failed. This affects only speed.
+  /// Limits how often skipping is tried after it has failed. This affects only speed.
   struct SkipTries {
     static constexpr Tick kMaxApart = 64;
     Tick next = 0;
@@ -195,7 +197,6 @@ class World final : public WorldView {
     std::uint64_t crossed = 0;
   };
 
-  /// The power supply of a device.
   struct Supply {
     bool is_switched_on = true;
   };
@@ -212,10 +213,10 @@ class World final : public WorldView {
   Tick next_active_tick() const;
   Tick next_event_tick(Tick most) const;
   bool has_moving_wires() const;
-  /// Running fewer ticks one by one is faster than skipping them.
+  /// Fewer ticks than this are faster to run one by one than to skip.
   static constexpr Tick kMinSkip = 4;
   bool may_fast_forward(Tick most) const {
-    // The world may have been taken back to a much earlier time.
+    // A restore may have set time back by much.
     const bool is_too_soon = done_ < skip_tries_.next && skip_tries_.next - done_ <= SkipTries::kMaxApart;
     return !is_too_soon && most - done_ >= kMinSkip && bulk_ticks_ && !disturbed_ && watchers_.empty();
   }
@@ -261,10 +262,10 @@ class World final : public WorldView {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Axes*> axes_;  // of each device
   std::vector<std::unique_ptr<WorldLine>> lines_;
-  std::vector<WorldLine*> unasked_lines_;              // those whose devices may send unasked
+  std::vector<WorldLine*> unasked_lines_;              // lines with devices that may send unasked
   std::vector<std::vector<PlantAxis>> plants_;         // [device][axis]
   std::vector<std::vector<std::size_t>> driven_axes_;  // by device: those with a drive
-  std::vector<std::vector<ContactWire>> contacts_;     // by device; as the bench has them
+  std::vector<std::vector<ContactWire>> contacts_;     // by device; as wired in the bench
   std::vector<std::vector<ToldEdges>> told_edges_;     // by device; empty if the device does not use edges
   std::vector<InputTurn> input_turns_;
   std::vector<std::vector<std::int64_t>> sent_pulses_;
@@ -276,12 +277,12 @@ class World final : public WorldView {
   std::vector<OutsideListener*> listeners_;
   std::map<std::size_t, ArmedFault> faults_;  // by number
   std::size_t next_fault_ = 1;
-  std::unique_ptr<FaultWatch> fault_watch_;  // null: no fault waits for anything
+  std::unique_ptr<FaultWatch> fault_watch_;  // null: no fault waits or changes with time
   std::uint64_t seed_ = 0;
-  bool disturbed_ =
-      false;  // an outside event changed something that devices do not see: the next tick is run
+  /// True if something changed that devices do not see, so that the next tick must be run.
+  bool disturbed_ = false;
   SimTime now_{0};
-  Tick done_ = 0;  // the last tick that is over
+  Tick done_ = 0;  // the last tick that was run or skipped
   TickCounts ticks_;
   bool bulk_ticks_ = true;
   SkipTries skip_tries_;

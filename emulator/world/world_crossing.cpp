@@ -1,4 +1,4 @@
-// Moves a world many ticks in one step while its axes move and nothing else happens.
+// Advances a world by many ticks in one step while its axes move and nothing else happens.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ class Machines final : public ClearTravel {
 
 }  // namespace
 
-/// Returns true if a wire leads from an output that may change in ticks in which axes only move on.
+/// Returns true if a wire comes from an output that may change while axes only continue to move.
 bool World::has_moving_wires() const {
   return std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& wire) {
     const bool is_outputs = wire.from_axis < 0 && devices_[wire.from_device]->powered();
@@ -45,7 +45,7 @@ bool World::has_moving_wires() const {
   });
 }
 
-/// Returns the first tick at which anything but continuous motion happens, at most `most` + 1.
+/// Returns the first tick at which anything but continuous motion happens, or at most `most` + 1.
 Tick World::next_event_tick(Tick most) const {
   constexpr Tick kFarAhead = 1'000'000'000'000;  // keeps closed forms within the range of their numbers
   if (!input_turns_.empty() || has_moving_wires()) return done_ + 1;

@@ -25,7 +25,7 @@ void World::connect_drive(const MachineSetup& machine) {
   plants_[machine.device][axis].clear_alarm_by_disabling();
 }
 
-/// Returns the inputs that a controller gives to the drive of an axis. Without an output for it, the axis
+/// Returns the levels that a controller gives to the drive of an axis. Without a servo output, the axis
 /// itself reports whether the servo is on.
 DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
   const Device& device = *devices_[number];
@@ -37,7 +37,7 @@ DriveInputs World::drive_inputs(std::size_t number, std::size_t axis) const {
           .alarm_clear = driven(row.alarm_clear_output)};
 }
 
-/// Latches the wires to an input of a drive. The drive sees the level in the next tick.
+/// Latches the wires to an input of a drive. The drive sees their level in the next tick.
 void World::latch_drive(const WireSetup& wire) {
   const bool is_on = std::any_of(wires_.begin(), wires_.end(), [&](const WireSetup& other) {
     return other.to_device == wire.to_device && other.to_axis == wire.to_axis &&

@@ -1,6 +1,6 @@
-// Informs devices that handle edges between ticks where along an axis its machine's switches change the
-// levels of inputs. They are informed whenever that changes: when the machine loses pulses or gets them back,
-// or is pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
+// Tells devices that handle edges between ticks where along an axis its machine's switches change the levels
+// of inputs. They are told again whenever that changes: when the machine loses pulses or gets them back, or
+// is pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace understudy::emulator::world {
 
-/// Returns the edges in the machine's positions minus what the device has counted.
+/// Returns the edges in positions as the device counts them.
 MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
   MachineEdges edges;
   const PlantAxis& plant = plants_[device][axis];
-  // How far it will move is unknown, so only the levels at the end of a tick count.
+  // It is unknown how far the machine will move, so only the levels at the end of a tick count.
   if (!plant.steps_all()) return edges;
   const std::int64_t origin = plant.position_pulses() - axes_[device]->place_pulses(static_cast<int>(axis));
   if (plant.has_encoder() && !plant.setup().has_wheel) {

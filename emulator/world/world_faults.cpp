@@ -72,7 +72,7 @@ void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   settle_power(device);
 }
 
-/// Makes a watch if a fault waits or changes with time, and gives it to the stations.
+/// Makes a watch if a fault waits or changes with time, and passes it to the stations.
 void World::arm_faults() {
   const auto needs_watch = [](const auto& entry) {
     return waits(entry.second.fault) || entry.second.fault.period_ticks != 0;

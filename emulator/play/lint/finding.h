@@ -1,4 +1,4 @@
-// Problems in a host's use of the line, counted.
+// Problems in a host's use of the line, with their counts.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@ namespace understudy::emulator::play {
 
 enum class LintRule : std::uint8_t {
   too_soon,     // a request began before the line had been silent long enough
-  not_waited,   // a request began before the answer to the one before came
+  not_waited,   // a request began before the reply to the previous one
   gap,          // a pause within a frame
   absent,       // a request to a station that does not exist
   read_only,    // a write to a read-only register
-  eeprom_wear,  // a register that is kept in EEPROM, changed again and again
+  eeprom_wear,  // a register that is kept in EEPROM changed again and again
 };
 
 struct Finding {
@@ -24,7 +24,7 @@ struct Finding {
   SimTime first{0};
   SimTime last{0};
   SimTime extreme{0};     // the shortest silence, the longest gap
-  std::string command{};  // with the name of the first one, if it has one
+  std::string command{};  // the command of the first one, if it has a name
 
   void add(SimTime at, const std::string& its_command = {}) {
     if (count == 0) {

@@ -1,4 +1,4 @@
-// Judges how the host of one line behaves. It only listens, so the line does the same without it.
+// Judges how the host of one line behaves. It only observes, so the line does the same without it.
 #pragma once
 
 #include <optional>
@@ -19,11 +19,11 @@ class HostLint final : public pty::LineObserver {
   HostLint(const HostLint&) = delete;
   HostLint& operator=(const HostLint&) = delete;
 
-  /// The line was put into another state: forgets the traffic so far.
+  /// Forgets the traffic so far, after the line was put into another state.
   void begin_anew();
   const Findings& findings() const { return findings_; }
-  /// The silences that the line must have before a request, and may have within one. Neither is checked if
-  /// bytes take no time.
+  /// Return the silences that the line must have before a request, and may have within one. Neither is
+  /// checked if bytes take no time.
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
 
@@ -55,13 +55,13 @@ class HostLint final : public pty::LineObserver {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
-    std::string command{};          // its name, if it has one
+    std::string command{};          // the name of its command; empty: none
     std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is executed
   };
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }
   Finding& find(LintRule rule, std::string subject = {}) { return findings_[{rule, std::move(subject)}]; }
-  /// `command` is the meaning of the frame, if it has a name.
+  /// `command` is the name of the frame's command, if it has one.
   void judge_times(std::span<const Character> frame, const std::string& command);
   void judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command);
   void judge_write(const Device& device, const Written& write, SimTime at);
@@ -73,8 +73,8 @@ class HostLint final : public pty::LineObserver {
   SimTime silence_{0};
   SimTime longest_gap_{0};
   pty::RtuFramer framer_;
-  std::vector<Character> waiting_;    // characters of no frame yet
-  std::optional<SimTime> under_way_;  // a character that began then
+  std::vector<Character> waiting_;    // characters that are not in a frame yet
+  std::optional<SimTime> under_way_;  // the start of a character that has not ended
   std::optional<SimTime> busy_until_;
   std::uint64_t last_number_ = 0;
   std::optional<Asked> asked_;

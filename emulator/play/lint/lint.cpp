@@ -24,7 +24,7 @@ constexpr std::int64_t kEndurance = 100'000;
 constexpr std::uint64_t kChangesAllowed = 10;
 constexpr SimTime kMinLife = std::chrono::hours(24 * 365);
 
-/// Returns "3 requests", followed by the verb.
+/// Returns "3 requests".
 std::string counted(std::uint64_t count, const char* one, const char* several) {
   return std::to_string(count) + " " + (count == 1 ? one : several);
 }
@@ -54,8 +54,7 @@ std::optional<SimTime> life_of(const Finding& changes) {
   return interval * kEndurance;
 }
 
-/// Returns the text of a finding without the line and the time, or an empty text if it is not worth
-/// reporting.
+/// Returns the text of a finding without the line and the time, or an empty text if it need not be reported.
 std::string text_of(const HostLint& line, LintRule rule, const std::string& subject, const Finding& finding) {
   const std::uint64_t count = finding.count;
   switch (rule) {

@@ -1,5 +1,5 @@
 // Checks how hosts behave on a world's lines: behaviour that works here, or only just, but would fail with a
-// real controller. It listens as long as it lives, and reports once, at the end.
+// real controller. It observes as long as it lives, and reports once, at the end.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ class Lint final : public Observer {
   std::vector<std::string> findings() const;
 
   void world_restored(std::size_t steps) override;
-  /// Writes ScenarioResult::manners.
+  /// Writes ScenarioResult::lint_findings.
   void finish(ScenarioResult& result) override { result.lint_findings = findings(); }
 
  private:

@@ -32,7 +32,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Reading a case again costs less than a tenth of a run, but suites of an ordinary size need not do so.
+// Reading a case again takes less than a tenth of its run, but suites of an ordinary size need not do so.
 constexpr std::size_t kMaxHeld = 1000;
 constexpr std::size_t kMaxShared = 256;  // benches and files of steps
 constexpr std::size_t kTrimEvery = 256;  // files
@@ -41,7 +41,7 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// Forgets shared files when there are many.
+/// Forgets shared files if there are many.
 void keep_few(SharedReading& shared) {
   if (shared.benches.size() > kMaxShared) shared.benches.clear();
   if (shared.included.size() > kMaxShared) shared.included.clear();
@@ -84,7 +84,7 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
   ScenarioFile opened(path, options_, shared_);
   File file{.path = path, .size = opened.size(), .is_varied = opened.is_varied(), .made_of = 0, .held = {}};
   const bool is_held = !file.is_varied && held_ + file.size <= kMaxHeld;
-  // They do not depend on the place of the files or the spelling of their paths.
+  // The hash depends neither on where the files are nor on how their paths are spelled.
   std::set<std::uint64_t> contents;
   opened.check([&](Scenario scenario) {
     look(scenario);
@@ -101,7 +101,7 @@ void CaseList::add(const std::string& path, const std::function<void(const Scena
   if (files_.size() % kTrimEvery == 0) ::malloc_trim(0);
 }
 
-/// Claims the paths that a case saves. Listed cases did this when they were checked.
+/// Claims the paths that a case saves. Listed cases did so when they were checked.
 void CaseList::claim_saved(const Scenario& scenario) const {
   const std::uint64_t who = identity_of(scenario.which) ^ hash_of_text(scenario.file, hash_of({}));
   for (const std::string& path : scenario.saved) {

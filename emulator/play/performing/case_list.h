@@ -1,6 +1,5 @@
-// The cases of a run: scenario files with all their cases, and which of them are run, in order. Files are
-// read and checked before anything runs. Cases are kept only if there are few; otherwise they are read again
-// in their turn.
+// Lists the cases of a run: scenario files with all their cases. Files are read and checked before anything
+// runs. Cases are kept only if there are few; otherwise each is read again when it is run.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +53,7 @@ class CaseList {
     std::uint64_t size = 0;
     bool is_varied = false;
     std::uint64_t made_of = 0;
-    std::vector<std::shared_ptr<const Scenario>> held;  // all its cases, or none
+    std::vector<std::shared_ptr<const Scenario>> held;  // all cases, or none
   };
   std::uint64_t hash_of_file(const std::string& path);
   void claim_saved(const Scenario& scenario) const;
@@ -64,7 +63,7 @@ class CaseList {
   std::vector<File> files_;
   std::size_t held_ = 0;                         // cases, of all files
   std::map<std::string, std::uint64_t> hashes_;  // of files, by path
-  // The files that unlisted cases save: hashes of paths, and of the case.
+  // The files that unlisted cases save: a hash of the path, and one of the case.
   mutable std::mutex saved_mutex_;
   mutable std::unordered_map<std::uint64_t, std::uint64_t> saved_;
 };
@@ -73,7 +72,7 @@ class CaseList {
 class CaseReader {
  public:
   explicit CaseReader(const CaseList& case_list);
-  /// Throws FileError for a case that is wrong but was not among the checked ones, or for a file that has
+  /// Throws FileError for a case that is wrong but was not checked in advance, or for a file that has
   /// changed.
   std::shared_ptr<const Scenario> read(const CaseId& which_case);
   // Returns the name without reading all of the case.
@@ -84,17 +83,17 @@ class CaseReader {
   ScenarioFile& open(std::size_t file);
   const CaseList& case_list_;
   SharedReading shared_;
-  std::size_t file_ = SIZE_MAX;  // that is open
+  std::size_t file_ = SIZE_MAX;  // the open file
   std::unique_ptr<ScenarioFile> open_;
 };
 
-/// The cases of a case list that match a pattern, and of these one shard, in order.
+/// The cases of a case list that match a pattern, or one shard of them, in order.
 class Selection {
  public:
   /// An empty pattern matches all.
   Selection(const CaseList& case_list, std::string pattern, Shard shard);
   std::optional<CaseId> next();
-  /// Returns how many cases next() gives in all. With a pattern they are counted one by one.
+  /// Returns how many cases next() gives in total. With a pattern they are counted one by one.
   static std::uint64_t count(const CaseList& case_list, const std::string& pattern, Shard shard);
 
  private:

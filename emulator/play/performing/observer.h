@@ -1,5 +1,5 @@
-// Observes a scenario for something that is made afterwards, such as a report or the findings about a host.
-// The scenario runs the same with or without it.
+// Observes a scenario to produce something at its end, such as a report or the findings about a host. The
+// scenario runs the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace understudy::emulator::play {
 
-/// All its functions are called on the thread that runs the world, between two ticks.
+/// All functions are called on the thread that runs the world, between two ticks.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// The world was put into another state, after this many steps: time may have gone back, and the state of
-  /// the lines has changed.
+  /// Called when the world was put into another state, after this many steps: time may have gone back, and
+  /// the state of the lines has changed.
   virtual void world_restored(std::size_t steps) = 0;
   virtual void step_over() {}
-  /// The scenario is over. Writes the observations into its result.
+  /// Called when the scenario is over. Writes the observations into its result.
   virtual void finish(ScenarioResult& result) = 0;
 };
 

@@ -107,7 +107,7 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
   keeps_peaks_ = names_peaks(scenario.steps);
   executor_->with_world([&](world::World& world) {
     eyes_ = std::make_unique<Eyes>(world, with_hash);
-    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before the watchers that ask for peaks
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // must come before the watchers that need peaks
   });
 }
 
@@ -153,7 +153,7 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
 void Performance::throw_if_broken() {
   bool is_broken = false;
   executor_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
-  if (is_broken) throw StepError("");  // explain_failure() knows more
+  if (is_broken) throw StepError("");  // explain_failure() finds the reason
 }
 
 Failure Performance::explain_failure(const StepError& error) {
@@ -161,7 +161,7 @@ Failure Performance::explain_failure(const StepError& error) {
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
   executor_->with_world([&](world::World& world) {
     failure.frames = eyes_->frames.last(kFramesTold);
-    // A broken span comes first, because it happened before any other failure.
+    // A violated span comes first, because it was violated before anything else failed.
     if (const auto& violation = eyes_->spans.violation()) {
       failure.at = violation->at;
       failure.what = violation->what + " did not hold at " + format_duration(violation->at);
@@ -203,7 +203,7 @@ void Performance::restore(const Checkpoint& checkpoint) {
     if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
     std::vector<SpanWatch::Span> spans = checkpoint.spans;
     for (SpanWatch::Span& span : spans) {
-      // The condition is parsed anew, because its handles belong to the probes of another performance.
+      // The condition is parsed again, because its handles belong to the probes of another performance.
       span.condition = world::parse_expression(span.condition.text, eyes_->probes);
     }
     eyes_->spans.restore(spans);

@@ -23,7 +23,7 @@
 
 namespace understudy::emulator::play {
 
-/// The reason why a step has failed. `what`, `expected`, `came` and `details` are as in Failure.
+/// The reason for which a step failed. `what`, `expected`, `came` and `details` are as in Failure.
 struct StepError : std::runtime_error {
   StepError(const std::string& what_is_wrong, std::string what_was_expected = {}, std::string what_came = {},
             std::vector<std::string> further_details = {})
@@ -46,12 +46,12 @@ class Performance {
     std::vector<std::pair<std::string, std::size_t>> faults;
     Tick last_write = 0;
     std::map<std::string, ConditionHistory::State> histories;
-    std::vector<SimTime> quiet_since;  // as in Executor
+    std::vector<SimTime> quiet_since;  // see Executor::quiet_since()
     std::uint64_t hash = 0;
   };
 
-  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time. `command` is the one
-  /// that the scenario runs beside, or null.
+  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time. `command` is the
+  /// command that runs with the scenario, or null.
   Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash,
               HostCommand* command = nullptr);
   ~Performance();
@@ -97,7 +97,7 @@ class Performance {
   /// Reads the words of each target, one after another.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          const Answer& answer, const Via& via);
-  /// Returns the line and the present station number of a device.
+  /// Returns the line and the current station number of a device.
   Place spoken_to(std::size_t device, const Via& via);
   void require(const HostReply& reply, const Answer& answer, const std::string& what);
   void require_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
@@ -146,9 +146,9 @@ class Performance {
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<Eyes> eyes_;
   bool keeps_peaks_ = false;
-  const Step* step_ = nullptr;                               // the one that runs
+  const Step* step_ = nullptr;                               // the one that is being executed
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
-  Tick last_write_ = 0;                                      // at a checkpoint, until the next write
+  Tick last_write_ = 0;                                      // the checkpoint's, until the next write
 };
 
 }  // namespace understudy::emulator::play

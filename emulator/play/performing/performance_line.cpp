@@ -75,7 +75,7 @@ void Performance::require(const HostReply& reply, const Answer& answer, const st
 /// Requires silence. The host gives up after `within`, whatever it receives.
 void Performance::require_silence(const Place& place, const std::vector<std::uint8_t>& request,
                                   SimTime within, const std::string& what) {
-  moment_in(within);  // throws if there is no such moment
+  moment_in(within);  // throws if that is beyond the end of simulated time
   const auto reply = executor_->exchange(place.line, request, SIZE_MAX, within);
   require(judge_reply(request, reply), {.silence = within}, what);
 }
@@ -176,7 +176,7 @@ void Performance::perform(const CommandStep& step) {
     std::string what;
     executor_->with_world([&](world::World& world) {
       const Device& device = world.device(entry.device);
-      message = window_message(device, entry.text);  // uses the present order of words
+      message = window_message(device, entry.text);  // uses the current order of words
       what = "command " + device.name() + ": " + entry.text + place.on_line;
     });
     if (step.answer.silence) {
@@ -231,7 +231,7 @@ void Performance::perform(const ExpectStep& step) {
 
 void Performance::perform(const SendStep& step) {
   const bool wants_bytes = step.reply && !step.reply->empty();
-  moment_in(step.within);  // throws if there is no such moment
+  moment_in(step.within);  // throws if that is beyond the end of simulated time
   const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
   const std::vector<std::uint8_t> reply = executor_->exchange(step.line, step.bytes, wanted, step.within);
   if (!step.reply || reply == *step.reply) return;

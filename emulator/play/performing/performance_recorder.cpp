@@ -25,7 +25,7 @@ world::RecordedFailure recorded_failure(const ScenarioResult& result) {
   if (!result.failure) return {};
   world::RecordedFailure failed{
       .what = result.failure->what, .at = result.failure->at, .scenario = result.name};
-  // Of a condition that does not hold: the values behind it.
+  // If a condition does not hold, its values follow.
   const std::size_t values = result.failure->came.find("  (");
   if (values != std::string::npos) failed.what += result.failure->came.substr(values + 1);
   if (result.steps.empty()) return failed;
@@ -61,8 +61,8 @@ void PerformanceRecorder::world_restored(std::size_t) {
 void PerformanceRecorder::step_over() { spool_->look(); }
 
 void PerformanceRecorder::finish(ScenarioResult& result) {
-  // Most recordings are discarded, so only those of failures end with a state. The state of a world takes a
-  // third of the time of a short one.
+  // Most recordings are discarded, so only those of failures end with a state. Saving it takes a third of the
+  // time of a short scenario.
   if (result.verdict != ScenarioResult::Verdict::passed) {
     spool_->finish(recorded_failure(result));
   }

@@ -14,7 +14,8 @@ namespace understudy::emulator::play {
 /// the end.
 class PerformanceRecorder final : public Observer {
  public:
-  /// Begins with the header for the world's power-up. The caller removes the file. Throws GrowingFileError.
+  /// Begins with `header`, which must be for the world's power-up. The caller removes the file. Throws
+  /// GrowingFileError.
   PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path);
 
   void world_restored(std::size_t steps) override;

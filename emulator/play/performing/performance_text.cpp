@@ -9,14 +9,14 @@
 namespace understudy::emulator::play {
 
 void Performance::perform(const TextStep& step) {
-  moment_in(step.within);  // throws if there is no such moment
+  moment_in(step.within);  // throws if that is beyond the end of simulated time
   const world::LinesWanted wanted{.lines = step.lines.value_or(std::vector<std::string>()),
                                   .is_answer = step.text.has_value()};
-  // Without an expected answer, a line is over when the device has received it.
+  // Without an expected answer, the step is over when the device has received the line.
   if (!step.lines) return executor_->send_text(step.line, *step.text);
   std::vector<std::string> heard = executor_->exchange_text(step.line, step.text, wanted, step.within);
   if (heard == wanted.lines) return;
-  // One line too many is enough to show. On a busy machine, more may have arrived by now.
+  // Showing one line too many is enough. On a busy machine, more may have arrived by now.
   if (heard.size() > wanted.lines.size() + 1) heard.resize(wanted.lines.size() + 1);
   const std::string expected = world::lines_text(wanted.lines);
   const std::string came = world::lines_text(heard);

@@ -1,4 +1,4 @@
-// Performs steps that let time pass, or look at the true state.
+// Performs steps that let time pass, or check values without using the line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -76,14 +76,14 @@ void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by
 
 // --- waiting -----------------------------------------------------------------------------------
 
-/// Returns the tick from which the last write acts.
+/// Returns the tick from which the last write takes effect.
 Tick Performance::last_write() {
   const Tick tick = executor_->tick_of_last_write();
   return tick != 0 ? tick : last_write_;
 }
 
-/// Begins to watch a condition. If it becomes true while the reply to a write is still on the line, it has
-/// become true after that write.
+/// Begins to watch a condition. If it becomes true while the reply to a write is still on the line, that was
+/// after the write.
 void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
   executor_->with_world([&](world::World& world) {
     const auto [history, is_new] = eyes_->histories.try_emplace(
@@ -173,7 +173,7 @@ Tick Performance::poll_for(const WaitStep& step) {
                   text + " within " + format_duration(step.within), world::explain(condition, registers));
 }
 
-// --- truths ------------------------------------------------------------------------------------
+// --- assertions --------------------------------------------------------------------------------
 
 void Performance::perform(const AssertStep& step) {
   std::vector<std::string> untrue;

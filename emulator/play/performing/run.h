@@ -23,12 +23,12 @@ struct RunOptions {
   ExecutorMaker make_executor = make_free_executor;
   bool with_hash = false;  // ScenarioResult::outcome_hash
   std::vector<ObserverMaker> observers{};
-  HostCommand* command = nullptr;  // that the scenario runs beside; null: there is none
+  HostCommand* command = nullptr;  // the command that runs with the scenario; null: none
 };
 
-/// Returns the scenario's own result, then those of its branches in the order of the file. A step that fails
-/// is the last one of its result. Errors that are not the scenario's (such as a port that cannot be opened)
-/// are thrown.
+/// Runs a scenario. Returns its own result, then those of its branches in the order of the file. A step that
+/// fails is the last one of its result. Errors that are not the scenario's (such as a port that cannot be
+/// opened) are thrown.
 std::vector<ScenarioResult> run_scenario(const Scenario& scenario, const RunOptions& options = {});
 
 }  // namespace understudy::emulator::play

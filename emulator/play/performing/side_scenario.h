@@ -1,5 +1,5 @@
 // Runs a scenario on a bench whose lines belong to another host program: it acts on the world from outside,
-// and checks it meanwhile.
+// and checks it at the same time.
 #pragma once
 
 #include <atomic>
@@ -22,8 +22,8 @@
 
 namespace understudy::emulator::play {
 
-/// Loads the only scenario of a file for that bench. Throws FileError, also if a step belongs to the host
-/// because it uses a line, or would disturb the world of another program because it goes back in time.
+/// Loads the only case of a scenario file for that bench. Throws FileError, also if a step belongs to the
+/// host because it uses a line, or would disturb the world of another program because it goes back in time.
 Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
                             const std::string& save_below = "");
 
@@ -45,7 +45,7 @@ class SideScenario {
   /// Asks the scenario to end soon. Must be called on the daemon's thread.
   void give_up();
 
-  // --- after it is over
+  // --- after the scenario is over ------------------------------------------------------------------
   bool was_given_up() const { return was_given_up_; }
   /// Throws the exception that ended the scenario, if there was one.
   const std::vector<ScenarioResult>& results() const;

@@ -19,8 +19,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The threads may be this many cases ahead of the first one that is not over. So a slow case does not hold up
-// the others soon, but results do not pile up without limit.
+// The threads may be this many cases ahead of the first unfinished one. So a slow case does not soon hold up
+// the others, but results do not pile up without limit.
 constexpr std::size_t kAhead = 256;
 
 /// The state that the threads share.
@@ -60,7 +60,7 @@ class Board {
     return true;
   }
 
-  /// Lets no thread begin another case.
+  /// Prevents the threads from beginning another case.
   void stop() {
     const std::lock_guard lock(mutex_);
     is_last_taken_ = true;
@@ -102,7 +102,7 @@ class Board {
   std::mutex mutex_;
   std::condition_variable has_room_;
   std::condition_variable is_first_over_;
-  std::deque<Entry> entries_;  // taken but not reported yet, in order
+  std::deque<Entry> entries_;  // taken but not reported, in order
   bool is_last_taken_ = false;
 };
 

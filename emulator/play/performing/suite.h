@@ -1,5 +1,5 @@
 // Runs many cases on several threads. Worlds share nothing, so neither the results nor their order depend on
-// the threads. Only the running cases and a few finished ones are in memory, so there may be any number.
+// the threads. Only the running cases and a few finished ones are in memory, so their number is not limited.
 #pragma once
 
 #include <cstdint>

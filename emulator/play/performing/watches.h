@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::play {
 
-/// The open spans of `always` and `never`. An expression without a result violates its span, too.
+/// Checks the open spans of `always` and `never`. An expression without a result violates its span, too.
 class SpanWatch final : public world::TickWatcher {
  public:
   struct Span {
@@ -57,13 +57,13 @@ class SpanWatch final : public world::TickWatcher {
 /// Records the ticks at which a condition was true, from the moment when it is added to the world.
 class ConditionHistory final : public world::TickWatcher {
  public:
-  /// Its observations so far, as a value.
+  /// The observations so far.
   struct State {
     std::vector<Tick> changes;  // true from the first tick, false from the second one, and so on
     Tick last = 0;
   };
 
-  /// The source must outlive it.
+  /// `values` must outlive it.
   ConditionHistory(world::Expression condition, const world::Probes& values)
       : condition_(std::move(condition)), values_(values) {}
 

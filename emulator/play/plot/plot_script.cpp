@@ -28,7 +28,7 @@ constexpr int kPlotPanelGap = 34;
 constexpr int kPositionHeight = 230;
 constexpr int kPanelHeight = 140;
 constexpr int kPlotRowHeight = 20;
-constexpr double kRowsBetween = 1.5;  // the distance of two rows of bits, which are 1 high
+constexpr double kRowsBetween = 1.5;  // the distance between rows of bits, which are 1 high
 constexpr std::size_t kMaxStretches = 3000;
 constexpr int kPlotColours = 8;
 constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
@@ -118,7 +118,7 @@ std::string data_of(const TraceTable& table, std::size_t column) {
   return text + "END\n";
 }
 
-/// Returns the colour of a column. An axis has the same colour in all panels.
+/// Returns the colour of a column. All columns of an axis have the same one.
 std::string colour_of(const TraceTable& table, std::size_t column) {
   const auto axis_of = [](const std::string& name) { return name.substr(0, name.rfind('.')); };
   std::vector<std::string> axes;

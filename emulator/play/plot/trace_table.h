@@ -13,7 +13,7 @@ namespace understudy::emulator::play {
 
 struct TraceTable {
   std::vector<std::string> names;
-  std::vector<Tick> ticks;                   // they ascend
+  std::vector<Tick> ticks;                   // ascending
   std::vector<std::vector<double>> columns;  // one per name, each as long as `ticks`
 };
 

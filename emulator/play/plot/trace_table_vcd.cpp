@@ -140,7 +140,7 @@ class VcdReader {
   TraceTable table_;
   std::vector<std::string> scopes_;
   std::map<std::string, std::size_t> codes_;
-  std::vector<double> values_;  // the present values
+  std::vector<double> values_;  // the current values
   Tick tick_ = 0;
   bool has_row_ = false;
   bool has_header_ = false;

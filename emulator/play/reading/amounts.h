@@ -12,8 +12,8 @@ namespace understudy::emulator::play {
 /// A number with or without a unit, as it was written.
 struct Amount {
   enum class Kind : std::uint8_t { number, duration, voltage } kind = Kind::number;
-  std::int64_t digits = 0;  // without the point
-  int decimals = 0;         // after it
+  std::int64_t digits = 0;  // all digits, without the point
+  int decimals = 0;         // how many digits follow the point
   std::int64_t unit = 1;    // nanoseconds or millivolts
 };
 /// Parses "12", "-0.25", "1.5s" or "300mV". Returns nothing for any other text, or for more than 15 digits.
@@ -38,7 +38,7 @@ class AmountScale {
 
  private:
   Amount::Kind kind_;
-  int decimals_ = 0;         // of a number
+  int decimals_ = 0;         // for numbers only
   std::int64_t finest_ = 0;  // 0: no amount was included
 };
 

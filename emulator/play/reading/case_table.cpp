@@ -21,9 +21,9 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr std::uint64_t kMaxCases = 1'000'000'000'000;
-constexpr std::uint64_t kTypical = 1000;  // the number of cases that stand for all others
+constexpr std::uint64_t kTypical = 1000;  // the number of cases that represent all others
 
-/// Returns no parameters: none has a value while the cases are read.
+/// Returns an object without parameters, because none has a value while the cases are read.
 const Parameters& no_parameters() {
   static const Parameters none;
   return none;

@@ -1,5 +1,5 @@
-// The cases of a scenario, by number: each row of `cases`, or each option of a `choice`, with each
-// combination of the values of `vary`. The cases are never listed, so there may be any number of them.
+// Numbers the cases of a scenario: each row of `cases`, or each option of a `choice`, with each combination
+// of the values of `vary`. The cases are never listed, so there may be any number of them.
 #pragma once
 
 #include <cstdint>

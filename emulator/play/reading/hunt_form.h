@@ -1,4 +1,4 @@
-// Declares the form of `hunt`: what may happen to a scenario, and what must hold then.
+// Declares the keys of `hunt`: what may happen to a scenario, and what must hold then.
 #pragma once
 
 #include <array>

@@ -39,7 +39,7 @@ bool is_drawn(const world::YamlFields& field) {
   return field.is_map() && (field.has("between") || field.has("one_of"));
 }
 
-/// Replaces what is drawn in a step by texts, in the order written.
+/// Replaces the drawn values in a step by texts, in the order written.
 template <typename TextOf>
 world::YamlFields drawn_step(const world::YamlFields& step, const TextOf& text_of) {
   std::size_t number = 0;
@@ -49,7 +49,7 @@ world::YamlFields drawn_step(const world::YamlFields& step, const TextOf& text_o
   });
 }
 
-/// Returns the key of the moment of a fault.
+/// Returns the key that sets the moment of a fault.
 std::string_view key_of(When when, bool has_end) {
   if (when == When::nth) return "nth";
   return has_end ? "at" : "from";
@@ -60,7 +60,7 @@ std::string text_of_moment(const Disturbance& disturbance) {
                                        : format_duration(SimTime(disturbance.moment));
 }
 
-/// Returns what a step does: it has one key.
+/// Returns the value of a step's only key.
 world::YamlFields only_value(const world::YamlFields& step) { return step.entries().front().second; }
 
 }  // namespace
@@ -80,7 +80,7 @@ HuntPlan::HuntPlan(const world::YamlFields& hunt, const world::YamlFields& head,
     all.attempt([&] {
       if (last_ >= first_) return;
       first_ = 0;
-      last_ = steps_.size() - 1;  // for the entries
+      last_ = steps_.size() - 1;  // so that the entries can be read
       hunt.at(hunt.has("to") ? "to" : "from").fail("leaves no step; expected `from` before `to`");
     });
     all.attempt([&] { read_spans(hunt, reader); });
@@ -164,7 +164,7 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   entries_.push_back(std::move(entry));
 }
 
-/// Finds out which moments an entry may have.
+/// Determines the kinds of moments that an entry may have.
 void HuntPlan::read_ways(Entry& entry, StepsReader& reader) {
   entry.ways = {When::here};
   const world::YamlFields fault = only_value(entry.step);
@@ -193,7 +193,7 @@ void HuntPlan::read_ways(Entry& entry, StepsReader& reader) {
   }
 }
 
-/// Reads the step with the ends of its ranges, and each value of its lists.
+/// Reads the step with both ends of its ranges, and with each value of its lists.
 void HuntPlan::check_values(const Entry& entry, StepsReader& reader) const {
   const auto read_with = [&](std::size_t which, std::uint64_t place) {
     reader.read_apart(drawn_step(entry.step, [&](const world::YamlFields&, std::size_t i) {

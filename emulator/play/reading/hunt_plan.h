@@ -1,5 +1,5 @@
-// What `hunt` in a scenario file says: the disturbances that may happen to the scenario, and the conditions
-// that must hold. A course is the scenario with some of these disturbances, each with drawn values at a drawn
+// Reads `hunt` in a scenario file: the disturbances that may happen to the scenario, and the conditions that
+// must hold. A course is the scenario with some of these disturbances, each with drawn values at a drawn
 // moment.
 #pragma once
 
@@ -17,16 +17,16 @@ namespace understudy::emulator::play {
 
 class StepsReader;
 
-/// A step of the file, for one step of the scenario. A few steps of files make several.
+/// The step of the file that a step of the scenario was made from. Some steps of files make several.
 struct WrittenStep {
   world::YamlFields fields;
-  bool continues = false;  // the step before it was made of the same one
+  bool continues = false;  // made from the same one as the step before
 };
 
 /// A disturbance of a course.
 struct Disturbance {
-  std::size_t entry = 0;  // of `may`
-  std::size_t step = 0;   // it comes before this step of the scenario
+  std::size_t entry = 0;  // an index into the entries of `may`
+  std::size_t step = 0;   // it happens before this step of the scenario
   enum class When : std::uint8_t {
     here,  // at once
     at,    // a fault that waits for a time
@@ -42,28 +42,28 @@ class HuntPlan {
  public:
   /// An entry of `may`.
   struct Entry {
-    world::YamlFields step;         // with values that are still to be drawn
+    world::YamlFields step;         // includes values that are still to be drawn
     std::vector<Variation> values;  // in the order written
     std::size_t most = 1;           // how often it may happen
-    SimTime within{-1};             // all of them; negative: at any time
-    std::size_t first = 0;          // the steps of the scenario before which it may come
+    SimTime within{-1};             // all of them happen within this time; negative: at any time
+    std::size_t first = 0;          // the steps of the scenario before which it may happen
     std::size_t last = 0;
-    std::vector<Disturbance::When> ways;  // the moments that it may have
+    std::vector<Disturbance::When> ways;  // the kinds of moments that it may have
     bool has_end = false;                 // a fault that ends by itself
   };
 
-  /// Reads `hunt`. `head` has the keys of the file that are not about steps; `steps` are the scenario's, for
-  /// each of its steps one. Checks everything with `reader`. Throws FileError.
+  /// Reads `hunt`. `head` has the keys of the file that are not about steps; `steps` has an entry for each
+  /// step of the scenario. Checks everything with `reader`. Throws FileError.
   HuntPlan(const world::YamlFields& hunt, const world::YamlFields& head, std::vector<WrittenStep> steps,
            StepsReader& reader);
 
   const std::vector<Entry>& entries() const { return entries_; }
   const world::YamlFields& head() const { return head_; }
-  /// The steps as they were written. Parameters have their values, and loops are unrolled.
+  /// Returns the steps as they were written. Parameters have their values, and loops are unrolled.
   const std::vector<WrittenStep>& steps() const { return steps_; }
-  /// Returns true if a disturbance may come before that step.
+  /// Returns true if a disturbance may happen before that step.
   bool has_room_before(std::size_t step) const { return step < steps_.size() && !steps_[step].continues; }
-  /// The steps that check what must hold, which come before all others.
+  /// Returns the steps that check what must hold, which come before all others.
   const std::vector<world::YamlFields>& spans() const { return spans_; }
   /// Returns a disturbance as a step.
   world::YamlFields step_of(const Disturbance& disturbance) const;

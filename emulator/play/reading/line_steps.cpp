@@ -48,7 +48,7 @@ Answer read_answer(StepsReader& reader, const world::YamlFields& step) {
   return answer;
 }
 
-/// Reads the port of a step about these devices.
+/// Reads `via` of a step about these devices.
 Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
                 const std::vector<std::size_t>& devices) {
   const auto field = step.find(kViaKey.key);
@@ -56,7 +56,7 @@ Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
   return reader.trial().line_of_all(*field, devices);
 }
 
-/// Reads the port of a step about these entries.
+/// Reads `via` of a step with these entries.
 template <typename Entries>
 Via read_via(const StepsReader& reader, const world::YamlFields& step, const Entries& entries) {
   const auto field = step.find(kViaKey.key);

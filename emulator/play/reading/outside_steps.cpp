@@ -1,4 +1,4 @@
-// Reads steps that act as people and machines do on devices: inputs, faults, power, programs, memories.
+// Reads steps that act on the bench from outside: inputs, faults, power, programs, memories.
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>

@@ -54,12 +54,12 @@ bool is_below(const std::string& path, const std::string& folder) {
   try {
     target = output_target(path);
   } catch (const OutputError&) {
-    // A later check refuses the path for what it is.
+    // A later check refuses such a path.
   }
   const fs::path file = fs::weakly_canonical(fs::absolute(target));
   const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
   const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
-  // A path with a slash at its end has an empty last name.
+  // A path with a slash at its end has an empty last component.
   return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
 }
 
@@ -170,7 +170,7 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
   }
 }
 
-/// Requires that every parameter is used. If one is written in place of another, the other is left over.
+/// Requires that every parameter is used. An unused one may mean that another was written in its place.
 void PlayReader::require_all_used(std::uint64_t number, const Case& which,
                                   const Parameters& parameters) const {
   const auto fail = [&](const std::string& name, const world::YamlFields& field) {
@@ -301,7 +301,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   });
   all.attempt([&] { read_command(root, parameters, scenario); });
   all.throw_if_any();
-  // Without the command, nobody knows what it uses.
+  // Without the command, it is unknown which parameters it uses.
   const auto is_of_command = [](const Step& step) {
     return std::holds_alternative<CommandEndStep>(step.what);
   };
@@ -335,8 +335,9 @@ void PlayReader::read_command(const world::YamlFields& root, const Parameters& p
   }
 }
 
-/// Checks the paths that a case saves: they must be in the folder for that, and nothing else may use them. A
-/// case may save a path twice, but two cases may not share one, because several may run at once.
+/// Checks the paths that a case saves: they must be in the folder for saved files, and nothing else may use
+/// them. A case may save a path twice, but two cases may not share one, because several may run at the same
+/// time.
 void PlayReader::require_own_paths(const StepsReader& steps, Scenario& scenario) {
   FileClaims claims;
   claims.add(scenario.files);

@@ -1,4 +1,4 @@
-// One play of a scenario file: a bench and steps, with its cases. A file has one, or a list of `plays`.
+// Reads one play of a scenario file: a bench and steps, with its cases. A file has one, or a list of `plays`.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ namespace understudy::emulator::play {
 /// Data that all plays of a file share.
 struct FilePlays {
   std::string path;
-  std::string save_below;             // what is saved must be below this folder
+  std::string save_below;             // saved files must be below this folder
   std::optional<std::uint64_t> seed;  // instead of the file's own
-  std::vector<std::string> command;   // as in ReadingOptions
+  std::vector<std::string> command;   // see ReadingOptions
   FileReading reading;
-  /// What the cases so far save, while all of them are read.
+  /// The files that earlier cases save. Set only while all cases are read.
   std::optional<std::vector<FileClaim>> saved_before{};
   /// The file's own parameters that a play has used.
   std::set<std::string> used_parameters{};
@@ -34,7 +34,7 @@ struct FilePlays {
 
 class PlayReader {
  public:
-  /// A file that is one play.
+  /// Reads a file that is one play.
   PlayReader(const world::YamlFields& root, FilePlays& file);
   /// Reads one of several plays; `common` is the part of the file that applies to all of them. Throws
   /// FileError.
@@ -59,8 +59,8 @@ class PlayReader {
   void read_command(const world::YamlFields& root, const Parameters& parameters, Scenario& scenario) const;
   void require_own_paths(const StepsReader& steps, Scenario& scenario);
 
-  world::YamlFields own_;   // as it is written
-  world::YamlFields root_;  // with the common part of the file
+  world::YamlFields own_;   // as written
+  world::YamlFields root_;  // includes the common part of the file
   FilePlays& file_;
   bool is_one_of_several_ = false;
   CaseTable cases_;

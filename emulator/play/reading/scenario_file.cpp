@@ -27,7 +27,7 @@
 
 namespace understudy::emulator::play {
 
-/// Reads the cases one after another, scenario by scenario.
+/// Reads the cases one by one, scenario by scenario.
 class ScenarioFile::Reader {
  public:
   Reader(const world::YamlFields& root, std::string path, const ReadingOptions& options,
@@ -131,7 +131,7 @@ class ScenarioFile::Reader {
   }
 
   Scenario read_one(PlayReader& play, std::uint64_t number) {
-    // Cases that are read one by one, as those of `vary` are, never fill memory together.
+    // Cases that are read one by one, like those of `vary`, are never all in memory.
     if (play.cases().is_varied() || !file_.saved_before) {
       file_.reading.steps = 0;
       file_.reading.bytes = 0;

@@ -20,8 +20,8 @@ struct ReadingOptions {
   /// The files that a scenario saves must be below this folder, or below the scenario's own folder if it is
   /// empty, because a scenario may come from somebody else.
   std::string save_below{};
-  std::optional<std::uint64_t> seed{};  // instead of the scenarios' own
-  /// The words of the command that runs beside each case; they may have ${...}. Empty: none does.
+  std::optional<std::uint64_t> seed{};  // replaces the scenarios' own seeds
+  /// The words of the command that runs with each case; they may have ${...}. Empty: none.
   std::vector<std::string> command{};
 };
 
@@ -41,7 +41,7 @@ class ScenarioFile {
   /// Returns the number of cases; 1 without `cases` and `vary`.
   std::uint64_t size() const;
   bool is_varied() const;
-  // These two are about one case, counted from 0. They check only what they need.
+  // These two read one case, counted from 0. They check only what they need.
   Case case_of(std::uint64_t number) const;
   std::string name_of(std::uint64_t number) const;
   /// Reads a case and checks everything in it. Throws FileError.
@@ -63,7 +63,7 @@ std::vector<Scenario> load_scenarios(ModelList models, const std::string& path,
 /// Like the above, for one of several scenarios that share the files they read.
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
                                      SharedReading& shared);
-/// Like the above, for a text.
+/// Like the above, from a text.
 std::vector<Scenario> parse_scenarios(ModelList models, const std::string& text, const std::string& path,
                                       const std::string& save_below = "");
 
@@ -72,7 +72,7 @@ enum class FileKind : std::uint8_t {
   bench,
   scenario,
   steps,  // for other scenarios to include
-  model,  // that benches name by its path (docs/import.md)
+  model,  // used by benches, which name it by its path (docs/import.md)
 };
 FileKind kind_of_file(const std::string& path);
 

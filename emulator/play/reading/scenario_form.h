@@ -1,4 +1,4 @@
-// Declares the keys of a scenario file and the forms of their values. step_rows.h has the kinds of steps.
+// Declares the keys of a scenario file and the schemas of their values. step_rows.h has the kinds of steps.
 #pragma once
 
 #include <array>

@@ -11,9 +11,9 @@
 namespace understudy::emulator::play {
 
 struct SharedReading {
-  ModelList models;                                   // that devices may be of
+  ModelList models;                                   // those that devices may have
   std::map<std::string, world::Bench> benches;        // by path, as it is spelled in messages
-  std::map<std::string, world::YamlFields> included;  // the steps of a file, by its path
+  std::map<std::string, world::YamlFields> included;  // the steps of files, by path
 };
 
 }  // namespace understudy::emulator::play

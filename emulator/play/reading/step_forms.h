@@ -1,4 +1,4 @@
-// Declares the forms of the values of steps.
+// Declares the schemas of the values of steps.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The kinds of steps, a row each: its spelling in a file, its purpose, the form of its value, and its
+// The kinds of steps, a row each: its spelling in a file, its purpose, the schema of its value, and its
 // reader. A new kind needs a row here, a struct in scenario.h, and its code in a performance.
 #pragma once
 
@@ -18,11 +18,11 @@ class StepsReader;
 
 struct StepRow {
   world::Key key;
-  /// Adds the step that `value` describes. Its map `step` may have no other keys than those of `beside`.
+  /// Adds the step that `value` describes. Besides it, the map `step` may only have the keys of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::Key> beside{};
-  /// Returns, for a step that cannot be read, whether other steps may need a name that it defines, or it
-  /// needs one of theirs.
+  /// This matters when a step cannot be read: later steps may need a name that it gives, or it wants a name
+  /// of earlier steps that could not be read.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 

@@ -50,7 +50,7 @@ const StepRow* row_of(const world::YamlFields& step) {
   entries.front().second.fail("is not a step" + suggestion(key, names));
 }
 
-/// Returns the size of a step's data other than its text, for kinds that may have much.
+/// Returns the size of a step's data without its text, for kinds that may have much data.
 struct BytesOf {
   std::size_t operator()(const SendStep& step) const {
     return step.bytes.size() + (step.reply ? step.reply->size() : 0);
@@ -139,7 +139,7 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
   --depth_;
 }
 
-/// Reads a step. If it cannot be read, undoes what it has begun.
+/// Reads a step. If it cannot be read, restores the reader's state before it.
 void StepsReader::read_or_complain(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const auto outer = std::pair(may_lack_name_, has_failed_);

@@ -22,10 +22,10 @@ namespace understudy::emulator::play {
 
 /// State that the cases of a file share.
 struct FileReading {
-  static constexpr int kMaxSteps = 100'000;  // of all cases
-  static constexpr std::size_t kMaxBytes = std::size_t{64}
-                                           << 20;  // the limit for the bytes of their texts and messages
-  static constexpr int kDeepest = 32;              // loops, forks and includes in each other
+  static constexpr int kMaxSteps = 100'000;  // for all cases together
+  /// The limit for the bytes of their texts and messages.
+  static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
+  static constexpr int kDeepest = 32;  // loops, forks and includes within each other
   int steps = 0;
   std::size_t bytes = 0;
   SharedReading& shared;
@@ -44,7 +44,8 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Throws all mistakes in the steps. Adds to `written`, if it is given, what each step was made of.
+  /// Reads the steps. Throws all mistakes in them. If `written` is given, adds for each step what it was made
+  /// from.
   Steps read(const world::YamlFields& list, const Parameters& parameters,
              std::vector<WrittenStep>* written = nullptr);
   /// Reads a step that needs no parameters, and whose names no other step knows. Throws all mistakes in it.
@@ -54,10 +55,10 @@ class StepsReader {
   const Trial& trial() const { return trial_; }
   const Parameters& parameters() const { return *parameters_; }
   Story& story() { return story_; }
-  /// Notes a file that a step is read from.
+  /// Adds a file that a step is read from.
   void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
   const std::vector<FileClaim>& files() const { return files_; }
-  /// Notes a file that a step will write, and the position in the scenario that says so.
+  /// Adds a file that a step will write, with the position in the scenario that says so.
   void add_saved(const std::string& path, const world::YamlFields& field) {
     saved_.emplace_back(path, field);
   }
@@ -110,16 +111,16 @@ class StepsReader {
   const Parameters* parameters_ = nullptr;
   Story story_;
   Steps* into_ = nullptr;
-  const Steps* top_ = nullptr;                   // those of the scenario, not of a branch
-  std::vector<WrittenStep>* written_ = nullptr;  // what they are made of
-  std::optional<world::YamlFields> current_;     // the step that is read
-  bool has_added_ = false;                       // it has made one already
+  const Steps* top_ = nullptr;                   // the steps of the scenario, not of a branch
+  std::vector<WrittenStep>* written_ = nullptr;  // what they were made from
+  std::optional<world::YamlFields> current_;     // the step being read
+  bool has_added_ = false;                       // it has already made a step
   std::vector<FileClaim> files_;
   std::vector<std::pair<std::string, world::YamlFields>> saved_;
-  std::vector<std::string> paths_;  // of the files that include each other here
+  std::vector<std::string> paths_;  // the files that include each other at this point
   int depth_ = 0;
   world::Diagnostics diagnostics_;
-  bool lacks_names_ = false;    // a step that could not be read may have given some
+  bool lacks_names_ = false;    // a step that could not be read may have given names
   bool may_lack_name_ = false;  // the current step may need one of those
   bool has_failed_ = false;     // a part of the current step could not be read
 };

@@ -21,7 +21,7 @@ class Trial {
   const world::Bench& bench() const { return bench_; }
   const world::KnownDevices& known() const { return world_.known(); }
 
-  // Each of these returns the meaning of a field, or throws an error about it.
+  // Each of these returns what a field means, or throws an error about it.
   std::size_t device(const world::YamlFields& field, const std::string& name) const;
   std::size_t line(const world::YamlFields& field, const std::string& name) const;
   /// Reads a register or a number, as a key or in an expression.
@@ -41,11 +41,11 @@ class Trial {
   /// Requires a named command of that device.
   void require_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
-  /// These check a text for a device: a program, or an image of its memory.
+  /// Checks a program for a device.
   void require_program(const world::YamlFields& field, const ProgramStep& program) const;
   /// Reads a fault that this world can have. `other_key` is left to other readers.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
-  /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: at once).
+  /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: immediate).
   world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
                     const std::string& place) const;
   void require_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;

@@ -1,4 +1,5 @@
-// Reads steps that look without the line: wait, advance, assert, always, never, end, reset, host, say.
+// Reads steps that let time pass or check values: wait, advance, assert, always, never, end, reset, host,
+// say.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

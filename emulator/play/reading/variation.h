@@ -1,5 +1,5 @@
-// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values
-// are computed by number, so that a million values take no more memory than one.
+// One entry of `vary`, which gives values to a parameter: listed values, a range, or drawn values. Values are
+// computed by number, so a million values take no more memory than one.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class Variation {
   /// Returns how many values are combined with those of other parameters.
   std::uint64_t count() const { return count_; }
   std::string value(std::uint64_t number) const;
-  /// Returns true if it has a list of values, and not a range.
+  /// Returns true if it has a list of values rather than a range.
   bool has_list() const { return !listed_.empty(); }
   /// Returns how many values a range or a list has, and one of these by its place in it.
   std::uint64_t places() const { return places_; }
@@ -46,8 +46,8 @@ class Variation {
 
   std::string name_;
   world::YamlFields field_;
-  std::vector<std::string> listed_;          // or
-  AmountScale scale_{Amount::Kind::number};  // from first_ on, in steps of step_
+  std::vector<std::string> listed_;          // the list; empty: a range
+  AmountScale scale_{Amount::Kind::number};  // of a range: from first_ on, in steps of step_
   std::int64_t first_ = 0;
   std::int64_t step_ = 1;
   std::uint64_t places_ = 0;  // how many values there are to choose from

@@ -9,8 +9,8 @@ namespace understudy::emulator::play {
 struct AxisScale {
   double low = 0;
   double high = 1;
-  std::vector<double> marks;  // multiples of 1, 2 or 5 times a power of ten, within the two
-  int decimals = 0;           // that the marks need
+  std::vector<double> marks;  // multiples of 1, 2 or 5 times a power of ten, between the two
+  int decimals = 0;           // as many as the marks need
 };
 
 /// Returns a scale from the smallest to the largest value, and a little beyond so that lines do not touch the

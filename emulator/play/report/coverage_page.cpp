@@ -45,7 +45,7 @@ std::string share_cells(std::int64_t part, std::int64_t all) {
          std::to_string(all) + "</td>";
 }
 
-/// The programs, those with the most to do first.
+/// Returns the programs, those with the most lines that have not run first.
 std::vector<ShownFile> shown(const world::CoverageReport& report) {
   std::vector<ShownFile> files;
   for (const auto& [path, file] : report.files) {
@@ -96,7 +96,7 @@ std::string listing_of(const ShownFile& shown) {
     number = line.number;
     rows += row_of(number, line.text, line_at(number));
   }
-  // The text may be gone, or have become shorter.
+  // The text may no longer exist, or may have become shorter.
   for (auto rest = lines.upper_bound(number); rest != lines.end(); ++rest) {
     rows += row_of(rest->first, "", &rest->second);
   }

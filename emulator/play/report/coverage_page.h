@@ -1,4 +1,4 @@
-// How often the lines of programs have run, for people.
+// Shows how often the lines of programs have run.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 /// Returns a table of the programs, those with the most lines that have not run first, and then each program
 /// with its counts. Texts are read from the paths of the report. Lines that have not run, and outcomes that
-/// have not come, stand out.
+/// have not occurred, stand out.
 std::string coverage_section(const world::CoverageReport& report);
 
 /// Returns the section as an HTML page that needs neither files nor a network. Equal reports of equal files

@@ -43,7 +43,7 @@ void Envelope::stay(Tick last) {
   }
 }
 
-/// Joins stretches to twice their length.
+/// Joins pairs of stretches, which doubles their length.
 void Envelope::halve() {
   length_ *= 2;
   std::vector<Stretch> longer;

@@ -1,5 +1,5 @@
-// One signal over time in a bounded number of points. If there are too many values, the first, the smallest,
-// the largest and the last of each stretch of time are kept, each at its own time.
+// Keeps one signal over time in a bounded number of points. If there are too many values, it keeps the first,
+// the smallest, the largest and the last of each stretch of time, each at its own time.
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class Envelope {
 
   std::size_t most_stretches_;
   Tick origin_ = 0;                 // where the first stretch begins
-  Tick length_ = 1;                 // of each stretch
+  Tick length_ = 1;                 // how long each stretch is
   std::vector<Stretch> stretches_;  // stretches in which nothing was added may be missing
   double least_ = 0;
   double greatest_ = 0;

@@ -156,7 +156,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
   return text + "</table></div>\n";
 }
 
-/// Returns the names of signals that were on all the time, which no picture shows.
+/// Returns the names of signals that were always on, which no picture shows.
 std::string always_on(const Stretch& stretch) {
   std::string names;
   for (const SeenSignal& signal : stretch.signals) {
@@ -196,7 +196,7 @@ std::string body_of(const ScenarioResult& result) {
       if (i > 0) text += "<h3>after step " + std::to_string(stretches[i].first_step) + "</h3>\n";
       const bool is_last = i + 1 == stretches.size();
       const std::size_t first =
-          i == 0 ? 0 : stretches[i].first_step;  // a stretch without any time is not there
+          i == 0 ? 0 : stretches[i].first_step;  // stretches without any time are left out
       const std::size_t end = is_last ? result.steps.size() : stretches[i + 1].first_step;
       text += stretch_text(result, stretches[i], first, end, is_last);
     }

@@ -6,6 +6,6 @@
 namespace understudy::emulator::play {
 
 extern const std::string_view kPageStyle;   // CSS, for light and dark
-extern const std::string_view kPageScript;  // values under the pointer; the page is whole without it
+extern const std::string_view kPageScript;  // shows values under the pointer; the page is complete without it
 
 }  // namespace understudy::emulator::play

@@ -19,13 +19,13 @@ namespace {
 
 using SignalKind = SeenSignal::Kind;
 
-// These sizes are in the picture's own units. The browser scales it to the room that it has.
+// These sizes are in the picture's own units. The browser scales it to the space available.
 constexpr double kWidth = 1100;
 constexpr double kLeft = 170;  // the position of the first moment
 constexpr double kRight = 1085;
 constexpr double kTop = 38;              // the marks of steps and of the failure are above
 constexpr double kNumberY = kTop - 10;   // the position of step numbers
-constexpr double kFailureY = kTop - 26;  // a row of its own above the numbers
+constexpr double kFailureY = kTop - 26;  // a separate row above the numbers
 constexpr double kLegendHeight = 24;
 constexpr double kPanelGap = 14;
 constexpr double kRowHeight = 19;
@@ -56,7 +56,7 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
          attribute("x2", number(x2)) + attribute("y2", number(y2)) + "/>\n";
 }
 
-/// Tells waits for a line from sleeps, and what was waited for in vain.
+/// Returns the class of a wait: for a line, in vain, or a sleep.
 const char* wait_class(const SeenWait& wait) {
   if (wait.text.ends_with("in vain")) return "wait vain";
   return wait.text == "sleeps" ? "wait sleep" : "wait";

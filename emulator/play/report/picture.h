@@ -12,8 +12,8 @@
 namespace understudy::emulator::play {
 
 struct PictureMarks {
-  std::span<const StepResult> steps;  // those of the stretch
-  std::size_t first_number = 1;       // of them
+  std::span<const StepResult> steps;  // the steps of the stretch
+  std::size_t first_number = 1;       // the number of its first step
   std::optional<SimTime> failed_at;
   std::string_view of;  // the scenario's name, for screen readers
 };

@@ -1,4 +1,4 @@
-// Observations of a scenario's run as a value: signals over time, and the frames on its lines.
+// The observations of a scenario's run: signals over time, and the frames on its lines.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 namespace understudy::emulator::play {
 
 struct SeenSignal {
-  std::string name;  // as probes.h has it: "feeder.A.position"
+  std::string name;  // as in probe_names.h: "feeder.A.position"
   enum class Kind : std::uint8_t {
-    position,  // of the machine, in pulses
-    pulses,    // that an axis has sent
-    speed,     // by plan, in pulses per second
-    duty,      // of an axis that drives by PWM, in percent
-    voltage,   // of an analog input or output, in volts
+    position,  // the machine's position, in pulses
+    pulses,    // the pulses that an axis has sent
+    speed,     // the planned speed, in pulses per second
+    duty,      // the duty of an axis that drives by PWM, in percent
+    voltage,   // an analog input or output, in volts
     level,     // an analog input without a unit, a group of terminals, or a count
     bit,       // an input, an output, a switch, power
   } kind = Kind::bit;
@@ -25,7 +25,7 @@ struct SeenSignal {
     Tick tick = 0;
     double value = 0;
   };
-  std::vector<Point> points{};  // the first and the last of the stretch among them
+  std::vector<Point> points{};  // include the first and the last of the stretch
   double least = 0;
   double greatest = 0;
   bool varies() const { return least != greatest; }
@@ -38,7 +38,7 @@ struct SeenFrame {
   std::string text;        // decoded
   std::string bytes;       // "01 03 00 00"
   std::string remark;      // "dropped: bad CRC"; empty if there is no remark
-  bool is_struck = false;  // by a fault; without bytes: on a message that was dropped or seen before
+  bool is_struck = false;  // a fault acted on it; without bytes: on a dropped or earlier message
 };
 
 /// A wait of a host in simulated time, or several within a dot of the picture.
@@ -46,21 +46,21 @@ struct SeenWait {
   std::size_t thread = 1;
   SimTime begin{0};
   SimTime end{0};
-  std::string text;  // of the longest: "waits for a reply"
+  std::string text;  // the text of the longest one: "waits for a reply"
   SimTime longest{0};
   std::size_t count = 1;
 };
 
 /// A part of the run in which time only goes forward. Each `restore` begins another one.
 struct Stretch {
-  std::size_t first_step = 0;  // of the result's
+  std::size_t first_step = 0;  // an index into the result's steps
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
-  std::vector<SeenWait> waits;    // of each thread in chronological order
+  std::vector<SeenWait> waits;    // in chronological order for each thread
   std::vector<SeenFrame> frames;  // in chronological order; the first and the last ones if there were many
   std::size_t frames_left_out = 0;
-  std::size_t left_out_at = 0;  // before this one
+  std::size_t left_out_at = 0;  // they were left out before the frame with this index
 };
 
 struct RunLog {

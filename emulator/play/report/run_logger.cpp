@@ -29,10 +29,10 @@ using SignalKind = SeenSignal::Kind;
 // A stretch keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
-// Waits are told apart only if the picture can show it.
+// Waits are joined if the picture, which has this many dots, cannot show them apart.
 constexpr int kDots = 1000;
 
-/// Makes one of the waits of a thread that lie within one dot.
+/// Joins the waits of a thread that lie within one dot.
 void thin(Stretch& stretch) {
   const SimTime dot = (stretch.end - stretch.begin) / kDots;
   std::map<std::size_t, std::size_t> last;  // by thread

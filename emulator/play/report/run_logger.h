@@ -22,7 +22,7 @@ class RunLogger final : public Observer, private world::TickWatcher {
   RunLogger& operator=(const RunLogger&) = delete;
 
   void world_restored(std::size_t steps) override;
-  /// A host in simulated time has waited.
+  /// Adds a wait of a host in simulated time.
   void add(SeenWait wait) { stretch_.waits.push_back(std::move(wait)); }
   /// Writes ScenarioResult::run_log.
   void finish(ScenarioResult& result) override;
@@ -47,8 +47,8 @@ class RunLogger final : public Observer, private world::TickWatcher {
   world::Probes probes_;
   std::vector<Sight> sights_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
-  std::vector<std::vector<std::uint8_t>>
-      requests_;  // by line: the requests, which are needed to decode replies
+  /// The requests of each line, which are needed to decode replies.
+  std::vector<std::vector<std::uint8_t>> requests_;
   Stretch stretch_;
   RunLog run_log_;
 };

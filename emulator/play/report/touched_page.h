@@ -1,4 +1,4 @@
-// A report for people: what a suite has exercised of the devices.
+// Shows what a suite has exercised of the devices.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::play {
 
-/// Returns an HTML page that needs neither files nor a network: what no run has exercised, the largest gaps
+/// Returns an HTML page that needs neither files nor a network: what no run has exercised, the worst gaps
 /// first, and then the tables of each model with their counts. Equal reports make equal pages.
 std::string touched_page(const world::TouchedReport& report, std::string_view version);
 

@@ -18,7 +18,7 @@ bool is_figure(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0
 
 bool is_hex(char c) { return is_figure(c) || (c >= 'A' && c <= 'F'); }
 
-/// Returns true if the text has a byte at this place, as in frames: "C0", and no longer word.
+/// Returns true if there is a byte at this place, as in frames: "C0", but not part of a longer word.
 bool is_byte_at(std::string_view text, std::size_t at) {
   return at + 2 <= text.size() && is_hex(text[at]) && is_hex(text[at + 1]) &&
          (at == 0 || !(is_digit_or_letter(text[at - 1]) || text[at - 1] == '.')) &&
@@ -26,7 +26,7 @@ bool is_byte_at(std::string_view text, std::size_t at) {
          (at + 3 >= text.size() || text[at + 2] != '.' || !is_digit_or_letter(text[at + 3]));
 }
 
-/// Returns the length of the bytes that begin here: "01 03 C0 B8". A single one may be a name, so it counts
+/// Returns the length of the bytes that begin here: "01 03 C0 B8". A single byte may be a name, so it counts
 /// only at the end of a phrase.
 std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   std::size_t end = begin;
@@ -59,7 +59,7 @@ std::size_t length_of_escape(std::string_view text, std::size_t at) {
   return is_one ? 4 : 0;
 }
 
-/// Adds one sign for all numbers and bytes that are adjacent, because they look alike.
+/// Adds one sign for all adjacent numbers and bytes, because they look alike.
 void add_sign(std::string& made) {
   if (made.ends_with("# ")) {
     made.pop_back();
@@ -79,7 +79,7 @@ std::string without_numbers(std::string_view text) {
       at += hex;
       add_sign(made);
     } else if (is_letter(text[at])) {
-      // This is a name, with all parts that its dots join.
+      // A name, with all parts that its dots join.
       while (at < text.size() && (is_digit_or_letter(text[at]) || (text[at] == '.' && at + 1 < text.size() &&
                                                                    is_digit_or_letter(text[at + 1])))) {
         made += text[at++];

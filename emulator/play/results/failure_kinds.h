@@ -20,9 +20,9 @@ class FailureKinds {
 
   struct Kind {
     std::string text;
-    std::string first;  // the name of the first that failed so
+    std::string first;  // the name of the first result of this kind
     std::uint64_t count = 0;
-    std::uint64_t varied = 0;  // of these, cases that `vary` made
+    std::uint64_t varied = 0;  // how many of these come from cases that `vary` made
   };
 
   /// Counts a failure and returns its kind, or null if there are too many kinds already.

@@ -74,7 +74,7 @@ class JsonLines final : public ResultsFile {
 
  private:
   static constexpr std::string_view kBeginOfRow = "{\"file\":\"";
-  // This is the lowest bit of a case's entry; the other bits are of its hash.
+  // The lowest bit of a case's entry; the other bits are from its hash.
   static constexpr std::uint64_t kFailed = 1;
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -93,8 +93,8 @@ class JsonLines final : public ResultsFile {
     return line.substr(0, both) == kBeginOfRow.substr(0, both);
   }
 
-  /// Reads the earlier results, of which it keeps 8 bytes per row. A last line without an end is from a run
-  /// that was killed.
+  /// Reads the earlier results, and keeps 8 bytes per row. A last line without an end is from a run that was
+  /// killed.
   void read() {
     std::ifstream before(path_, std::ios::binary);
     std::uint64_t size = 0;

@@ -25,14 +25,14 @@ struct StepResult {
 
 /// All texts are single lines.
 struct Failure {
-  SimTime at{0};                       // of a span: the tick that broke it
+  SimTime at{0};                       // for a span: the tick that violated it
   std::string what{};                  // "feeder.Cord_A is 31999; expected 32000"
   std::string expected{};              // "feeder.Cord_A = 32000"
   std::string came{};                  // "feeder.Cord_A = 31999"
-  std::vector<std::string> details{};  // expressions with their values, more that differs
-  std::vector<std::string> led_to{};   // the events that led there (world::Story)
-  std::vector<std::string> frames{};   // the last ones on all lines, decoded
-  std::vector<std::string> state{};    // of the devices and machines
+  std::vector<std::string> details{};  // expressions with their values, and other differences
+  std::vector<std::string> led_to{};   // the events that led to it (world::Story)
+  std::vector<std::string> frames{};   // the last frames on all lines, decoded
+  std::vector<std::string> state{};    // the state of the devices and machines
 };
 
 /// The result of a scenario, or of one of its branches.
@@ -46,20 +46,20 @@ struct ScenarioResult {
   std::string file{};
   std::vector<StepResult> steps{};           // the failed step is the last; a branch has only its own steps
   std::optional<Failure> failure{};          // if it failed
-  SimTime simulated{0};                      // how long it was played; for a branch, from its fork on
-  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
-  std::shared_ptr<const RunLog> run_log{};   // of a report, if one was asked for
-  std::vector<std::string> lint_findings{};  // findings of a lint, if it was requested; single lines
-  std::string recording{};                   // its path, if one was made; of a trace and a capture as well
+  SimTime simulated{0};                      // how long it ran; for a branch, from its fork on
+  std::uint64_t outcome_hash = 0;            // the hash of all output, if requested (outcome_hash.h)
+  std::shared_ptr<const RunLog> run_log{};   // for a report, if requested
+  std::vector<std::string> lint_findings{};  // from a lint, if requested; single lines
+  std::string recording{};                   // the path, if there is one; the same for a trace and a capture
   std::string trace{};
   std::string capture{};
-  Case which{};  // of its file
+  Case which{};  // within its file
   std::uint64_t seed = 0;
-  std::string
-      branch{};  // "with a stall"; for a nested branch "with a stall / again"; empty: the scenario itself
+  /// "with a stall"; for a nested branch "with a stall / again"; empty: the scenario itself.
+  std::string branch{};
   bool is_unreadable = false;  // the case could not be read and did not run; its failure has the reason
   std::string rerun{};  // the words after `understudy` that run the case alone; empty: run FILE --filter ID
-  std::string like{};   // the earlier case that failed in the same way and whose recording was kept
+  std::string like{};   // the earlier case that failed in the same way, and whose recording was kept
 };
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// Writes results as bytes, to hand them from one process to another.
+// Writes results as bytes, to pass them from one process to another.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ struct understudy::StateOf<understudy::emulator::play::ScenarioResult::Verdict> 
   static constexpr Verdict last = Verdict::not_reached;
 };
 
-/// All but the run log, which belongs to a report of this process.
+/// Everything but the run log, which is for a report by the same process.
 template <>
 struct understudy::StateOf<understudy::emulator::play::ScenarioResult> {
   using ScenarioResult = emulator::play::ScenarioResult;

@@ -26,12 +26,12 @@ struct ResultRow {
   std::optional<std::string> hash;
   std::string simulated_s;
   std::uint64_t seed = 0;
-  // Only for a failure.
+  // Set only for a failure.
   std::optional<std::string> kind;
   std::optional<std::string> failure;
   std::optional<std::string> at_s;
   std::optional<std::string> step;       // "grid.yaml:17"
-  std::optional<std::string> recording;  // its path
+  std::optional<std::string> recording;  // the path
   std::string made_of;                   // a hash of the files and the program that made it
 };
 /// `with_hash` tells that outcome_hash was requested.
@@ -53,9 +53,9 @@ class ResultsFile {
   virtual ~ResultsFile() = default;
   /// Returns true if it has rows of an earlier run, which begin() would delete.
   virtual bool has_rows() = 0;
-  /// Empties the file. It is not called if the run continues in it.
+  /// Empties the file. Not called if the run continues in it.
   virtual void begin() = 0;
-  /// Returns whether that case failed if it has run before; otherwise nothing.
+  /// Returns whether that case failed, or nothing if it has not run before.
   virtual std::optional<bool> has_failed(const CaseKey& key) = 0;
   /// Adds the rows of one case: all of them or none.
   virtual void add(std::span<const ResultRow> rows) = 0;
@@ -66,8 +66,9 @@ class ResultsFile {
 inline constexpr std::string_view kJsonLinesEnding = ".jsonl";
 inline constexpr std::string_view kSqliteEnding = ".sqlite";
 
-/// Opens or creates the file; its old content stays until begin(). With `goes_on`, its rows are read. All
-/// functions throw GrowingFileError if a file cannot be written, or was not written by this program.
+/// Opens or creates the file; its old content stays until begin(). With `goes_on`, the run continues in the
+/// file, so its rows are read. All functions throw GrowingFileError if a file cannot be written, or was not
+/// written by this program.
 std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool goes_on);
 std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool goes_on);
 

@@ -1,4 +1,4 @@
-// Writes results to a table in an SQLite database. No other file knows SQLite.
+// Writes results to a table in an SQLite database. Only this file uses SQLite.
 #include <sqlite3.h>
 
 #include <chrono>
@@ -24,7 +24,8 @@ namespace understudy::emulator::play {
 namespace {
 
 constexpr int kApplicationId = 0x55535459;  // "USTY", in the file's header
-// A run that is killed loses at most this much, and a reader sees results no later.
+// A run that is killed loses at most the results of this time, and readers see results with at most this
+// delay.
 constexpr std::chrono::milliseconds kCommitEvery{250};
 
 constexpr std::string_view kTables = R"(
@@ -229,7 +230,7 @@ class SqliteResults final : public ResultsFile {
   std::unique_ptr<sqlite3, Closing> database_;
   Statement insert_;
   Statement find_;
-  std::set<std::string> names_;  // of parameters
+  std::set<std::string> names_;  // the names of parameters
   bool is_open_ = false;         // true during a transaction
   std::chrono::steady_clock::time_point begun_;
 };

@@ -11,7 +11,7 @@ namespace understudy::emulator::play {
 struct Case {
   std::string play{};  // the name in the file, if the file has several scenarios
   std::vector<std::pair<std::string, std::string>> values{};  // names and values, in the order written
-  bool is_varied = false;  // made by `vary`: one of too many to inspect each
+  bool is_varied = false;  // made by `vary`, so there may be too many to inspect each
 };
 
 /// Returns "(speed=200, takes=3050ms)", or an empty text without values.

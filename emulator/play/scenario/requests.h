@@ -32,11 +32,11 @@ Table table_of(const Target& target);
 /// Returns true if there is a function that writes to the target's table.
 bool can_be_sent(const Target& target);
 
-/// Returns the words of a target. `low_word_first` is the device's present order of words. For a bit these
-/// are the words of its register.
+/// Returns the words of a target; for a bit, the words of its register. `low_word_first` is the device's
+/// current order of words.
 Words words_of(const Target& target, bool low_word_first);
 
-/// A request, and the entries that it is for.
+/// A request, and the entries that it serves.
 struct Request {
   Words words;
   std::vector<std::size_t> entries;
@@ -58,7 +58,7 @@ struct Limits {
 };
 Limits limits_of(const Target& target);
 
-/// Returns a register's value as a number, also a real one. Nothing if the bits of a real are not a number.
+/// Returns a register's value as a number, which may be real. Nothing if the bits of a real are not a number.
 std::optional<world::Number> number_of(const Target& target, Value value);
 /// Returns the value for a number. Nothing for a fraction if the target is whole, or if it exceeds single
 /// precision.
@@ -66,7 +66,7 @@ std::optional<Value> value_for(const Target& target, world::Number number);
 
 /// Returns the value in the words of a target.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);
-/// Returns the words that set a target, or one bit of it, to a value. `present` are its words now. Throws
+/// Returns the words that set a target, or one bit of it, to a value. `present` are its current words. Throws
 /// NameError for a value that does not fit.
 std::vector<std::uint16_t> words_with(const Target& target, Value value, bool low_word_first,
                                       std::span<const std::uint16_t> present = {});

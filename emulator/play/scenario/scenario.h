@@ -1,5 +1,5 @@
 // A scenario is a bench with steps to run on it, checked against each other. scenario_file.h makes it, run.h
-// runs it. Loops, tables of cases, includes and parameters are resolved already: what is left is a list.
+// runs it. Loops, tables of cases, includes and parameters have been resolved, so it is a plain list.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +28,20 @@ struct Target {
   std::size_t device = 0;
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
-  Table table = Table::holding;  // if there is no place, and
-  std::uint16_t address = 0;     // the number in it
-  bool is_value = false;         // of a device without registers: read directly, not over the line
+  Table table = Table::holding;  // only without `place`
+  std::uint16_t address = 0;     // only without `place`: the number in `table`
+  bool is_value = false;  // true for a value of a device without registers: read directly, not over the line
 };
 
 /// How a device must answer each request of a step: normally, with an exception, or not at all.
 struct Answer {
   std::optional<int> exception{};
-  std::optional<SimTime> silence{};  // how long no answer may come
+  std::optional<SimTime> silence{};  // how long no answer may arrive
   bool is_good() const { return !exception && !silence; }
 };
 
-/// The line on which a step talks to its devices (`via: LINE` next to the step); none: the first line of
-/// each.
+/// The line on which a step talks to its devices (`via: LINE` next to the step); none: the first line of each
+/// device.
 using Via = std::optional<std::size_t>;
 
 /// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, with exception: 3 if the device must
@@ -88,14 +88,14 @@ struct WaitStep {
   std::optional<world::Tolerance> takes;
   /// How often the names in `until` are read over the line; without it every tick is checked.
   std::optional<SimTime> poll;
-  Via via{};  // where they are read
+  Via via{};  // the line on which they are read
 };
 
 struct AdvanceStep {
   SimTime by{0};
 };
 
-/// assert: EXPRESSION, or a list of them: checks the present values without using the line.
+/// assert: EXPRESSION, or a list of them: checks the current values without using the line.
 struct AssertStep {
   std::vector<std::string> expressions;
 };
@@ -124,7 +124,7 @@ struct TurnStep {
 /// inject: { stall: feeder.A, name: NAME }
 struct InjectStep {
   world::Fault fault;
-  std::string name;  // of this fault, for `clear`; its text, if no other was given
+  std::string name;  // the name for `clear`; the fault as text, if no other name was given
 };
 /// clear: NAME, or all
 struct ClearStep {
@@ -138,11 +138,11 @@ struct PowerStep {
 };
 
 /// send: { line: rs485, bytes: 01 03 00 01 00 01 D5 CA, reply: 01 03 02 C0 01 29 84, within: 100ms }. With
-/// reply: nothing, no byte may come in that time; without reply any bytes are accepted.
+/// reply: nothing, no byte may arrive in that time; without reply any bytes are accepted.
 struct SendStep {
   std::size_t line = 0;
   std::vector<std::uint8_t> bytes;
-  std::optional<std::vector<std::uint8_t>> reply;  // empty: nothing may come
+  std::optional<std::vector<std::uint8_t>> reply;  // empty: nothing may arrive
   SimTime within = std::chrono::milliseconds(500);
 };
 
@@ -152,8 +152,8 @@ struct SendStep {
 /// sends without a request since the last `send`.
 struct TextStep {
   std::size_t line = 0;
-  std::optional<std::string> text;                // none: only receives
-  std::optional<std::vector<std::string>> lines;  // empty: nothing may come
+  std::optional<std::string> text;                // none: it only receives
+  std::optional<std::vector<std::string>> lines;  // empty: nothing may arrive
   SimTime within = std::chrono::milliseconds(500);
 };
 
@@ -175,8 +175,8 @@ struct MemoryStep {
   std::string file;
 };
 
-/// host: { exits: 0, within: 30s } waits for the end of the command beside which the scenario runs; host:
-/// stop asks it to end first, and accepts any exit code.
+/// host: { exits: 0, within: 30s } waits for the end of the command that runs with the scenario; host: stop
+/// asks it to end first, and accepts any exit code.
 struct CommandEndStep {
   bool stops = false;
   int exits = 0;
@@ -221,18 +221,18 @@ struct Step {
 
 /// One case of a scenario file. A file with a table of cases makes one for each row.
 struct Scenario {
-  std::string name;  // with the case's parameters: "a move takes its time (speed=200)"
+  std::string name;  // includes the case's parameters: "a move takes its time (speed=200)"
   std::string file;
   world::Bench bench;
   SimTime gap{0};  // between two requests of the host, beyond t3.5
   std::uint64_t seed = 0;
   Steps steps;
-  std::vector<FileClaim> files{};    // that it is read from, the bench's as well
+  std::vector<FileClaim> files{};    // all files that it was read from, including the bench's
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
   std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
   std::vector<std::pair<std::string, std::string>> environment{};  // for the command
-  std::shared_ptr<const HuntPlan> hunt{};                          // null: the file says nothing about it
+  std::shared_ptr<const HuntPlan> hunt{};                          // null: the file has no `hunt`
 };
 
 }  // namespace understudy::emulator::play

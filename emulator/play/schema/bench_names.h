@@ -15,8 +15,9 @@ struct NameList {
   std::vector<std::string> patterns;
 };
 
-/// Each name has its device in front, and also appears without it if there is only one device. For a device
-/// without registers any word is allowed, because only the running device knows its names.
+/// Returns all names of that sort. Each has its device in front, and also appears without it if there is only
+/// one device. For a device without registers any word is allowed, because only the running device knows its
+/// names.
 NameList bench_names(const world::Bench& bench, world::Schema::Of sort);
 
 }  // namespace understudy::emulator::play

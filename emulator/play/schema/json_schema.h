@@ -1,4 +1,4 @@
-// Writes the forms of files as JSON Schema (draft 7), with which editors check and complete YAML files.
+// Writes file formats as JSON Schema (draft 7), with which editors check and complete YAML files.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace understudy::emulator::play {
 /// Returns the schema of bench files and of scenario files. It lists the memory contents of these models.
 std::string bench_schema(ModelList models);
 std::string scenario_schema(ModelList models);
-/// Returns the schema of another kind of file, which has these keys.
+/// Returns the schema of another kind of file, with these keys.
 std::string file_schema(const std::string& title, std::span<const world::Key> keys);
 /// Returns the schema of scenarios for one bench: it accepts only the names of its devices, lines, axes,
 /// inputs and registers. Conditions are plain texts, which only `check` understands.

@@ -25,17 +25,18 @@ struct HostReply {
   } kind = Kind::silence;
   int exception = 0;
   std::vector<std::uint16_t> words;  // the words that were read; in tables of bits, one bit each
-  std::vector<std::uint8_t> bytes;   // as received, with checksum (virtual time), or as the host decoded them
+  std::vector<std::uint8_t> bytes;   // as received, with checksum; empty if libmodbus received them
 };
 
 /// A condition that may become true at the end of a tick.
 struct Awaited {
   std::function<bool(world::World&)> is_there;
-  /// As TickWatcher::next_look. If empty, it may become true at any tick, even if nothing happens.
+  /// Like TickWatcher::next_look(). If empty, the condition may become true at any tick, even if nothing
+  /// happens.
   std::function<Tick(Tick)> next_look{};
 };
 
-/// The command beside which a scenario runs (`exec`). Its functions are called inside Executor::with_world().
+/// The command that runs with a scenario (`exec`). Its functions are called inside Executor::with_world().
 class HostCommand {
  public:
   virtual ~HostCommand() = default;
@@ -49,8 +50,8 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  // --- the host: as a master on a line, one request at a time, t3.5 and `gap` after whatever was on it
-  // before. Each call lasts, in simulated time, until the reply has come or time runs out.
+  // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
+  // it. Each call lasts, in simulated time, until the reply has arrived or time runs out.
   virtual HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) = 0;
   /// Writes coils or holding registers.
   virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
@@ -67,17 +68,17 @@ class Executor {
   /// Returns when the device has received the line.
   virtual void send_text(std::size_t line, const std::string& text) = 0;
   /// Sends a line if `text` is given, and receives lines until the wanted ones, or others instead, have
-  /// come, or `within` has passed. Later lines are left to the next call; an answer is everything that comes
-  /// without a pause. The last line may be unfinished.
+  /// arrived, or `within` has passed. Later lines are left to the next call; an answer is everything that
+  /// arrives without a pause. The last line may be unfinished.
   virtual std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
                                                  const world::LinesWanted& wanted, SimTime within) = 0;
 
   // --- the world -------------------------------------------------------------------------------------
   /// Acts on the world between two ticks, or reads it. Exceptions of `act` are passed on.
   virtual void with_world(const std::function<void(world::World&)>& act) = 0;
-  /// Lets time pass until the condition is true at the end of a tick (or now), at most to `deadline`.
-  /// Returns true if it is. `is_there` is called at every tick that may make a difference, on the thread
-  /// that runs the world.
+  /// Lets time pass until the condition is true at the end of a tick (or now), but not beyond `deadline`.
+  /// Returns true if it is. `is_there` is called at every tick that may make a difference, on the thread that
+  /// runs the world.
   virtual bool run_until(const Awaited& awaited, SimTime deadline) = 0;
   virtual void advance(SimTime by) = 0;
   virtual SimTime now() = 0;

@@ -35,7 +35,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
   return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
 }
 
-/// The master on one line. It knows when the line was last busy, and takes the output for the host.
+/// The master on one line. It knows when the line was last busy, and receives its output.
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
@@ -62,16 +62,16 @@ class FreeExecutor::Host final : public pty::LineObserver {
   SimTime quiet_since() const { return quiet_since_; }
   void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
   void set_quiet_since(SimTime since) { quiet_since_ = since; }
-  /// Forgets what came after `now`, because simulated time was set back.
+  /// Forgets everything after `now`, because simulated time was set back.
   void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
 
-  /// Takes the bytes that have come since the last call.
+  /// Takes the bytes that have arrived since the last call.
   void take(std::vector<std::uint8_t>& bytes) {
     const auto came = line().output();
     bytes.insert(bytes.end(), came.begin(), came.end());
     take_output(came.size());
   }
-  /// Returns the bytes that have come as lines of text, without taking them.
+  /// Returns the bytes that have arrived as lines of text, without taking them.
   world::LinesHeard lines() const {
     const auto came = line().output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
@@ -184,7 +184,7 @@ std::vector<std::uint8_t> FreeExecutor::exchange(std::size_t line, std::span<con
     advance_to_next(deadline);
     host.take(reply);
   }
-  if (world_.now() < deadline) {  // a byte that follows at once belongs to the reply, expected or not
+  if (world_.now() < deadline) {  // a byte that follows immediately belongs to the reply, expected or not
     const SimTime rounding{1};    // a character ends at a whole nanosecond
     world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
     host.take(reply);
@@ -216,7 +216,7 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
     advance_to_next(deadline);
     heard = host.lines();
   }
-  // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
+  // Bytes that follow an answer immediately belong to it, expected or not, up to one more line.
   while (text && world_.now() < deadline && heard.finished <= wanted.lines.size()) {
     const std::size_t before = host.line().output().size();
     const SimTime rounding{1};  // a character ends at a whole nanosecond
@@ -237,7 +237,7 @@ std::vector<std::string> FreeExecutor::exchange_text(std::size_t line, const std
 /// Sends text after the gap. On return, the line has all of it, but may still be sending it.
 void FreeExecutor::put_text(Host& host, const std::string& text) {
   writing_ = nullptr;
-  world_.advance_to(world_.now());  // output from an act at this moment comes first
+  world_.advance_to(world_.now());  // output from an earlier act at this moment comes first
   if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
     world_.advance_to(host.quiet_since() + options_.gap);
   }
@@ -250,7 +250,7 @@ void FreeExecutor::put_text(Host& host, const std::string& text) {
   host.send_text(bytes);
 }
 
-/// Sends a frame after t3.5 and the gap. On return, all of it is on the line, but not over.
+/// Sends a frame after t3.5 and the gap. On return, the line has all of it, but may still be sending it.
 void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   writing_ = nullptr;
   for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
@@ -271,7 +271,7 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Advances to the next event, at most to `limit`. A write is executed at such a moment.
+/// Advances to the next event, but not beyond `limit`. A write is executed at such a moment.
 void FreeExecutor::advance_to_next(SimTime limit) {
   world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
   if (writing_ == nullptr || writing_->requests() == requests_before_) return;

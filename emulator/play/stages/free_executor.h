@@ -60,7 +60,7 @@ class FreeExecutor final : public Executor {
   FreeExecutorOptions options_;
   std::vector<std::unique_ptr<Host>> hosts_;  // one per line
   const Host* writing_ = nullptr;             // the host whose write is being executed
-  std::uint64_t requests_before_ = 0;         // of its stations
+  std::uint64_t requests_before_ = 0;         // the requests of its stations before the write
   Tick tick_of_last_write_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// An executor beside a host in simulated time (docs/host-time.md). The host is another program, so it has
-// none of its own. It acts on the world while the host sleeps and time stands, so each run has the same
-// moments.
+// An executor beside a host in simulated time (docs/host-time.md). The host is another program, so the
+// executor has none. It acts on the world while the host sleeps and time stands still, so it acts at the same
+// moments in each run.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class HostTimeExecutor final : public Executor {
   HostTimeExecutor(const HostTimeExecutor&) = delete;
   HostTimeExecutor& operator=(const HostTimeExecutor&) = delete;
 
-  // It has no host: these throw std::logic_error.
+  // There is no host, so these throw std::logic_error.
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                   std::span<const std::uint16_t> words) override;

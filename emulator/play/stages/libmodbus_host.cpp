@@ -1,4 +1,4 @@
-// Runs libmodbus. No other file of this folder includes it.
+// Runs libmodbus. No other file of this folder includes its header.
 #include "emulator/play/stages/libmodbus_host.h"
 
 #include <errno.h>
@@ -33,8 +33,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// This is the longest pause between two bytes of a reply, because a busy machine may delay bytes that follow
-// each other on the line.
+// The longest pause between two bytes of a reply. It is long, because a busy machine may delay bytes that
+// follow each other on the line.
 constexpr serve::WallTime kLongestPause = std::chrono::milliseconds(200);
 
 char letter_of(pty::Parity parity) {
@@ -153,7 +153,7 @@ HostReply LibmodbusHost::write_message(int station, std::uint16_t first,
   return judge(modbus_write_registers(context_.get(), first, static_cast<int>(words.size()), words.data()));
 }
 
-/// Reads the bytes that are available, or come before `until`. Returns 0 if there are none.
+/// Reads the bytes that are available, or arrive before `until`. Returns 0 if there are none.
 std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const {
   pollfd port{.fd = modbus_get_socket(context_.get()), .events = POLLIN, .revents = 0};
   const serve::WallTime rest = std::max(until - serve::wall_now(), serve::WallTime{0});
@@ -206,7 +206,7 @@ std::vector<std::string> LibmodbusHost::exchange_text(const std::optional<std::s
     read_some(unread_, deadline);
     heard = lines_heard();
   }
-  // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
+  // Bytes that follow an answer immediately belong to it, expected or not, up to one more line.
   constexpr serve::WallTime kAtOnce = std::chrono::milliseconds(3);
   while (text && heard.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
     if (read_some(unread_, std::min(deadline, serve::wall_now() + kAtOnce)) == 0) break;
@@ -235,7 +235,7 @@ std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> 
   quiet_since_ = start + sending;
   std::vector<std::uint8_t> reply;
   while (reply.size() < wanted && serve::wall_now() < deadline) read_some(reply, deadline);
-  // A byte that follows at once belongs to the reply, expected or not.
+  // A byte that follows immediately belongs to the reply, expected or not.
   if (!reply.empty() && serve::wall_now() < deadline) {
     read_some(reply, std::min(deadline, serve::wall_now() + std::chrono::milliseconds(3)));
   }

@@ -17,8 +17,8 @@ namespace understudy::emulator::play {
 
 class LibmodbusHost {
  public:
-  /// `timeout` is from a request's end to the first byte of its reply; `silence` is before each request.
-  /// Throws pty::PortError.
+  /// `timeout` is the time from a request's end to the first byte of its reply; `silence` is kept before each
+  /// request. Throws pty::PortError.
   LibmodbusHost(const std::string& port, const pty::LineSettings& settings, serve::WallTime timeout,
                 serve::WallTime silence);
   ~LibmodbusHost();
@@ -28,8 +28,8 @@ class LibmodbusHost {
   HostReply read(int station, Table table, std::uint16_t first, int count);
   HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   HostReply write_message(int station, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// Exchanges raw bytes without libmodbus; see Executor::exchange(). `sending` is the time of the bytes on
-  /// the line.
+  /// Exchanges raw bytes without libmodbus; see Executor::exchange(). `sending` is how long the line takes to
+  /// carry them.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
@@ -56,7 +56,7 @@ class LibmodbusHost {
   std::unique_ptr<_modbus, Close> context_;
   serve::WallTime silence_;
   serve::WallTime quiet_since_{0};
-  std::vector<std::uint8_t> unread_;  // of lines of text
+  std::vector<std::uint8_t> unread_;  // received characters of lines of text
 };
 
 }  // namespace understudy::emulator::play

@@ -18,10 +18,10 @@ std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t 
 std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
                                           std::span<const std::uint16_t> words);
 
-/// Returns how many bytes a host that has sent `request`, and has received `reply` so far, waits for.
+/// Returns how many bytes a host waits for after it has sent `request` and received `reply` so far.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// Returns the meaning of `reply`, all bytes received, as the answer to a request of read_request() or
+/// Returns what `reply`, all bytes received, means as the answer to a request of read_request() or
 /// write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 

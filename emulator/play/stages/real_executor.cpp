@@ -38,9 +38,9 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The daemon sleeps until something is due. For a watcher of every tick, it looks at this interval.
+// The daemon sleeps until something is due. For a watcher of every tick, it wakes at this interval.
 constexpr serve::WallTime kLook = std::chrono::milliseconds(1);
-// A wait asks at this interval whether the scenario was given up.
+// A wait checks at this interval whether the scenario was given up.
 constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -143,7 +143,7 @@ void RealExecutor::with_world(const std::function<void(world::World&)>& act) {
       was_dropped = true;
     }
   }
-  // Nobody else runs the world any more, but its observers must still be removed.
+  // The world no longer runs, but its observers must still be removed.
   if (was_dropped) act_now();
 }
 
@@ -182,7 +182,7 @@ bool RealExecutor::run_until(const Awaited& awaited, SimTime deadline) {
     found_at_ = look.wait(kLook);
     if (found_at_) return true;
     throw_if_given_up();
-    // The question brings the world to the present and shows every tick up to it.
+    // Asking for the time brings the world up to date and shows every tick up to now.
     const auto rest = wall_time_until(deadline);
     if (rest == serve::WallTime{0}) {
       found_at_ = look.wait(serve::WallTime{0});

@@ -25,7 +25,7 @@ struct ExecutionAborted : std::runtime_error {
 struct RealExecutorOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  /// False: the hosts on its lines are other programs, and the executor has none.
+  /// If false, the hosts on its lines are other programs, and the executor has none.
   bool has_hosts = true;
   /// Once it is true, every wait throws ExecutionAborted. Waits also throw it after the daemon has ended,
   /// because time stops then. Null: the scenario is never abandoned.
@@ -34,10 +34,10 @@ struct RealExecutorOptions {
 
 class RealExecutor final : public Executor {
  public:
-  /// Another thread runs the daemon. Once the daemon has ended, that thread must leave the world alone as
-  /// long as this executor lives. Throws pty::PortError.
+  /// Another thread runs the daemon. After the daemon has ended, that thread must not touch the world as long
+  /// as this executor lives. Throws pty::PortError.
   RealExecutor(serve::Daemon& daemon, RealExecutorOptions options);
-  /// Like the above, with its own daemon, which has been started.
+  /// Like the above, with a daemon of its own, which has been started.
   RealExecutor(std::unique_ptr<serve::DaemonThread> thread, RealExecutorOptions options);
   ~RealExecutor() override;
   RealExecutor(const RealExecutor&) = delete;
@@ -57,7 +57,8 @@ class RealExecutor final : public Executor {
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
-  /// After run_until(), returns the tick at which its condition was true; only valid right after that call.
+  /// After run_until(), returns the time of the tick at which its condition was true, until time passes
+  /// again.
   SimTime now() override;
   Tick tick_of_last_write() override;
 
@@ -77,11 +78,11 @@ class RealExecutor final : public Executor {
   std::unique_ptr<WriteClock> writes_;
   std::vector<pty::LineOptions> lines_;                // at the beginning; hosts do not follow a DIP switch
   std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one per line
-  std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
+  std::optional<SimTime> found_at_;                    // by run_until(), if no time has passed since
 };
 
 /// Makes an executor in real time with the scenario's bench and gap, and with ports of its own. The devices'
-/// memories begin as their files, but those files are never written.
+/// memories start with the contents of their files, but those files are never written.
 std::unique_ptr<Executor> make_real_executor(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

@@ -1,5 +1,5 @@
-// Gives the world to one of two threads at a time: to the one that runs it, and to the scenario's. So the
-// scenario acts at an exact moment of simulated time, in every run at the same one.
+// Gives the world to one of two threads at a time: the one that runs it, or the scenario's. So the scenario
+// acts at exact moments of simulated time, which are the same in every run.
 #pragma once
 
 #include <condition_variable>
@@ -15,21 +15,21 @@ namespace understudy::emulator::play {
 
 class Turns final : public serve::Companion {
  public:
-  // --- the thread that runs the world
+  // --- called by the thread that runs the world ----------------------------------------------------
   void act(SimTime now) override;
   std::optional<SimTime> next_act() const override;
-  /// The scenario is to end: its wait is over.
+  /// Gives the scenario up. Its wait ends at the next act().
   void give_up();
-  /// The world is not run any more, so the scenario may act on it at any time.
+  /// Called when the world no longer runs. The scenario may then act on it at any time.
   void leave();
 
-  // --- the scenario's thread
+  // --- called by the scenario's thread -------------------------------------------------------------
   /// Waits for the first turn.
   void begin();
-  /// Gives the turn away until simulated time is `end`, or the look has found what it looks for, or the
-  /// scenario is given up.
+  /// Gives the turn away until simulated time is `end`, or the look has found its condition, or the scenario
+  /// is given up.
   void wait_until(SimTime end, const TickLook* look = nullptr);
-  /// The scenario acts no more.
+  /// Called when the scenario no longer acts.
   void finish();
 
   bool is_given_up() const;
@@ -42,7 +42,7 @@ class Turns final : public serve::Companion {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Whose turn_ = Whose::world;
-  std::optional<SimTime> end_ = SimTime{0};  // of the scenario's wait; nothing after finish()
+  std::optional<SimTime> end_ = SimTime{0};  // when the scenario's wait ends; nothing after finish()
   const TickLook* look_ = nullptr;
   bool is_given_up_ = false;
   bool is_left_ = false;

@@ -34,7 +34,7 @@ void WriteClock::begin_anew() {
 
 /// Receives frames. A request arrives at the moment at which it is executed, a reply when it begins.
 void WriteClock::hear(std::size_t line, const pty::CapturedPacket& packet) {
-  if (packet.bytes.empty()) return;  // the entry only reports what a fault has done
+  if (packet.bytes.empty()) return;  // the entry only reports what a fault did
   const world::WorldLine& on = world_.line(line);
   if (packet.way == pty::Way::from_host) {
     if (!on.speech.may_change(on.stations, packet)) return;

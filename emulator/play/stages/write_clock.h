@@ -18,9 +18,10 @@ class WriteClock {
   WriteClock(const WriteClock&) = delete;
   WriteClock& operator=(const WriteClock&) = delete;
 
-  /// Returns the tick from which it takes effect, or 0 if there was none. Refused writes do not count.
+  /// Returns the tick from which the last write takes effect, or 0 if there was none. Refused writes do not
+  /// count.
   Tick tick_of_last_write() const { return last_; }
-  /// The lines were put into another state: forgets partly received frames.
+  /// Forgets partly received frames, after the lines were put into another state.
   void begin_anew();
 
  private:
@@ -31,7 +32,7 @@ class WriteClock {
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   Tick last_ = 0;
-  Tick before_ = 0;  // of the write before
+  Tick before_ = 0;  // the tick of the write before
   static constexpr std::size_t kNone = SIZE_MAX;
   std::size_t unanswered_ = kNone;  // the line on which the last write waits for its reply
 };

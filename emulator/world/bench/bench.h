@@ -1,5 +1,5 @@
-// A bench is what a user describes in one file (docs/bench.md). It is checked when it is made, so that code
-// which uses it can rely on every name.
+// A bench is the setup that a user describes in one file (docs/bench.md). It is checked when it is made, so
+// code that uses it can rely on every name.
 #pragma once
 
 #include <chrono>
@@ -30,7 +30,7 @@ struct StationSetup {
   bool operator==(const StationSetup&) const = default;
 };
 
-/// How long a line waits for the rest of a frame: no longer than hosts wait for a reply.
+/// How long a line waits for the rest of a frame by default. Hosts wait at least as long for a reply.
 inline constexpr SimTime kUsualByteTimeout = std::chrono::milliseconds(200);
 inline constexpr SimTime kShortestByteTimeout = std::chrono::milliseconds(10);
 inline constexpr SimTime kLongestByteTimeout = std::chrono::minutes(1);
@@ -40,11 +40,11 @@ struct LineSetup {
   std::string name;
   std::string link;               // path of the link to its pty; empty: none
   bool has_pty = true;            // otherwise hosts connect only over TCP
-  std::vector<TcpAddress> tcp{};  // where it listens as well
+  std::vector<TcpAddress> tcp{};  // addresses where it also listens
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
   bool echoes = false;                                            // hosts receive their own bytes
-  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
+  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // how much a host's speed may differ
   SimTime byte_timeout = kUsualByteTimeout;  // for the rest of a frame, by the host's clock
   std::vector<StationSetup> stations;        // in the order written
 };
@@ -52,8 +52,8 @@ struct LineSetup {
 struct DeviceSetup {
   const Model* model = nullptr;
   DeviceSettings settings;
-  std::string nv_path{};                       // the file of its memory; empty: it lives in memory only
-  std::optional<InlineText> program_inside{};  // the place of a program that the bench file contains
+  std::string nv_path{};                       // the file of its non-volatile memory; empty: none
+  std::optional<InlineText> program_inside{};  // the place of a program within the bench file
 };
 
 struct MachineSetup {
@@ -67,11 +67,11 @@ struct MachineSetup {
 struct WireSetup {
   std::size_t from_device = 0;
   int from_terminal = 0;
-  int from_axis = -1;  // the machine's contact instead
+  int from_axis = -1;  // not -1: the contact of this axis's machine instead
   Contact from_contact = Contact::home;
   std::size_t to_device = 0;
   int to_terminal = 0;
-  int to_axis = -1;  // the drive's input instead
+  int to_axis = -1;  // not -1: the input of this axis's drive instead
   DriveInput to_input = DriveInput::servo;
 };
 
@@ -88,9 +88,9 @@ struct Bench {
   std::vector<MachineSetup> machines;
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
-  std::vector<Fault> faults;       // those that exist from the beginning
+  std::vector<Fault> faults;       // the initial ones
   std::uint64_t seed = 0;          // the start of the random numbers
-  std::vector<FileClaim> files{};  // that it was read from, except memories
+  std::vector<FileClaim> files{};  // all files that it was read from, except memories
 };
 
 /// The names of both ends of a wire: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".

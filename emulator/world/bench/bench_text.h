@@ -1,5 +1,5 @@
-// Writes a bench as text for parse_bench(), whatever it was made from. Programs and memories are included
-// and links left out, so that it is the same bench in any folder.
+// Writes a bench as text for parse_bench(), whatever it was made from. The text includes programs and
+// memories, and leaves out links, so it is the same bench in any folder.
 #pragma once
 
 #include <string>

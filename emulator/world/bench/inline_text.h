@@ -9,13 +9,14 @@
 namespace understudy::emulator::world {
 
 struct InlineText {
-  FilePlace place;      // of the value in the file
-  std::string field;    // its name there
-  int first_line = 0;   // of the file, of the text's first line; 0: its lines are not lines of the file
-  int indentation = 0;  // of those lines
+  FilePlace place;      // the value's place in the file
+  std::string field;    // the value's field in the file
+  int first_line = 0;   // the file's line at which the text begins; 0: its lines are not lines of the file
+  int indentation = 0;  // the indentation of those lines, in characters
 };
 
-/// Returns what is wrong with the text, at that very line of the file if the text has lines of its own.
+/// Returns what is wrong with the text, at the exact line of the file if the text's lines are lines of the
+/// file.
 FileError::Diagnostic diagnostic_in(const InlineText& text, const ProgramMistake& mistake);
 
 }  // namespace understudy::emulator::world

@@ -98,7 +98,7 @@ int read_port(std::string_view text) {
   return static_cast<int>(*port);
 }
 
-/// Returns the address in "[::1]" without its brackets. An interface may follow a '%'.
+/// Returns the host, or the default. An IPv6 address loses its brackets; '%' and an interface may follow it.
 std::string read_host(std::string_view text) {
   if (text.empty()) return "127.0.0.1";
   if (text.starts_with('[')) {

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 /// The protocol of a client: plain serial bytes, serial bytes with line settings, or Modbus TCP.
 enum class TcpProtocol : std::uint8_t { rtu, rfc2217, modbus_tcp };
 
-/// Settings of the gateway through which a line is reached by Modbus TCP.
+/// Settings of the gateway between Modbus TCP clients and a line.
 struct GatewaySettings {
   static constexpr int kAnyUnit = -1;
   static constexpr int kOnlyStation = 0;
@@ -28,7 +28,7 @@ struct GatewaySettings {
   bool operator==(const GatewaySettings&) const = default;
 };
 
-/// Port number 0 stands for any free port.
+/// An address at which a line listens. Port number 0 stands for any free port.
 struct TcpAddress {
   TcpProtocol protocol = TcpProtocol::rtu;
   std::string host;  // a name, or a numeric address; an IPv6 address without brackets
@@ -39,7 +39,8 @@ struct TcpAddress {
 inline constexpr std::string_view kListeningExpected =
     "expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as rtu://127.0.0.1:5020";
 
-/// Reports what is wrong with an address, and what was expected: "has port 99999; expected 0 to 65535".
+/// Thrown for an address that is not valid. The message says what is wrong and what was expected: "has port
+/// 99999; expected 0 to 65535".
 struct ListeningError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

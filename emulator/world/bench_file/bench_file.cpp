@@ -136,7 +136,7 @@ class BenchReader {
     bench_.lines.push_back(std::move(line));
   }
 
-  /// Reads what a line's ports are, and how fast and when bytes pass through them.
+  /// Reads the ports of a line, its speed and its timing.
   void read_ports_of(const Keys& keys, LineSetup& line) {
     keys.read("link", [&](const YamlFields& field) { line.link = read_link(field, links_, bench_.lines); });
     keys.read("listen", [&](const YamlFields& field) { read_listen(field, bench_.lines, line, all_); });
@@ -190,8 +190,8 @@ class BenchReader {
     if (!is_here) numbered.push_back({station, device, address});
   }
 
-  /// Returns the port that a station names. The port must not be on another line, and the device must not be
-  /// on this line with another port.
+  /// Returns the port that a station names. The port must not be on another line, nor the device on this line
+  /// with another port.
   std::size_t take_port(const YamlFields& station, std::size_t device, const LineSetup& line) {
     const Model& model = names_.model_of(device);
     const std::size_t port = read_port(station, model);
@@ -244,7 +244,7 @@ class BenchReader {
     if (all_.count() != before) names_.lose_part(name);
   }
 
-  /// Checks that no two contacts share an input: a switch that the bench moves to another input may meet one.
+  /// Checks that no two contacts share an input, because the bench can move a switch to any input.
   void require_own_inputs(const YamlFields& plant) const {
     std::map<std::pair<std::size_t, int>, std::string> taken;
     for (const MachineSetup& machine : bench_.machines) {
@@ -304,7 +304,7 @@ class BenchReader {
     });
   }
 
-  /// Reads the faults first and checks their conditions afterwards, when the names of all faults are known.
+  /// Reads all faults, then checks whether the bench can have them.
   void read_faults(const std::vector<YamlFields>& elements, const KnownDevices& known) {
     std::vector<std::pair<YamlFields, std::optional<Fault>>> faults;
     for (const YamlFields& element : elements) {

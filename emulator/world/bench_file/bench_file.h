@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// Readers of benches use this name for the error.
+/// The name of the error for code that reads benches.
 using BenchError = FileError;
 
 class YamlFields;
@@ -25,8 +25,8 @@ Bench load_bench(ModelList models, const YamlFields& path);
 Bench parse_bench(ModelList models, const std::string& text, const std::string& name,
                   const std::string& folder, const std::string& links = "");
 
-/// Reads the bench inside a recording. It is complete, so paths are refused: they would read or write files
-/// that do not belong to the recording.
+/// Reads the bench inside a recording. It must be complete, so paths are refused: they would read or write
+/// files that do not belong to the recording.
 Bench parse_recorded_bench(ModelList models, const std::string& text);
 
 /// Reads a bench that is the value of a key in another file.

@@ -1,5 +1,5 @@
-// Names in the part of a bench that has been read, and names of parts that could not be read. References to
-// the latter are not reported as errors.
+// Finds names in the part of a bench that has been read so far. It also has the names of parts that could not
+// be read; references to these are not reported as errors.
 #pragma once
 
 #include <set>
@@ -26,10 +26,10 @@ class BenchNames {
   bool is_lost_part(const std::string& name) const { return lost_parts_.contains(name); }
   /// Returns true if a text names a part that could not be read.
   bool names_lost(std::string_view text) const;
-  /// Returns true if a value of a map names such a part.
+  /// Returns true if a value of a map names a part that could not be read.
   bool has_lost(const YamlFields& map) const;
 
-  // --- what was read: these fail with the names that would do, or as Untold -----------------------
+  // --- what was read: these fail with the names that are valid, or throw AlreadyReported ----------
   /// Returns -1 if there is no such device.
   int find_device(const std::string& name) const;
   std::size_t require_device(const YamlFields& field, const std::string& name) const;

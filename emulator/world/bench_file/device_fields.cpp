@@ -114,7 +114,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Diagnostics& di
   return image;
 }
 
-/// Reads the path of an image.
+/// Reads the path of a memory image, which no other device may have.
 void read_nv_path(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
                   DeviceSetup& device) {
   device.nv_path = path_in(folder, field);
@@ -197,11 +197,11 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
     return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
   }
   if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
-  if (setting == "modules") {  // sets the maximum, for what later messages say about modules
+  if (setting == "modules") {  // sets the maximum, so that later messages about modules are right
     return std::exchange(settings.modules, model.most_modules) != model.most_modules;
   }
   if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
-  return !std::exchange(settings.bauds, {}).empty();  // DIP switches that imply another speed
+  return !std::exchange(settings.bauds, {}).empty();  // the DIP switches demand another speed
 }
 
 /// Reports the error at the entry, or at the memory if the entry has no place of its own.

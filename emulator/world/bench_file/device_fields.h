@@ -14,9 +14,9 @@ namespace understudy::emulator::world {
 /// Checks that a name can be followed by a dot and another name.
 void require_name(const YamlFields& field, const std::string& name);
 
-/// Reads the entry of a device without its name. Keeps all errors; if the model is unknown, the device has
-/// none. Paths are relative to `folder`, and refused without one. Files that it reads are added to the
-/// bench; no two of its devices may have the same memory file.
+/// Reads the entry of a device without its name. Keeps all errors; if the model is unknown, the result's
+/// model is null. Paths are relative to `folder`, and refused without one. Files that it reads are added to
+/// the bench; no two of its devices may have the same memory file.
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
                         Diagnostics& diagnostics);
@@ -27,7 +27,8 @@ struct DevicePlaces {
   std::vector<std::optional<YamlFields>> stations{};
 };
 
-/// Reports everything in a device that the model refuses, and removes it, so that the rest suits the model.
+/// Reports all settings of a device that the model refuses, and removes them, so that the model accepts the
+/// rest.
 void judge_device(const DevicePlaces& places, DeviceSetup& device, Diagnostics& diagnostics);
 
 /// Returns a path in `folder`. It is refused if there is no folder.

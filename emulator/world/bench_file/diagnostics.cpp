@@ -38,14 +38,14 @@ namespace {
 
 constexpr std::string_view kAnd = "and ";
 
-/// Returns the line that stands for the errors that are not reported.
+/// Returns the line that replaces the errors that are not reported.
 FileError::Diagnostic word_of_more(std::size_t more) {
   const FileError word(std::string(kAnd) + std::to_string(more) + " more; the first " +
                        std::to_string(Diagnostics::kMaxTold) + " are shown");
   return word.diagnostics().front();
 }
 
-/// Returns the number in such a line, or 0.
+/// Returns the number in a line of word_of_more(), or 0.
 std::size_t more_in(const FileError::Diagnostic& diagnostic) {
   if (!diagnostic.place.file.empty() || !diagnostic.text.starts_with(kAnd)) return 0;
   const std::string number =

@@ -1,4 +1,4 @@
-// Collects everything that is wrong with a file, for readers that continue after a part that they could not
+// Collects everything that is wrong with a file, for readers that continue after a part that they cannot
 // read.
 #pragma once
 
@@ -51,16 +51,16 @@ class Diagnostics {
   void require(const Read& read) {
     try {
       attempt(read);
-    } catch (const LastError&) {  // it is among them
+    } catch (const LastError&) {  // already added
     }
     throw_if_any();
   }
-  /// Adds an error, unless it was reported already, with `behind` appended to each line. Throws LastError if
-  /// there are too many.
+  /// Adds an error, with `behind` appended to each line, unless it has been reported already. Throws
+  /// LastError if there are too many.
   void add(const FileError& error, const std::string& behind = "");
   std::size_t count() const { return diagnostics_.size(); }
-  /// Throws a FileError with the first errors in the order of the file; several files keep the order in
-  /// which they were reported.
+  /// If there are errors, throws a FileError with the first ones in the order of the file; several files keep
+  /// the order in which they were reported.
   void throw_if_any() const;
 
  private:
@@ -68,7 +68,7 @@ class Diagnostics {
 
   std::vector<FileError::Diagnostic> diagnostics_;
   std::set<std::string> told_;
-  std::size_t more_ = 0;  // that parts of the file left untold
+  std::size_t more_ = 0;  // errors that the reports of parts left out
 };
 
 }  // namespace understudy::emulator::world

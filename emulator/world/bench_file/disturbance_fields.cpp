@@ -88,7 +88,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   if (!has_kind) return std::nullopt;
   bool is_whole = diagnostics.count() == before;
   bool has_place = true;
-  // A wrong place or field is put aside so that the rest is checked.
+  // Removes a wrong place or field, so that the rest is checked.
   while (true) {
     try {
       if (!has_place) {
@@ -107,7 +107,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
       if (!fields.at(text.kind).is_scalar()) continue;
       diagnostics.attempt([&] { fields.fail(error.what()); });
     } catch (const NameError& error) {
-      // A field that was put aside is not missing.
+      // A removed field is not reported as missing.
       if (is_whole) diagnostics.attempt([&] { fields.fail(error.what()); });
       return std::nullopt;
     }

@@ -1,5 +1,5 @@
-// The form of a fault in a file, for editors: one kind with its place, the kind's fields, and the trigger's.
-// The readers check more (find_fault).
+// Declares the keys of a fault in a file, for editors: one kind with its place, the kind's fields, and the
+// trigger's. The readers check more (find_fault).
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ inline constexpr std::array kFaultKeys{
         &kDeviceOrLineName},
     Key{"wrong_unit", "Over Modbus TCP, replies have the next unit's number.", &kDeviceOrLineName},
     Key{"hang_up", "Over TCP, the connection closes in the middle of replies.", &kDeviceOrLineName},
-    // Their fields.
+    // The fields of the kinds.
     Key{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
     Key{"pulses", "slip: how many pulses.", &kText},
     Key{"level", "stuck: on or off.", &kText},

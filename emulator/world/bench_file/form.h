@@ -1,5 +1,5 @@
-// The vocabulary for declaring a file format: its keys and the forms of their values. Readers use it to know
-// their keys; `understudy schema` turns it into a JSON Schema.
+// The vocabulary for declaring a file format: its keys and the schemas of their values. Readers use it to
+// know their keys; `understudy schema` turns it into a JSON Schema.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@ namespace understudy::emulator::world {
 
 struct Key;
 
-/// The form of a value.
+/// Describes the values that a key accepts.
 struct Schema {
   enum class Kind : std::uint8_t {
-    text,      // a word, a number, a sentence: the reader knows more
+    text,      // any scalar; the reader checks it
     integer,   // from `lowest` to `highest`, decimal or 0x...
     level,     // on or off
     duration,  // 250ms
     words,     // one of `words`
-    list,      // of `of`, `count` of them (0: one or more)
-    names,     // a map from names of the user's, or of the bench's, to `of`
-    keys,      // a map with the keys of `keys`
+    list,      // values of `of`: `count` of them, or one or more if it is 0
+    names,     // a map from any names, or those in the bench, to `of`
+    keys,      // a map with these `keys`
     either,    // one of `ways`
     steps,     // the steps of a scenario
   } kind = Kind::text;
@@ -42,7 +42,7 @@ struct Schema {
     turned,
     registers
   } names_of = Of::anything;
-  /// Required keys may be missing, at any depth: they are elsewhere in the file.
+  /// Required keys may be missing, at any depth, because they are elsewhere in the file.
   bool is_part = false;
 };
 
@@ -59,7 +59,7 @@ constexpr Schema integer_schema(std::int64_t lowest, std::int64_t highest) {
 constexpr Schema words_schema(std::span<const std::string_view> words) {
   return {.kind = Schema::Kind::words, .words = words};
 }
-/// Everything it refers to must outlive the form; all of it is constant.
+/// The results refer to the arguments of these functions, which must outlive them.
 constexpr Schema list_schema(const Schema& of, int count = 0) {
   return {.kind = Schema::Kind::list, .of = &of, .count = count};
 }

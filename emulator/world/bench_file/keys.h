@@ -1,4 +1,4 @@
-// Reads the keys of a map one by one, so that all that is wrong with them is reported at once.
+// Reads the keys of a map one by one, so that all errors in them are reported at once.
 #pragma once
 
 #include <span>

@@ -98,7 +98,7 @@ void read_encoder(const YamlFields& encoder, const Model* model, PlantSetup& set
     if (setup.pulses_per_revolution > 0 || encoder.has("motor_pulses_per_revolution")) return;
     if (!setup.has_wheel)
       encoder.fail("needs the pulses per revolution of the motor; expected `motor_pulses_per_revolution`");
-    setup.pulses_per_revolution = 1;  // no motor turns a wheel; this only avoids a division by zero
+    setup.pulses_per_revolution = 1;  // no motor turns a wheel; 1 avoids a division by zero
   });
   keys.read("reversed",
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns one line each, at the place in the file of the program, or in the bench if it contains the
+/// Returns a line for each warning, at its place in the program's file, or in the bench if it contains the
 /// program.
 std::vector<FileError::Diagnostic> program_warnings(const Bench& bench);
 /// Returns the warnings for a text that loads into a device of the bench. `inside` is its place if it is not

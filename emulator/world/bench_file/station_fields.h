@@ -19,8 +19,8 @@ std::size_t read_port(const YamlFields& station, const Model& model);
 void require_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
                   const Bench& bench);
 
-/// Reads the station's number, if it has one, and gives it to the device. A device has the same number on
-/// all its lines, so it need be given at one of its stations only.
+/// Reads the station's number, if it has one, and gives it to the device. A device has the same number on all
+/// its lines, so only one of its stations must give it.
 std::optional<int> read_address(const YamlFields& station, DeviceSetup& device);
 
 /// A station as it was written: its device, if that could be read, and its number.

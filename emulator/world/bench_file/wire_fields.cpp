@@ -28,7 +28,7 @@ struct MachinePlace {
   std::string word;       // "upper_limit"
 };
 
-/// Returns nothing if the name does not begin with an axis, so that it must be a terminal's.
+/// Returns nothing if the name does not begin with an axis, and so must be a terminal's.
 std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std::string& name,
                                                const BenchNames& names, const char* example) {
   const std::size_t dot = name.find_last_of('.');
@@ -39,7 +39,7 @@ std::optional<MachinePlace> find_machine_place(const YamlFields& wire, const std
   return MachinePlace{device, axis, name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// Returns the index of the place's word in `words`. `what` says in the message what they are.
+/// Returns the index of the place's word in `words`. `what` describes them in the message.
 template <class Names>
 std::size_t find_word(const YamlFields& wire, const MachinePlace& place, const Names& words,
                       const char* what) {

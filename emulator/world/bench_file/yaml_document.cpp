@@ -67,7 +67,7 @@ bool has_second_colon(const Stop& stop) {
   const std::size_t colon = stop.line.find(": ");
   return colon != std::string_view::npos && static_cast<int>(colon) + 1 < stop.mark.column;
 }
-/// Returns true if a key lacks the blank after its colon: "model:simple2-r3".
+/// Returns true if a key has no blank after its colon: "model:simple2-r3".
 bool is_glued(std::string_view line) {
   const auto is_of_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
@@ -88,7 +88,7 @@ bool goes_on(const Stop& stop) {
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
 bool always(const Stop& /*stop*/) { return true; }
 
-/// A message of the library in plain words. The first row that fits is used.
+/// Replaces a message of the library by plain words. The first row that fits is used.
 struct PlainWords {
   std::string_view library;  // the beginning of the library's message; empty: any message
   bool (*fits)(const Stop& stop);
@@ -230,8 +230,8 @@ class Passage : public YAML::EventHandler {
   YAML::Mark last_text_ = YAML::Mark::null_mark();
 };
 
-/// Empties the comment lines that the text begins with. The library reads comments letter by letter, and many
-/// files begin with a page of them.
+/// Blanks the comment lines at the beginning of the text, because the library reads comments letter by
+/// letter, and many files begin with a page of them.
 std::string without_first_remarks(const std::string& text) {
   std::string lines;
   std::size_t at = 0;

@@ -8,16 +8,18 @@
 
 namespace understudy::emulator::world {
 
-/// A YAML node. An alias is the very node that it names, so a node may be in several places, and even inside
-/// itself.
+/// A YAML node. An alias is the same node as the one that it names, so a node may be in several places, and
+/// even inside itself.
 struct YamlNode {
   enum class Kind : std::uint8_t { nothing, scalar, list, map } kind = Kind::nothing;
-  int line = 0;  // from 0 on
+  int line = 0;  // counted from 0
   int column = 0;
-  int text_line = 0;    // of a block (`|`): the number of its first line, and the blanks before each of its
-  int text_column = 0;  // lines; 0: the scalar's lines are not lines of the file
+  /// For a block (`|`): its first line, counted from 0, and the blanks before each of its lines. 0: the
+  /// scalar's lines are not lines of the file.
+  int text_line = 0;
+  int text_column = 0;
   std::string scalar{};
-  std::vector<const YamlNode*> parts{};  // of a list; of a map: key, value, key, value
+  std::vector<const YamlNode*> parts{};  // the elements of a list; for a map: key, value, key, value
 };
 
 /// Returns the single document of a text, which may be of any kind. Messages call it `what`. It stops at the

@@ -48,20 +48,20 @@ class YamlFields {
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Returns this node read by another rule, which must outlive it and all nodes taken from it. Null:
-  /// scalars are taken as written.
+  /// Returns this node with another rule, which must outlive it and all nodes taken from it. Null: scalars
+  /// are taken as written.
   YamlFields with_rule(const ScalarRule* rule) const;
-  /// This map, with everything that only `defaults`, another map of the same file, has. If both have a map
-  /// for a key, these are joined in the same way; anything else in `defaults` gives way.
+  /// Returns this map with the entries that only `defaults`, another map of the same file, has. If both have
+  /// a map for a key, these are joined in the same way; otherwise this map's value is kept.
   YamlFields with_defaults(const YamlFields& defaults) const;
-  /// This map without some of its keys.
+  /// Returns this map without some of its keys.
   YamlFields without(std::span<const std::string_view> keys) const;
-  /// A copy whose scalars have been read by the rule, so that it needs none. Parts for which `text_of`
-  /// returns a text become scalars with that text.
+  /// Returns a copy whose scalars have been read by the rule, so that it needs none. Parts for which
+  /// `text_of` returns a text become scalars with that text.
   YamlFields settled(const std::function<std::optional<std::string>(const YamlFields&)>& text_of = {}) const;
-  /// This map with one more scalar at its end.
+  /// Returns this map with one more scalar at its end.
   YamlFields with_entry(const std::string& key, const std::string& text) const;
-  /// A map whose only value is this node.
+  /// Returns a map whose only value is this node.
   YamlFields under(const std::string& key) const;
 
   bool is_map() const;
@@ -105,11 +105,11 @@ class YamlFields {
   [[noreturn]] void refuse_key(const std::string& key, std::span<const Key> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  // All nodes of the document share both.
+  // Shared by all nodes of the document.
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const YamlNode> node_;
   std::string field_;
-  bool is_root_ = false;  // its children are called by their keys alone
+  bool is_root_ = false;  // the field names of its children are their keys alone
   const ScalarRule* rule_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// Writes a node as YAML again, for files that are made from others.
+// Writes a node as YAML again, for files that are generated from others.
 #pragma once
 
 #include <string>

@@ -81,13 +81,13 @@ class ControllerCoverage::Counting final : private OutsideListener {
   }
 
  private:
-  /// The faults that act on messages, and the last message that a host has sent.
+  /// A line's packets, and the last message that a host has sent.
   struct Line {
     std::unique_ptr<pty::CaptureFrames> packets;
     std::vector<std::uint8_t> request{};
   };
 
-  /// The line reports faults of messages, with the names of their kinds.
+  /// Observes the faults that act on messages.
   class Strikes final : public pty::LineObserver {
    public:
     Strikes(Counting& counting, std::size_t line) : counting_(counting), line_(line) {}
@@ -149,7 +149,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     if (!line.request.empty() && line.request[0] == packet.bytes[0]) take_reply(packet.line, packet.bytes);
   }
 
-  /// The reply to the last request; without bytes for one that gets no reply.
+  /// Takes the reply to the last request, without bytes if the request gets none.
   void take_reply(std::size_t number, std::span<const std::uint8_t> reply) {
     const std::vector<std::uint8_t> request = std::exchange(lines_[number].request, {});
     if (request.size() <= 1 + kChecksumBytes) return;
@@ -191,7 +191,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     }
   }
 
-  // --- what else comes from outside ----------------------------------------------------------------
+  // --- other events from outside -------------------------------------------------------------------
 
   void on_input(std::size_t /*device*/, int /*terminal*/, std::int32_t /*level*/) override {}
   void on_power(std::size_t /*device*/, bool /*on*/) override {}
@@ -205,7 +205,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     devices_[device].command(without_ends(text), false);
   }
   void on_inject(const Fault& fault) override {
-    // Nothing else is reported about a fault that ends at once.
+    // A fault that ends at once is not reported again.
     if (is_done_at_once(fault.kind) && !waits(fault)) begin(fault);
   }
   void on_fault(std::size_t number, bool in_force) override {

@@ -1,5 +1,6 @@
 // Counts what hosts, programs and faults exercise of the devices: registers, bits, functions, commands,
-// instructions, faults. It looks on: nothing in the world depends on it, and no snapshot brings a count back.
+// instructions, faults. It only observes: nothing in the world depends on it, and a restored snapshot does
+// not restore the counts.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ class World;
 
 class ControllerCoverage {
  public:
-  /// Counts from this moment on. The world must outlive it.
+  /// Counts from now on. The world must outlive it.
   explicit ControllerCoverage(World& world);
   ~ControllerCoverage();
   ControllerCoverage(const ControllerCoverage&) = delete;
@@ -22,7 +23,7 @@ class ControllerCoverage {
 
   /// Returns the counts by model. Devices of one model are added up.
   TouchedReport report() const;
-  /// The world was put into another state: incomplete messages on the lines are void.
+  /// Called when the world was put into another state. Drops incomplete messages on the lines.
   void world_restored();
 
  private:

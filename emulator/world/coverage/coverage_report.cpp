@@ -131,7 +131,7 @@ std::string xml_of(int number, const CoveredLine& line) {
 
 }  // namespace
 
-/// The time is that of no clock: equal runs have equal reports.
+/// The time is constant, so that equal runs have equal reports.
 std::string cobertura_text(const CoverageReport& report) {
   const CoverageTotals all = report.totals();
   std::string text =

@@ -1,4 +1,4 @@
-// How often lines of programs have run, by their files: the sum of any number of runs.
+// Reports how often lines of programs have run, by file, summed over any number of runs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 struct CoveredLine {
   std::int64_t runs = 0;
   bool decides = false;
-  std::int64_t yes = 0;  // jumps taken, conditions and contacts that held, waits that were over at once
+  std::int64_t yes = 0;  // jumps taken, conditions and contacts that held, waits that did not wait
   std::int64_t no = 0;
 
   void add(const CoveredLine& other);
@@ -20,7 +20,7 @@ struct CoveredLine {
 /// Lines by their number, from 1. Those without an instruction are missing.
 using CoveredLines = std::map<int, CoveredLine>;
 
-/// Lines, and both outcomes of those that decide.
+/// Counts lines, and both outcomes of those that decide.
 struct CoverageTotals {
   std::int64_t lines = 0;
   std::int64_t lines_run = 0;
@@ -29,7 +29,7 @@ struct CoverageTotals {
 
   void add(const CoveredLine& line);
   void add(const CoverageTotals& other);
-  /// Returns the per cent of the lines that have run, 100 of none.
+  /// Returns the percentage of lines that have run, or 100 if there are no lines.
   double line_percent() const;
   bool operator==(const CoverageTotals&) const = default;
 };

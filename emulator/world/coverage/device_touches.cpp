@@ -32,7 +32,7 @@ enum BitColumn : std::size_t { kOn, kOff };
 enum Outcome : std::size_t { kAccepted, kNotAccepted };
 enum Motion : std::size_t { kStanding, kMoving };
 
-// Those that every device can be made to answer. Others get a row when they come.
+// Every device can be made to answer these. Others get a row when they occur.
 constexpr int kExceptions[] = {1, 2, 3};
 
 void count(std::int64_t& counter) { counter = std::max<std::int64_t>(counter, 0) + 1; }
@@ -68,7 +68,7 @@ bool is_called(std::string_view pattern, std::string_view word) {
   return true;
 }
 
-/// The instructions that a program can have. A window's commands are not part of one.
+/// Returns the instructions that a program can have, without the commands of a window.
 std::vector<const InstructionRow*> program_rows(const Model& model) {
   std::vector<const InstructionRow*> rows;
   if (model.language == nullptr) return rows;
@@ -218,7 +218,7 @@ void DeviceTouches::written(Table table, std::uint16_t first, std::span<const st
   if (text) command(*text, false);
 }
 
-/// The longest name that the text begins with: "MA" for "MA 1000".
+/// Returns the longest name that the text begins with: "MA" for "MA 1000".
 std::string DeviceTouches::command_called(std::string_view text) const {
   const TouchedRow* longest = nullptr;
   for (const TouchedRow& row : commands_.rows) {
@@ -239,7 +239,7 @@ void DeviceTouches::fault(Fault::Kind kind, bool is_moving) {
 
 namespace {
 
-/// The instructions of programs with what has run of them.
+/// Returns the instructions of programs, with the counts of those that have run.
 TouchedTable instruction_table(const Model& model, const std::map<std::string, CoveredLine>& instructions) {
   TouchedTable table{.name = "instructions", .columns = {"run", "yes", "no"}};
   for (const InstructionRow* const row : program_rows(model)) {

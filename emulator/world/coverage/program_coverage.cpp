@@ -34,16 +34,15 @@ struct LineCounts {
 /// A program that a device has had.
 struct CountedProgram {
   std::vector<ProgramPart> parts;
-  std::vector<std::vector<LineCounts>> counts;           // by part, by line
-  std::vector<std::vector<LineCounts>*> by_part_number;  // null: no such part
+  std::vector<std::vector<LineCounts>> counts;           // [part][line]
+  std::vector<std::vector<LineCounts>*> by_part_number;  // by the part's number; null: no such part
 
   explicit CountedProgram(std::vector<ProgramPart> of) : parts(std::move(of)), counts(parts.size()) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // If several have the same number, the first is the one that runs: a stored file is a part of C as
-      // well.
+      // If several have the same number, the first is the one that runs: a stored file is a part as well.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }
@@ -58,7 +57,7 @@ struct CountedProgram {
 
 namespace {
 
-/// As seen from the working directory.
+/// Returns the path from the working directory, if it is below that.
 std::string path_for_people(const std::string& path) {
   const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
   if (!normal.is_absolute()) return normal.string();
@@ -117,7 +116,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   }
 
   CoverageReport report(const std::vector<ProgramSource>& sources) {
-    present();  // even if it has never run
+    present();  // the current program, even if it has never run
     std::vector<std::pair<std::string, std::vector<ProgramPart>>> known;
     const DeviceSettings& settings = device_.settings();
     if (!settings.program_name.empty()) known.emplace_back(settings.program_name, parts_of(settings.program));
@@ -138,8 +137,8 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     return device_.model().language->parts(text, device_.settings());
   }
 
-  /// The counts of the running program. A program that is observed and never runs, such as one that a host is
-  /// writing line by line, gets none.
+  /// Returns the counts of the running program. A program that is observed but never runs, such as one that a
+  /// host is writing line by line, has none.
   CountedProgram& program() {
     if (program_ != nullptr) return *program_;
     CountedProgram*& known = by_mark_[*mark_];
@@ -148,7 +147,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     return *program_;
   }
 
-  /// The counts of the program that the device has now.
+  /// Returns the counts of the program that the device has now.
   CountedProgram& present() {
     const std::string text = device_.user_program()->program_text();
     std::unique_ptr<CountedProgram>& program = programs_[text];
@@ -176,7 +175,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     add_part(file.lines, part, counts);
   }
 
-  /// The same for the same program, on whatever device it runs.
+  /// Returns the same name for the same program, on whatever device it runs.
   std::string name_of_listing(const std::string& text) const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx",
@@ -188,8 +187,8 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   Device& device_;
   std::map<std::string, std::unique_ptr<CountedProgram>> programs_;  // by text
   std::map<std::uint64_t, CountedProgram*> by_mark_;
-  std::optional<std::uint64_t> mark_;  // of the program that runs
-  CountedProgram* program_ = nullptr;  // its counts, as soon as a line has run
+  std::optional<std::uint64_t> mark_;  // the running program's mark
+  CountedProgram* program_ = nullptr;  // the running program's counts, once a line has run
 };
 
 ProgramCoverage::ProgramCoverage(World& world) {

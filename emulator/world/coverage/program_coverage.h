@@ -1,5 +1,5 @@
-// Counts which lines of the devices' programs run, and what they decide. It looks on: nothing in the world
-// depends on it, and no snapshot brings a count back.
+// Counts which lines of the devices' programs run, and what they decide. It only observes: nothing in the
+// world depends on it, and a restored snapshot does not restore the counts.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct ProgramSource {
 
 class ProgramCoverage {
  public:
-  /// Counts from this moment on. The world must outlive it.
+  /// Counts from now on. The world must outlive it.
   explicit ProgramCoverage(World& world);
   ~ProgramCoverage();
   ProgramCoverage(const ProgramCoverage&) = delete;

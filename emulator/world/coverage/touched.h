@@ -1,4 +1,4 @@
-// Counts what a suite has exercised of controllers, as tables: the sum of any number of runs.
+// Counts what a suite has exercised of controllers, as tables, summed over any number of runs.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace understudy::emulator::world {
 
-/// The count of what cannot happen, such as a write to a register that can only be read.
+/// Marks something that cannot happen, such as a write to a register that can only be read.
 inline constexpr std::int64_t kCannotBe = -1;
 
 struct TouchedRow {
   std::string name;                  // "STATUS"
   std::vector<std::int64_t> counts;  // by column
-  bool matters_most = false;         // a suite that has not touched it misses most
+  bool matters_most = false;         // one of the worst gaps if no run has touched it
 
   bool operator==(const TouchedRow&) const = default;
 };
@@ -38,7 +38,7 @@ struct TouchedTable {
   bool operator==(const TouchedTable&) const = default;
 };
 
-/// The tables of a model, those with the largest gaps first.
+/// The tables of a model, those whose gaps matter most first.
 using TouchedModel = std::vector<TouchedTable>;
 
 /// A cell that no run has touched.
@@ -62,7 +62,7 @@ struct TouchedReport {
 /// Returns "the host has never read STATUS".
 std::string text_of(const Untouched& cell);
 
-/// Returns the report as JSON: models, tables, rows with their counts (null: cannot be), and `untouched`.
+/// Returns the report as JSON: models, tables, rows with their counts (null: cannot happen), and `untouched`.
 std::string json_text(const TouchedReport& report);
 
 }  // namespace understudy::emulator::world

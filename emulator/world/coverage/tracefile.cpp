@@ -44,7 +44,7 @@ class TracefileReader {
     if (word == "SF") return begin_record(value);
     if (word == "DA") return take_line(value);
     if (word == "BRDA") return take_branch(value);
-    // The others are a test's name, functions (which programs do not have), and sums of the counts here.
+    // The others are a test's name, functions (which programs do not have), and totals of the counts here.
     for (const std::string_view known : {"TN", "LF", "LH", "BRF", "BRH", "FNF", "FNH"}) {
       if (word == known) return;
     }
@@ -107,7 +107,7 @@ class TracefileReader {
   const std::string& file_;
   int line_ = 0;
   CoverageReport report_;
-  CoveredLines* lines_ = nullptr;  // of the record; null between records
+  CoveredLines* lines_ = nullptr;  // the current record's lines; null between records
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Coverage as lcov's tracefile, which is also what the sum of several runs is made from.
+// Reads coverage from lcov's tracefiles, from which several runs are added up.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace understudy::emulator::world {
 
-/// Reads a tracefile: of this program, or several merged by lcov. Throws FileError, which names `file`
-/// and the line.
+/// Reads a tracefile of this program, or one that lcov merged from several. Throws FileError, which names
+/// `file` and the line.
 CoverageReport read_tracefile(std::string_view text, const std::string& file);
 
 }  // namespace understudy::emulator::world

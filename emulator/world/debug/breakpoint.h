@@ -1,4 +1,4 @@
-// Breakpoints and stops of a debugger (debugger.h), as values.
+// Breakpoints and stops of a debugger (debugger.h).
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// The message is one line: what cannot be watched, and what was expected.
+/// The message is one line that says what cannot be watched, and what was expected.
 struct BreakpointError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -23,47 +23,46 @@ struct BreakpointSetup {
     write,        // the register `name` is written
     event,        // an event of the kind `name` happens
   } kind = Kind::line;
-  std::size_t device = 0;  // of a line or an instruction
-  std::string program{};   // of an instruction: "PLC", "MP21"; empty if there is only one
-  int line = 0;            // of the source, from 1
+  std::size_t device = 0;  // for a line or an instruction
+  std::string program{};   // for an instruction: "PLC", "MP21"; empty if there is only one
+  int line = 0;            // the source line, from 1
   std::string name{};
-  std::string by{};         // of a write: host, control, page or device; empty: anyone
+  std::string by{};         // for a write: host, control, page or device; empty: anyone
   std::string condition{};  // for all other kinds: a hit counts only while it is true; may be empty
-  std::uint64_t nth = 1;    // the first hit at which it acts
+  std::uint64_t nth = 1;    // it acts from this hit on
   std::string log{};        // not empty: it prints this and never stops; {expressions} are replaced
 };
 
 struct Breakpoint {
   int number = 0;
   BreakpointSetup setup{};
-  int line = 0;  // of the source, of the actual place; 0: nowhere in the present program
+  int line = 0;  // the source line where it really is; 0: nowhere in the current program
   std::uint64_t hits = 0;
 };
 
-/// Where an instruction is.
 struct InstructionPlace {
   std::string program{};  // the part; empty if there is only one
   int number = 0;         // within the part, from 0
-  int line = 0;           // of the source, from 1
+  int line = 0;           // the source line, from 1
   std::string text{};
 };
 
 struct DebugStop {
   enum class Reason : std::uint8_t { breakpoint, step, program, power } reason = Reason::breakpoint;
   SimTime time{0};
-  int breakpoint = 0;    // its number
+  int breakpoint = 0;    // the breakpoint's number
   std::string text{};    // for people
-  std::string device{};  // of an instruction; otherwise empty
+  std::string device{};  // set for an instruction; otherwise empty
   InstructionPlace place{};
-  std::size_t depth = 0;  // callers there
+  std::size_t depth = 0;  // the number of callers there
 };
 
 /// How far a step goes.
 enum class StepKind : std::uint8_t {
-  instruction,  // to the next instruction
-  line,         // to the next instruction on another line
-  over,         // to the next instruction that no routine called from here runs
-  out,          // to the next instruction after the present routine
+  instruction,  // until the next instruction
+  line,         // until the next instruction on another line
+  over,         // until the next instruction outside routines called from here
+  out,          // until the next instruction after this routine's end
   stand,        // until no axis of the device moves
 };
 

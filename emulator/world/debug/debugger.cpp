@@ -29,7 +29,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Words of the event log, and words for reports of the devices and machines.
+/// The words of the event log, and words for what devices and machines report.
 const std::vector<std::string> kEvents{"exception", "dropped", "fault", "power",         "program",
                                        "command",   "input",   "alarm", "program-error", "limit"};
 const std::vector<std::string> kAuthors{"host", "control", "page", "device"};
@@ -116,7 +116,7 @@ std::vector<Breakpoint> Debugger::breakpoints() const {
   return all;
 }
 
-/// Some names have a value in scenarios alone. Throws NameError for one, so that no tick has to.
+/// Throws NameError if a name has a value only in scenarios, so that no tick has to.
 void Debugger::require_values(const Expression& expression) const {
   for (const std::int32_t handle : names_in(expression)) static_cast<void>(probes_.value(handle));
 }
@@ -191,7 +191,7 @@ void Debugger::find_write(Point& point) {
   point.value = probes_.value(point.handle);
 }
 
-/// Earlier events are not hits.
+/// Skips earlier events, which are not hits.
 void Debugger::begin_events() {
   next_event_ = events_.next_number();
   signs_ = signs_of_machines();
@@ -202,7 +202,7 @@ bool Debugger::needs(std::size_t device) const {
   return std::any_of(points_.begin(), points_.end(), [&](const auto& point) { return point->is_of(device); });
 }
 
-/// Checks only what must be checked.
+/// Watches only the programs that breakpoints and steps need, and ticks only if there are any.
 void Debugger::settle() {
   for (std::size_t d = 0; d < world_.device_count(); ++d) {
     if (needs(d) == watches_.contains(d)) continue;
@@ -236,7 +236,7 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   settle();
 }
 
-/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's present
+/// Finds where a step of a program starts: at the instruction that has stopped, or at the program's current
 /// line.
 void Debugger::begin_at(Step& step, const std::string& program) const {
   const Device& device = world_.device(step.device);

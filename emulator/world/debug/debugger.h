@@ -1,5 +1,5 @@
-// Breakpoints, logpoints and steps. A debugger looks on and changes nothing: a run with breakpoints has the
-// same states as one without.
+// Breakpoints, logpoints and steps. A debugger only observes: a run with breakpoints has the same states as
+// one without.
 //
 // Events within a tick are evaluated at its end: conditions have the values of that moment, a stop happens
 // there, and the state is complete. If nothing is set, the debugger costs nothing. While it watches
@@ -50,13 +50,13 @@ class Debugger final : private TickWatcher {
   bool is_stepping() const { return step_ != nullptr; }
   bool is_watching() const { return is_watching_; }
 
-  /// Returns the stop at which the world is, if it has not moved on.
+  /// Returns the stop where the world is, or null if it has moved on.
   const DebugStop* stop() const;
   /// Returns true once after each stop.
   bool take_stop();
-  /// The world was put into another state.
+  /// Called when the world was put into another state.
   void begin_anew();
-  /// While it sleeps it sees nothing, and stops nothing: the world is on its way to another moment.
+  /// Until wake() it sees nothing and stops nothing, because the world is on its way to another moment.
   void sleep() { sleeps_ = true; }
   void wake();
 
@@ -113,7 +113,7 @@ class Debugger final : private TickWatcher {
   bool sleeps_ = false;
   int last_number_ = 0;
   std::uint64_t next_event_ = 0;
-  std::vector<Event> new_events_;  // of this tick
+  std::vector<Event> new_events_;  // the events of this tick
   std::vector<Sign> signs_;        // at the end of the last tick
 };
 

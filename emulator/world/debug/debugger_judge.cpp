@@ -1,4 +1,4 @@
-// What a debugger does at the end of each tick.
+// The part of the debugger that runs at the end of each tick.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -64,7 +64,7 @@ std::string Debugger::log_text(const Point& point) const {
   return text;
 }
 
-/// Returns where a program of the device is: the named one, or the first.
+/// Returns the location of a program of the device: the named one, or the first.
 std::optional<ProgramLocation> Debugger::location_of(std::size_t device, const std::string& program) const {
   for (ProgramLocation& place : world_.device(device).user_program()->program_locations()) {
     if (program.empty() || place.program == program) return std::move(place);
@@ -125,7 +125,7 @@ std::string Debugger::text_of(const Sign& sign) const {
   return text;
 }
 
-/// Adds what machines and programs show since this tick, which the log does not have.
+/// Adds the signs of machines and programs that are new in this tick. The event log does not have them.
 void Debugger::look_at_signs() {
   for (Sign& sign : signs_) {
     const auto waits_for_it = [&](const auto& point) {
@@ -220,12 +220,12 @@ void Debugger::judge(Point& point) {
   stop_with(std::move(stop));
 }
 
-/// Returns whether the program of a step runs no more. It takes long to ask, so it looks from time to time.
+/// Returns true if the step's program no longer runs. Asking takes long, so it asks only every kApart ticks.
 bool Debugger::has_ended(const Step& step) const {
   constexpr Tick kApart = 16;
   if (tick_at(world_.now()) % kApart != 0) return false;
   const auto place = location_of(step.device, step.program);
-  if (!place) return step.program.empty();  // a PLC tells no location
+  if (!place) return step.program.empty();  // a PLC reports no location
   return place->state == ProgramLocation::State::stopped || place->state == ProgramLocation::State::failed;
 }
 
@@ -261,7 +261,7 @@ void Debugger::judge_step() {
   stop_with(std::move(stop));
 }
 
-/// Notes a stop. The first one of a tick is the one that counts.
+/// Records a stop. Only the first one of a tick counts.
 void Debugger::stop_with(DebugStop stop) {
   stop.time = world_.now();
   events_.note({.what = "stop", .by = {}, .device = stop.device, .text = stop.text});

@@ -1,4 +1,4 @@
-// What a debugger keeps for each breakpoint, device and step.
+// The data that a debugger keeps for each breakpoint, device and step.
 #pragma once
 
 #include <algorithm>
@@ -27,15 +27,15 @@ struct Debugger::Point {
   Breakpoint told{};
   Expression condition{};
   std::vector<Piece> log{};
-  std::vector<ProgramLines::Told> places{};  // of a line or an instruction
+  std::vector<ProgramLines::Told> places{};  // for a line or an instruction
   std::uint64_t ran = 0;                     // how often these began in this tick
   std::optional<ProgramLines::Told> ran_last{};
-  std::size_t depth = 0;          // callers there
-  bool was_true = false;          // of a condition
-  std::string written{};          // of a write: the register, as events name it
-  std::int32_t handle = 0;        // its value
+  std::size_t depth = 0;          // the number of callers there
+  bool was_true = false;          // for a condition
+  std::string written{};          // for a write: the register, as events name it
+  std::int32_t handle = 0;        // for a write: the register's value
   std::optional<Number> value{};  // at the end of the last tick
-  std::string who{};              // of the last hit of a write or an event: what happened
+  std::string who{};              // what happened at the last hit of a write or an event
   std::string no_result{};        // why the condition has none; empty if it has one
   bool is_of(std::size_t device) const {
     return (told.setup.kind == BreakpointSetup::Kind::line ||
@@ -47,11 +47,11 @@ struct Debugger::Point {
 struct Debugger::Step {
   StepKind kind = StepKind::instruction;
   std::size_t device = 0;
-  std::optional<int> part{};                // only this one's; without it any
-  std::string program{};                    // that one's name
+  std::optional<int> part{};                // the part that it steps in; none: any
+  std::string program{};                    // that part's name
   int line = 0;                             // where it began; 0: unknown
-  std::size_t depth = 0;                    // callers there; of one that is far enough: at its end
-  std::optional<ProgramLines::Told> end{};  // the instruction at which it is far enough
+  std::size_t depth = 0;                    // the number of callers there; after the step: at its end
+  std::optional<ProgramLines::Told> end{};  // the instruction at which the step ends
 };
 
 /// Watches a device's program for breakpoints and steps.
@@ -106,7 +106,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     text_ = device().user_program()->program_text();
     lines.emplace(device());
   }
-  /// Returns how many callers the program has that runs this part.
+  /// Returns how many callers the program that runs this part has.
   std::size_t depth_at(int part) const {
     const bool is_one_of_many = device().model().language->parts_run_at_once();
     const auto first = is_one_of_many ? lines->place({part, 0}) : std::nullopt;
@@ -116,7 +116,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
 
   std::optional<ProgramLines> lines{};
   std::optional<ProgramLines::Told> last{};
-  bool has_changed = false;  // the program is another one since the last tick
+  bool has_changed = false;  // the device has had another program since the last tick
 
  private:
   Device& device() const { return debugger_.world_.device(number_); }
@@ -124,7 +124,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
   Debugger& debugger_;
   std::size_t number_;
   std::optional<std::uint64_t> mark_{};
-  std::string text_{};  // of the program whose lines these are
+  std::string text_{};  // the program that `lines` belong to
 };
 
 }  // namespace understudy::emulator::world

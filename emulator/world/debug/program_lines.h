@@ -1,5 +1,6 @@
-// The lines of a device's program: from the source to its instructions and back. The source is the bench's
-// program if the device still has it, otherwise the listing that is read back from the device.
+// Finds the instructions of source lines in a device's program, and the source lines of instructions. The
+// source is the bench's program if the device still has it, otherwise the listing that is read back from the
+// device.
 #pragma once
 
 #include <optional>
@@ -21,12 +22,12 @@ class ProgramLines {
     bool operator==(const Told&) const = default;
   };
 
-  /// The device must have power and take a program.
+  /// The device must have power and support programs.
   explicit ProgramLines(const Device& device);
 
   /// Returns the bench's file, or an empty text for the listing.
   const std::string& source() const { return source_; }
-  /// Returns the text whose lines these are: of the bench's program, or of the listing.
+  /// Returns the text that the lines belong to: the bench's program, or the listing.
   const std::string& text() const { return text_; }
   /// Returns the lines that have an instruction, in order.
   std::vector<int> lines() const;
@@ -36,11 +37,11 @@ class ProgramLines {
   int last_line() const;
   /// Returns the first instruction of each part on that line.
   std::vector<Told> at(int line) const;
-  /// Returns the part of that name. An empty name is the only part's.
+  /// Returns the part with that name, or null. An empty name means the only part.
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
   std::optional<InstructionPlace> place(Told told) const;
-  /// Returns the line of the source for one of the listing; 0 if it has none.
+  /// Returns the source line for a line of the listing, or 0 if there is none.
   int source_line(int listing_line) const;
 
  private:
@@ -48,9 +49,9 @@ class ProgramLines {
 
   std::string source_;
   std::string text_;
-  std::vector<std::string> texts_;    // of the source, by line
-  std::vector<ProgramPart> parts_;    // of the source; of those with one number the first
-  std::vector<ProgramPart> listing_;  // likewise, with the lines of the listing
+  std::vector<std::string> texts_;    // the source by line, without blanks around
+  std::vector<ProgramPart> parts_;    // the source's parts; only the first of those with the same number
+  std::vector<ProgramPart> listing_;  // the listing's parts, in the same way
 };
 
 }  // namespace understudy::emulator::world

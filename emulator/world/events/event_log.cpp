@@ -167,8 +167,7 @@ void EventLog::add(Event event) {
   events_.push_back(std::move(event));
 }
 
-/// Adds the writes of a host's request. take_frame() calls it when the reply confirms the request, or at once
-/// if there is no reply.
+/// Adds the writes of a host's request, which a reply has confirmed, or which is a broadcast.
 void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
   for (std::size_t l = 0; l < world_.line_count(); ++l) {
     const WorldLine& line = world_.line(l);

@@ -24,11 +24,11 @@ struct Event {
   /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
   /// stop, logpoint
   std::string_view what;
-  std::string by;      // host, control or page; empty if no one caused it
+  std::string by;      // host, control or page; empty if nobody caused it
   std::string line{};  // the line of the host that caused it
   std::string device{};
-  std::string name{};   // of the register or terminal, as the control socket takes it
-  std::string value{};  // as a number
+  std::string name{};   // the register or terminal, as the control socket takes it
+  std::string value{};  // a number as text
   std::string text{};   // more, for people
 };
 
@@ -45,14 +45,14 @@ class EventLog final : private OutsideListener {
   /// Sets the author of outside events from now on: "control", "page".
   void set_author(std::string_view author) { author_ = author; }
   const std::string& author() const { return author_; }
-  /// Notes an event that the world does not know about.
+  /// Adds an event that the world does not know about.
   void note(std::string_view what, std::string text);
-  /// The same, with more about it. Its time is now.
+  /// Like the above, with all its fields. The time is set to now.
   void note(Event event);
-  /// Notes that the world was put into another state.
+  /// Adds the event that the world was put into another state.
   void restored();
-  /// Notes that the world was put into another state after these events, the oldest first. They get new
-  /// numbers and replace all earlier events, including those from frames.
+  /// Restarts the log after the world was put into another state: these events, the oldest first, get new
+  /// numbers and replace all earlier ones, including those from frames.
   void restored_after(std::vector<Event> events);
 
   /// Makes events of the frames since the last call, at most `frames` of them. Returns true if some are

@@ -33,7 +33,7 @@ void History::collect(const World& world, const FrameLog& frames, EventLog& even
   }
   for (Event& event : events.since(next_event_, SIZE_MAX)) {
     next_event_ = event.number + 1;
-    // The world is put into the state in which the run begins, which is no part of it.
+    // This event only puts the world into the state in which the run begins.
     if (event.what == "restored") continue;
     if (events_.size() == kMaxEvents) {
       events_.pop_front();
@@ -43,12 +43,12 @@ void History::collect(const World& world, const FrameLog& frames, EventLog& even
   }
 }
 
-/// Returns the exchange to which a frame of a station belongs, or null.
+/// Returns the exchange to which a station's frame belongs, or null.
 Exchange* History::request_of(const FrameLog::Told& frame) {
   const auto last = last_requests_.find(frame.line);
   if (last == last_requests_.end() || last->second < dropped_exchanges_) return nullptr;
   Exchange& exchange = exchanges_[last->second - dropped_exchanges_];
-  // What a fault has done to a reply has no bytes. A reply that comes twice stands alone.
+  // An entry about a fault that acted on a reply has no bytes. The second copy of a reply stands alone.
   const bool is_reply = frame.latency && exchange.reply.empty();
   return is_reply || frame.bytes.empty() ? &exchange : nullptr;
 }

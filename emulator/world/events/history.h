@@ -1,5 +1,5 @@
-// Everything that has happened in a run: each request with its reply, and each event. For a recording, where
-// the logs of a daemon would keep only the last ones.
+// Keeps everything that happened in a run: each request with its reply, and each event. It is for recordings,
+// because the logs of a daemon would keep only the last ones.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 struct Exchange {
   std::string line;
   SimTime begin{0};
-  SimTime end{0};         // of its last frame
+  SimTime end{0};         // the end of its last frame
   std::string request{};  // empty: a station has spoken unasked
   std::string reply{};    // empty: there was none
   std::string remark{};   // why a frame was dropped, and the like
@@ -30,11 +30,11 @@ struct Exchange {
 
 class History {
  public:
-  /// Beyond these the oldest are dropped.
+  /// Beyond these limits the oldest are dropped.
   static constexpr std::size_t kMaxExchanges = 200'000;
   static constexpr std::size_t kMaxEvents = 100'000;
 
-  /// Takes what is new in the logs. Call it before they forget anything.
+  /// Takes the new entries of the logs. Call it before they drop any.
   void collect(const World& world, const FrameLog& frames, EventLog& events);
 
   const std::deque<Exchange>& exchanges() const { return exchanges_; }

@@ -34,26 +34,27 @@ class NameResolver {
 class ValueSource {
  public:
   virtual ~ValueSource() = default;
-  /// Returns the present value. Nanoseconds and millivolts are whole numbers.
+  /// Returns the current value. Nanoseconds and millivolts are whole numbers.
   virtual Number value(std::int32_t handle) const = 0;
 };
 
 /// One step of a stack machine.
 struct Instruction {
   enum class Kind : std::uint8_t {
-    constant,       // push constants[argument]
-    name,           // push the value of names[argument]
-    unary,          // replace the top by `operation` of it
-    binary,         // replace the two on top by `operation` of them
-    within,         // replaces value, centre and tolerance by the result: whether the value is within
+    constant,       // pushes constants[argument]
+    name,           // pushes the value of names[argument]
+    unary,          // replaces the top by `operation` of it
+    binary,         // replaces the two on top by `operation` of them
+    within,         // replaces value, centre and tolerance by 1 if the value is within, else 0
     within_share,   // replaces value and centre by the result; the tolerance is `constants[argument]`
                     // millionths of a percent of the centre
     skip_if_false,  // `and`: if the top is false, it becomes 0 and the next `argument` instructions are
                     // skipped; otherwise it is dropped
-    skip_if_true,   // `or`: a true top becomes 1 and ..., a false one is dropped
-    truth,          // the top becomes 0 or 1
-    choose,         // drops the top; if it was false, skips the next `argument` instructions
-    skip,           // leave out the next `argument` instructions
+    skip_if_true,  // `or`: if the top is true, it becomes 1 and the next `argument` instructions are skipped;
+                   // otherwise it is dropped
+    truth,         // makes the top 0 or 1
+    choose,        // drops the top; if it was false, skips the next `argument` instructions
+    skip,          // skips the next `argument` instructions
   } kind = Kind::constant;
   Operator operation = Operator::add;
   std::uint16_t offset = 0;  // in the text, for messages
@@ -85,7 +86,7 @@ inline bool is_true(const Expression& expression, const ValueSource& source) {
 
 /// Returns the expression as it was written, on one line.
 std::string to_text(const Expression& expression);
-/// Returns the text with the present value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
+/// Returns the text with the current value of each name: "feeder.STATUS.4 == 0  (feeder.STATUS.4 is 1)".
 std::string explain(const Expression& expression, const ValueSource& source);
 
 /// Returns the handles of all names in the expression, which can change only when one of them does.

@@ -105,7 +105,7 @@ Bounds bounds_around(Number centre, Number tolerance);
 
 /// A percentage is counted in millionths of a percent, so that 0.57% is exact.
 inline constexpr std::int64_t kPercent = 1'000'000;
-/// Returns that share of a number's magnitude, as a whole number if it comes out even.
+/// Returns that share of a number's magnitude, as a whole number if it is one.
 Number share_of(Number number, std::int64_t millionths_of_a_percent);
 
 }  // namespace understudy::emulator::world

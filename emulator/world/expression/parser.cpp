@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kDeepestNesting = 64;
 
-// A sign that people write by mistake, and the message about it.
+// A sign that people write by mistake, and a message about it.
 struct Hint {
   std::string_view sign;
   std::string_view text;
@@ -190,7 +190,7 @@ bool ExpressionParser::percentage(std::int64_t& millionths) {
   if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");
   constexpr std::int64_t kMax = 1'000'000;
   if (token_.number > kMax) fail(offset(), "expected a tolerance of at most a million percent");
-  // Rounding gives the number that was meant: six decimal places times a million are nearest to it.
+  // Rounding removes the error of the real number, because six decimal places times a million are whole.
   millionths = std::llround(token_.number.real() * static_cast<double>(kPercent));
   token_ = lexer_.next();
   expect("%");

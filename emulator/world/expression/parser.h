@@ -27,7 +27,7 @@ class ExpressionParser {
   bool percentage(std::int64_t& millionths);
   bool at_end() const { return token_.kind == Token::Kind::end; }
   void expect_end() const;
-  /// Returns the position of the next word.
+  /// Returns the position of the next token.
   std::size_t offset() const { return token_.begin; }
   /// Returns the code written since the last call.
   Expression take() { return code_.take(); }
@@ -51,9 +51,9 @@ class ExpressionParser {
   std::string_view text_;
   const NameResolver& names_;
   Lexer lexer_;
-  Token token_;  // the next one
+  Token token_;  // the next token
   CodeWriter code_;
-  int nesting_ = 0;  // of parentheses, signs and choices
+  int nesting_ = 0;  // the depth of parentheses, signs and choices
 };
 
 }  // namespace understudy::emulator::world

@@ -16,7 +16,7 @@ struct Term {
   } form = Schema::other;  // without parentheses
   Unit unit = Unit::none;
   bool is_zero = false;  // a literal 0, which has every unit
-  bool is_real = false;  // for certain; a name may turn out so
+  bool is_real = false;  // certainly; the value of a name may be real too
 };
 
 /// The operators of C, except that all comparisons have one level and do not chain. A higher level binds

@@ -76,8 +76,7 @@ std::string quoted_around(std::string_view text, std::size_t offset) {
   return quoted((part.size() < text.size() ? "..." : "") + on_one_line(part));
 }
 
-// Returns 2500 for "2.5" volts. Returns nothing for fractions of a millivolt or voltages that are out of
-// range.
+// Returns 2500 for "2.5" volts, or nothing for fractions of a millivolt or voltages that are out of range.
 std::optional<std::int64_t> millivolts(std::string_view digits, std::string_view unit) {
   const std::int64_t highest = unit == "V" ? 1'000'000 : 1'000'000'000;
   const std::size_t point = digits.find('.');
@@ -220,7 +219,7 @@ Token Lexer::number() {
   } else {
     double value = 0;
     const auto error = std::from_chars(plain.data(), plain.data() + plain.size(), value).ec;
-    // A number too small to distinguish from 0 is refused too, because 0 was not meant.
+    // A number too small to distinguish from 0 is refused too, because its author did not mean 0.
     if (error != std::errc{}) fail(begin, written + " is too large for a real number");
     token.number = value;
   }

@@ -1,4 +1,4 @@
-// Splits an expression into words: numbers with their units, names, operators.
+// Splits an expression into tokens: numbers with their units, names, operators.
 #pragma once
 
 #include <stdexcept>
@@ -34,7 +34,7 @@ class Lexer {
  public:
   /// The text must outlive the lexer. Throws ExpressionError if it is too long.
   explicit Lexer(std::string_view text);
-  /// Returns the next word; at the end returns one of kind `end` every time. Throws ExpressionError.
+  /// Returns the next token; at the end returns one of kind `end` every time. Throws ExpressionError.
   Token next();
 
  private:

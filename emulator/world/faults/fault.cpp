@@ -224,7 +224,7 @@ bool waits(const Fault& fault) { return is_of_frames(fault.kind) || fault.trigge
 
 namespace {
 
-/// Sets all but the place.
+/// Sets all fields except the place.
 void set_all_fields(const KnownDevices& devices, const FaultKindRow& row, const FaultText& text,
                     Fault& fault) {
   try {

@@ -32,22 +32,22 @@ struct Fault {
     lumps,   // received bytes are delivered at multiples of `amount` ns
     unplug,  // the adapter is unplugged
     slow,    // it executes each request `amount` ns late
-    // Faults of how a device, or all devices on a line, treat requests.
+    // Faults in the way a device, or every device on a line, treats requests.
     busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
     early_reply,  // requests are complete with their last character, without the device's silence
     // Faults of a message on the wire (pty/wire_fault.h).
     drop,
-    delay,             // by `amount` ns
-    corrupt_checksum,  //
-    truncate,          // to `amount` bytes
-    duplicate,         // the second `amount` ns after the first
-    noise,             // `before` and `after`
-    collision,         // with `before`
+    delay,             // it is delayed by `amount` ns
+    corrupt_checksum,  // its last byte is inverted
+    truncate,          // only its first `amount` bytes arrive
+    duplicate,         // it is repeated `amount` ns later
+    noise,             // preceded by `before` and followed by `after`
+    collision,         // another sender sends `before` at the same time
     split,             // its first `amount` bytes arrive on time, the rest `over_ticks` later
     // Faults of a reply on its way from a gateway to a master.
-    wrong_transaction,  //
-    wrong_unit,         //
+    wrong_transaction,  // with the next transaction's number
+    wrong_unit,         // with the next unit's number
     hang_up,            // the connection ends after its first `amount` bytes
   } kind = Kind::stall;
   std::size_t device = 0;  // for a fault of a line: the bench's first device on it
@@ -57,8 +57,8 @@ struct Fault {
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
   std::int64_t over_ticks = 0;
-  bool on_line = false;   // its whole line
-  bool of_input = false;  // of `turn`: the place is a counted input
+  bool on_line = false;   // it acts on the whole line
+  bool of_input = false;  // for `turn`: the place is a counted input
   enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
   std::vector<std::uint8_t> before{};
   std::vector<std::uint8_t> after{};
@@ -87,10 +87,10 @@ bool waits(const Fault& fault);
 struct FaultText {
   std::string kind;
   std::string place;
-  std::vector<std::pair<std::string, std::string>> fields;  // by their names
+  std::vector<std::pair<std::string, std::string>> fields;  // name and value
 };
 
-/// Reports an error in one field of a fault.
+/// Thrown for an error in one field of a fault.
 struct FaultFieldError : NameError {
   FaultFieldError(const std::string& kind, std::string field_name, std::string what_is_wrong)
       : NameError(kind + ": " + field_name + ": " + what_is_wrong),
@@ -100,7 +100,7 @@ struct FaultFieldError : NameError {
   std::string diagnostic;
 };
 
-/// Reports the place of a fault. Its fields have not been checked.
+/// Thrown for an error in the place of a fault. Its fields have not been checked.
 struct FaultPlaceError : NameError {
   using NameError::NameError;
 };
@@ -109,7 +109,7 @@ struct FaultPlaceError : NameError {
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
 /// Throws NameError for errors of a fault that do not depend on its place.
 void require_fault_fields(const KnownDevices& devices, const FaultText& text);
-/// Returns a fault as find_fault() accepts it, also as one line.
+/// Returns a fault in the form that find_fault() accepts, also as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 

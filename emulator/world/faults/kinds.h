@@ -26,7 +26,7 @@ struct FaultFieldRow {
 struct FaultKindRow {
   enum class Place : std::uint8_t {
     axis,
-    wheel,  // of an axis, or a counted input
+    wheel,  // a hand wheel on an axis, or a counted input
     input,
     device,
     device_or_line,

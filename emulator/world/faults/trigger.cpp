@@ -90,7 +90,7 @@ bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const Frame
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream) {
   course.looked_at = is_of_time_alone(trigger) ? now : course.looked_at;
-  // Nothing changes any more, so there is nothing to do.
+  // An exhausted trigger no longer changes.
   if (is_exhausted(trigger, course) && !course.in_force) return false;
   // A fault that strikes by chance lasts one tick, or longer if it says so.
   const bool by_chance = trigger.chance != 0;

@@ -1,4 +1,4 @@
-// When a fault strikes: at which frames and times, under which condition, how often and for how long.
+// Decides when a fault strikes: at which frames and times, under which condition, how often and for how long.
 //
 // A trigger is evaluated on occasions. For faults of frames, each frame of their place is an occasion. For
 // faults of the machine or of a device it is each frame too, if the trigger is about frames; otherwise each
@@ -14,24 +14,24 @@
 namespace understudy::emulator::world {
 
 struct FaultTrigger {
-  // Which frames match. Matching frames are numbered from 1.
+  // These decide which frames match. Matching frames are numbered from 1.
   std::int64_t function = -1;       // -1: any
-  std::int64_t station = -1;        // that the frame is for; 0 is a broadcast; -1: any
-  std::int64_t first_address = -1;  // a register from here to `last_address` is in it; -1: any
+  std::int64_t station = -1;        // the addressed station; 0: broadcasts; -1: any
+  std::int64_t first_address = -1;  // the frame is about a register from here to `last_address`; -1: any
   std::int64_t last_address = -1;
-  // Which occasions match in addition.
+  // These decide which occasions match in addition.
   SimTime at{-1};  // the first occasion from then on; with `lasts`, all until that time is over. -1: any time
   SimTime from{0};        // included
   SimTime to = kForever;  // not included
   std::string when{};     // an expression; empty: always
-  // Which of the matching occasions are hit: all of these must hold.
+  // These decide which of the matching occasions are hit: all of them must hold.
   std::int64_t first_nth = 1;
   std::int64_t last_nth = kNever;
-  std::int64_t every = 0;   // its number is a multiple; 0: any
-  std::int64_t chance = 0;  // in kAlways; 0: not by chance
-  std::int64_t seed =
-      -1;  // of its own random stream; -1: derived from the world's seed and the fault's number
-  // How often and how long.
+  std::int64_t every = 0;   // its number is a multiple of this; 0: any
+  std::int64_t chance = 0;  // the probability, in parts of kAlways; 0: not by chance
+  /// The seed of its own random stream; -1: derived from the world's seed and the fault's number.
+  std::int64_t seed = -1;
+  // These decide how often and for how long it strikes.
   std::int64_t times = 0;  // the largest number of hits; 0: any number
   SimTime lasts{0};        // `for`: all matching occasions within that time after a hit are hit as well
 
@@ -42,15 +42,15 @@ inline constexpr std::int64_t kAlways = 100'000'000;  // 100%
 
 /// The progress of a fault.
 struct FaultCourse {
-  std::int64_t seen = 0;     // frames of its place
+  std::int64_t seen = 0;     // frames at its place
   std::int64_t matched = 0;  // occasions that matched
   std::int64_t hits = 0;
   SimTime until{-1};      // when the hit in effect ends
-  SimTime looked_at{-1};  // of time alone: the moment
-  bool was_met = false;   // time and condition, when looked at last
-  bool in_force = false;  // of machines and devices
+  SimTime looked_at{-1};  // when a trigger of time alone was last evaluated
+  bool was_met = false;   // time and condition held at the last look
+  bool in_force = false;  // for faults of machines and devices
   bool is_news = false;   // it has just begun or ended, and is still to be executed
-  // For requests of a line: the last evaluated request, about which each station asks.
+  // For faults of requests on a line: the last evaluated request, and the result. Each station asks about it.
   std::uint64_t judged_character = 0;
   bool was_hit = false;
 
@@ -63,10 +63,10 @@ struct FrameFacts {
   int station = 0;
   int function = 0;
   int first = 0;  // register
-  int count = 0;  // of them; 0: it is about none
+  int count = 0;  // of registers; 0: none
 };
 
-/// Returns whether a trigger's expression is true.
+/// Evaluates the conditions of triggers.
 class ConditionSource {
  public:
   virtual bool holds(const std::string& expression) = 0;

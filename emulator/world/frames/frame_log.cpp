@@ -87,7 +87,7 @@ FrameLog::Told FrameLog::told(std::size_t place) const {
             .text = {},
             .remark = frame.comment,
             .bytes = frame.bytes};
-  if (frame.bytes.empty()) return told;  // the entry only reports what a fault has done
+  if (frame.bytes.empty()) return told;  // the entry only reports what a fault did
   if (frame.way == pty::Way::from_host) {
     told.text = line.request_text(frame.bytes);
     return told;

@@ -50,7 +50,7 @@ class FrameLog {
   /// Returns the number of the next frame.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// The lines were put into another state: forgets partly received frames.
+  /// Forgets partly received frames, after the lines were put into another state.
   void begin_anew();
 
   /// A frame in the form in which it is kept.
@@ -67,7 +67,7 @@ class FrameLog {
   void begin_anew_after(std::vector<Frame> frames);
 
  private:
-  // A reply is decoded with its request, which frames of several other stations may have followed.
+  // A reply is decoded with its request, which may lie several frames of other stations before it.
   static constexpr std::size_t kKept = 32;
 
   void watch();

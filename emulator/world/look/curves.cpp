@@ -44,7 +44,7 @@ std::size_t Curves::dot_of(SimTime time) const {
   return std::min(dots_ - 1, static_cast<std::size_t>(part * static_cast<double>(dots_)));
 }
 
-/// The last values hold in all dots up to this one, where others may follow.
+/// Repeats the last values in all dots up to this one, which may get others as well.
 void Curves::last_until(std::size_t dot) {
   for (; dot_ < dot; ++dot_) {
     for (Row& row : rows_) row.least[dot_ + 1] = row.greatest[dot_ + 1] = row.last;

@@ -1,5 +1,5 @@
-// The course of some names over a stretch of time, thinned to the least and the greatest value in each of
-// many equal parts ("dots"), so that nothing that was there is missing from a drawing of that width.
+// Samples the values of some names over a stretch of time. It keeps the least and the greatest value in each
+// of many equal parts ("dots"), so that a drawing of that width loses no peak.
 #pragma once
 
 #include <cstddef>
@@ -21,15 +21,15 @@ class Curves final : private TickWatcher {
   Curves(const Curves&) = delete;
   Curves& operator=(const Curves&) = delete;
 
-  /// Takes the values of this moment.
+  /// Takes the values at this moment.
   void look();
-  /// Takes those of every tick from now on.
+  /// Takes the values at every tick from now on.
   void watch();
   void stop();
-  /// The stretch is over: the last values last until its end.
+  /// Ends the stretch: the last values hold until its end.
   void finish();
 
-  /// By dot. A device without power reads as 0.
+  /// Return the values by dot. A device without power reads as 0.
   const std::vector<double>& least(std::size_t name) const { return rows_[name].least; }
   const std::vector<double>& greatest(std::size_t name) const { return rows_[name].greatest; }
 
@@ -51,7 +51,7 @@ class Curves final : private TickWatcher {
   SimTime from_;
   SimTime to_;
   std::size_t dots_;
-  std::size_t dot_ = 0;  // the one that was reached
+  std::size_t dot_ = 0;  // the current dot
   bool has_values_ = false;
   bool is_watching_ = false;
   std::vector<Row> rows_;

@@ -16,9 +16,9 @@ namespace understudy::emulator::world {
 
 /// The sources that drive a terminal at this moment.
 struct TerminalDrivers {
-  bool device = false;   // it is an output
+  bool device = false;   // it is an output of a device with power
   bool fault = false;    // stuck: overrides the others
-  bool held = false;     // from outside
+  bool held = false;     // it is held from outside
   bool machine = false;  // a switch of the machine
   bool wire = false;
 };
@@ -51,7 +51,7 @@ class LookedNames {
   std::size_t lists() const { return lists_.size(); }
 
  private:
-  static constexpr std::size_t kTriedAgain = 2;  // at a look, of those that are unknown
+  static constexpr std::size_t kTriedAgain = 2;  // unknown names at each look
   struct Known {
     enum class What : std::uint8_t { nothing, value, driver } what = What::nothing;
     std::size_t device = 0;  // the terminal's device; for a value, the device whose power it needs, if any
@@ -61,11 +61,11 @@ class LookedNames {
   };
   struct List {
     std::uint64_t number = 0;
-    std::uint64_t looked_at = 0;  // counts looks
+    std::uint64_t looked_at = 0;  // the number of the last look at it
     std::vector<std::string> names;
     std::vector<Known> known;
-    std::optional<std::vector<bool>> power;  // of all devices, when all names were last tried
-    std::vector<std::size_t> left;           // to be tried now, the next one last
+    std::optional<std::vector<bool>> power;  // whether each device had power when all names were last tried
+    std::vector<std::size_t> left;           // the names to be tried now, the next one last
     std::size_t next_again = 0;
   };
   Known find(const std::string& name);

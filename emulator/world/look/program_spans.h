@@ -1,4 +1,4 @@
-// Notes at which lines the programs of a bench stand, and from when to when.
+// Records the lines at which the programs of a bench stand, and from when to when.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class ProgramSpans final : private TickWatcher {
   void look() { take(world_.now()); }  // this moment alone
   void watch();                        // every tick from now on
   void stop();
-  /// Ends those that are under way, and returns all, in the order of their ends.
+  /// Ends the spans that are under way, and returns all, in the order of their ends.
   std::vector<Span> finish();
 
  private:

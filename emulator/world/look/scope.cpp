@@ -85,7 +85,7 @@ Tick Scope::next_look(Tick done) const {
   return next;
 }
 
-/// Handles ticks in which nothing changed. While the scope is armed, only those that the ring has room for
+/// Handles ticks in which nothing changed. While the scope is armed, only as many as the ring has room for
 /// count.
 void Scope::on_rest(Tick last) {
   const Tick first = std::max(next_tick_, last - static_cast<Tick>(rows_) + 1);

@@ -1,5 +1,5 @@
 // Records the values of some names at each tick around the moment at which a condition becomes true, like an
-// oscilloscope's single shot. While it records, the world runs every tick and shows it.
+// oscilloscope's single shot. While it records, the world skips only ticks in which nothing changes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 struct ScopeSetup {
   static constexpr std::size_t kMaxNames = 16;
-  static constexpr Tick kMaxTicks = 10'000;  // before and after, each
+  static constexpr Tick kMaxTicks = 10'000;  // each, before and after
 
   std::vector<std::string> names;
   std::string condition;  // empty: at once
@@ -33,13 +33,13 @@ class Scope final : private TickWatcher {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// The world was put into another state: earlier samples are dropped, because they did not lead there. Has
-  /// no effect once the scope is done.
+  /// Called when the world was put into another state: drops earlier samples, because they did not lead
+  /// there. Has no effect once the scope is done.
   void begin_anew();
 
   const ScopeSetup& setup() const { return setup_; }
   State state() const { return state_; }
-  /// The tick of the first sample, and the number of samples.
+  /// Return the tick of the first sample, and the number of samples.
   Tick first_tick() const { return next_tick_ - static_cast<Tick>(count_); }
   std::size_t count() const { return count_; }
   /// Valid only after the trigger.
@@ -64,7 +64,7 @@ class Scope final : private TickWatcher {
   std::vector<std::int32_t> handles_;
   std::vector<double> present_;
   std::vector<double> ring_;  // a row of names for each tick
-  std::size_t rows_ = 0;      // that it has room for
+  std::size_t rows_ = 0;      // the number of rows that it has room for
   std::size_t count_ = 0;
   Tick next_tick_ = 0;
   State state_ = State::armed;

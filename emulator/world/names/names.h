@@ -24,7 +24,7 @@ struct KnownDevice {
   std::string name;
   const Model* model = nullptr;
   Firmware firmware = 0;
-  std::vector<std::string> lines{};  // its lines by port; empty: the port is not connected
+  std::vector<std::string> lines{};  // by port; empty: the port is not connected
 };
 using KnownDevices = std::vector<KnownDevice>;
 
@@ -67,8 +67,8 @@ AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_c
 
 /// Returns true if a device has something of that name.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
-/// Returns the error for a name that does not begin with a device although there are several: it is a
-/// device's name (then `example` shows what may follow), or a name that some devices have, or unknown.
+/// Returns the error for a name that does not begin with a device although there are several. The name may be
+/// that of a device (then `example` shows what may follow), one that some devices have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 

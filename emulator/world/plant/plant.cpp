@@ -12,14 +12,14 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Stands for the ends of a machine without stops. It is further away than a century of pulses can reach.
+/// Replaces the stops of a machine that has none. It is further away than a century of pulses can reach.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
 PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - pulses, span.last + pulses}; }
 
 bool holds(PulseSpan span, std::int64_t at) { return at >= span.first && at <= span.last; }
 
-/// Returns the positions in which a switch is on, given its present state.
+/// Returns the positions in which a switch is on, given its current state.
 PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
   return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }
@@ -30,8 +30,7 @@ std::int64_t index_phase(const IndexSetup& index, std::int64_t at) {
   return phase < 0 ? phase + index.period : phase;
 }
 
-/// Returns how many counts of its turn the wheel has made. They are spread evenly over all ticks, however few
-/// they are.
+/// Returns how many counts of its turn the wheel has made. They are spread evenly over all ticks.
 std::int64_t turned(const PlantAxis::State& state) {
   __extension__ using Wide = __int128;
   if (state.turn_ticks == 0) return 0;

@@ -37,7 +37,7 @@ enum class Contact : std::uint8_t {
   ready,
   near_home,
   mark,
-  index,  // the encoder's
+  index,  // the encoder's index
 };
 inline constexpr std::array<std::string_view, 8> kContactNames{
     "home", "lower_limit", "upper_limit", "alarm", "ready", "near_home", "mark", "index"};
@@ -46,7 +46,7 @@ inline constexpr std::array<std::string_view, 8> kContactNames{
 struct SwitchSetup {
   PulseSpan on;
   std::int64_t hysteresis_pulses = 0;  // it releases only this far outside
-  bool opens = false;                  // where it is on, and is closed elsewhere
+  bool opens = false;                  // the contact opens where the switch is on
   int input = -1;                      // the input it is wired to; -1: the model's own
 };
 
@@ -91,11 +91,11 @@ struct PlantSetup {
 
 /// The faults in effect on a machine.
 struct MachineFaults {
-  bool stalled = false;             // the motor is blocked: every pulse is lost
+  bool stalled = false;             // every pulse is lost, because the motor is blocked
   std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
   std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
-  bool alarm = false;  // the cause of the drive's alarm; the alarm outlasts it until it is cleared
-  std::int64_t encoder_noise_counts = 0;  // this many too many
+  bool alarm = false;  // the cause of the drive's alarm is present; the alarm outlasts it until it is cleared
+  std::int64_t encoder_noise_counts = 0;  // how many too many the encoder shows
   bool operator==(const MachineFaults&) const = default;
 };
 
@@ -149,15 +149,15 @@ class alignas(64) PlantAxis {
   void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
   /// Sets the level that wires give to an input of the drive. Returns true if the level has changed.
   bool set_wired(DriveInput which, bool is_on);
-  /// Returns the levels that the controller gave to the drive in the last tick that the drive looked.
+  /// Returns the levels that the controller gave to the drive in the last tick that the drive ran.
   DriveInputs seen_inputs() const { return state_.seen; }
   /// Returns true if each pulse is a step.
   bool steps_all() const {
     return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
            (!setup_.drive || state_.ready);
   }
-  /// Returns where a switch is on as long as nothing about the machine changes, or nothing if it is never on
-  /// or does not move with the machine. The index is not such a switch, because it repeats.
+  /// Returns the positions at which a switch is on, given its current state, or nothing if it is never on or
+  /// does not move with the machine. The index is not among these switches, because it repeats.
   std::optional<SwitchSetup> way_of(Contact which) const;
   /// Turns the encoder's wheel evenly over this many ticks, beginning with the next. The rest of an earlier
   /// turn is added.
@@ -181,7 +181,8 @@ class alignas(64) PlantAxis {
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
   bool ready() const { return state_.ready; }
-  /// Returns true if a contact is closed. A contact that the machine does not have is open.
+  /// Returns true if a contact is closed. A contact that the machine does not have is open, but without a
+  /// drive, an injected alarm still closes the alarm contact.
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
   bool has_encoder() const { return encoder_.counts_per_revolution != 0; }
@@ -202,12 +203,12 @@ class alignas(64) PlantAxis {
   const PlantSetup& setup() const { return setup_; }
   bool same_state(const PlantAxis& other) const { return state_ == other.state_; }
 
-  // --- its state: all of it but the setup ------------------------------------------------------
+  // --- its state: everything but the setup -------------------------------------------------------
   struct State {
     std::int64_t position_pulses = 0;
     std::int64_t lost_pulses = 0;     // magnitude
-    std::int64_t pulses_to_lose = 0;  // made since one was lost
-    std::int64_t loses_one_in = 0;    // the one_in for which they were counted
+    std::int64_t pulses_to_lose = 0;  // pulses since one was lost
+    std::int64_t loses_one_in = 0;    // the fault's one_in for which they were counted
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
@@ -216,7 +217,7 @@ class alignas(64) PlantAxis {
     bool alarm_latched = false;
     bool ready = false;
     DriveInputs wired;
-    DriveInputs seen;  // of its controller
+    DriveInputs seen;  // the levels from its controller at the last tick
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
@@ -246,7 +247,7 @@ class alignas(64) PlantAxis {
       return in_62_bits(wide_counts_at(position_pulses));
     }
     static std::int64_t in_62_bits(std::uint64_t counts) {
-      return static_cast<std::int64_t>(counts << 2) >> 2;  // the low ones, with their sign
+      return static_cast<std::int64_t>(counts << 2) >> 2;  // the low 62 bits, with their sign
     }
   };
 
@@ -264,8 +265,8 @@ class alignas(64) PlantAxis {
   void turn_wheel();
   /// Updates the switches after a move that began at `from`.
   void move_switches(std::int64_t from);
-  // The ranges in which the switches are on in their present state: a switch that is on releases later than
-  // it came on.
+  // Return the ranges in which the switches are on, given their current state: a switch that is on stays on
+  // within its hysteresis.
   PulseSpan home_span() const;
   std::int64_t lower_limit_end() const;
   std::int64_t upper_limit_end() const;

@@ -7,7 +7,7 @@
 //   robot.T2PE                 values of devices without registers (NamedValues)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first; of a counted input its count, modulo 2^32
-//   mill.CMP.pulses            how many pulses an output has sent whose pulses are counted
+//   mill.CMP.pulses            pulses sent by an output whose pulses are counted
 //   mill.DI_8                  a group of terminals as one word
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
 //   feeder.A.target            what .pulses will be at the end of its move or path; equal to .pulses if no
@@ -77,7 +77,7 @@ class ProbeNames final : public NameResolver {
   };
   struct Probe {
     What what = What::time;
-    std::size_t device = 0;  // or the line
+    std::size_t device = 0;  // also a line
     int place = 0;           // axis or terminal
     NamedPlace reg{};
     const TerminalGroup* group = nullptr;
@@ -92,7 +92,7 @@ class ProbeNames final : public NameResolver {
   /// Throws NameError. A name that was resolved before gets the same handle.
   NamedNumber resolve(std::string_view name) const override;
   const Probe& probe(std::int32_t handle) const { return probes_[static_cast<std::size_t>(handle)]; }
-  /// Returns true if only scenarios have this value, so that a world alone has none.
+  /// Returns true if only scenarios have this value.
   bool is_of_scenarios(std::int32_t handle) const;
 
  private:

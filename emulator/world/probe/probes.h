@@ -1,4 +1,4 @@
-// Reads the present values of a world by the names of probe_names.h. Reading changes nothing.
+// Reads the current values of a world by the names of probe_names.h. Reading changes nothing.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,20 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// Both must outlive it. Without peaks their names are known but have no value.
+  /// Both must outlive it. Without `peaks`, the names of peaks are known but have no value.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
       : view_(view), peaks_(peaks), names_(view) {}
 
   /// Throws NameError. A name that was resolved before gets the same handle.
   NamedNumber resolve(std::string_view name) const override { return names_.resolve(name); }
-  /// A register of a device without power is 0. Throws NameError for a value that is not recorded here.
+  /// Registers and values of a device without power are 0. Throws NameError for a peak if there are no peaks.
   Number value(std::int32_t handle) const override;
   /// Returns the first tick after `done` at which the value may change with time alone.
   Tick next_change(std::int32_t handle, Tick done) const;
   /// Like the above, for all the names of a condition.
   Tick next_change(const Expression& condition, Tick done) const;
-  /// Returns the device of a register or value, which has no value without power.
+  /// Returns the device of a register or of a named value, which have no value without power. Nothing for
+  /// other names.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
   /// Returns true if the value is not always a whole number; for a device without registers, if it is not a
   /// whole number now.

@@ -1,4 +1,4 @@
-// Repeats in a world what a recording says.
+// Applies the events of a recording to a world.
 #include <cstddef>
 #include <cstdint>
 

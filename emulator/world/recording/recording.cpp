@@ -59,7 +59,7 @@ constexpr std::string_view word_of(What what) {
   return {};
 }
 
-// The words are in the order of pty::Parity.
+// In the order of pty::Parity.
 constexpr std::array<std::string_view, 5> kParities{"none", "odd", "even", "mark", "space"};
 
 bool is_of_a_line(What what) { return what <= What::said; }
@@ -155,7 +155,7 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
   return bytes;
 }
 
-/// Recordings of earlier versions only have the text.
+/// Reads a failure. Recordings of earlier versions only have the text.
 RecordedFailure failure_at(const Json& object, SimTime end) {
   const auto text = [&](const char* key) {
     return object.contains(key) ? text_at(object, key) : std::string();
@@ -236,8 +236,8 @@ RecordingHeader parse_header(std::string_view text) {
 
 namespace {
 
-/// Builds the line of an event. It does so by hand, because a JSON library's objects would take most of the
-/// time of recording. The library still escapes the texts.
+/// Builds the line of an event by hand, because a JSON library's objects would take most of the time of
+/// recording. The library still escapes the texts.
 class EventLine {
  public:
   EventLine(SimTime at, What what) {

@@ -19,27 +19,27 @@ namespace understudy::emulator::world {
 
 /// The beginning of a recording, which is enough to make the world again.
 struct RecordingHeader {
-  std::string version;  // of the program that recorded
-  std::string bench;    // as bench_text.h has it, memories included
+  std::string version;  // the version of the program that recorded it
+  std::string bench;    // in the form of bench_text.h, memories included
   WorldOptions options;
   std::uint64_t seed = 0;
-  std::string
-      snapshot;  // the world's state at the start (snapshot_file.h), if it ran before; otherwise empty
+  /// The world's state (snapshot_file.h) if it ran before the recording began; otherwise empty.
+  std::string snapshot;
 };
 
 /// The failure of a scenario that ends a recording.
 struct RecordedFailure {
   std::string what{};  // "feeder.Cord_A is 31999; expected 32000"; empty: there was no failure
   SimTime at{0};
-  std::string scenario{};  // its name, with that of its branch
-  std::string place{};     // of the step: "fail.yaml:8"
+  std::string scenario{};  // includes the name of its branch
+  std::string place{};     // the step's place: "fail.yaml:8"
   std::string step{};      // "expect: feeder.Cord_A = 32000"
 };
 
 struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
-    closed,    // and closed it
+    closed,    // a host closed line `where`
     settings,  // the host set `host`; nothing: it left the settings as they were
     bytes,     // wrote `bytes`
     departed,  // bytes of a host that has closed since
@@ -53,7 +53,7 @@ struct RecordedEvent {
     write,    // `write`, bypassing the line
     assign,   // a device without registers was given the value `real` by the name `text`
     program,  // a device was given the program `text`; it refused it if `value` is not 0
-    command,  // and the command `text`, bypassing the line
+    command,  // a device was given the command `text`, bypassing the line
     wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` says
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
@@ -82,7 +82,7 @@ struct RecordingError : std::runtime_error {
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Applies an event to the world at the world's present time. `said`, `wait` and `end` have no effect.
+/// Applies an event to the world at the world's current time. `said`, `wait` and `end` have no effect.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

@@ -29,7 +29,7 @@ std::string why_no_older_part(const std::string& path) {
   struct stat status = {};
   if (::lstat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : std::strerror(errno);
   if (S_ISREG(status.st_mode)) return why_not_writable(path, ContentKind::recording);
-  // A link is not followed: the older part stays in the recording's folder.
+  // A link is not followed, because the older part stays in the recording's folder.
   return "it is " + kind_of_file(status.st_mode) + "; expected a recording to replace, or a free path";
 }
 

@@ -13,7 +13,7 @@
 namespace understudy::emulator::world {
 
 inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
-/// The ending of the previous file's name.
+/// The suffix of the previous file's name.
 inline constexpr const char* kOlderPart = ".1";
 
 /// Returns why the previous file cannot be put there: the path has something other than a recording. Empty
@@ -39,7 +39,7 @@ class RecordingSpool {
   /// Waits until everything is written. Returns why the file ended early, or an empty string.
   std::string close();
 
-  /// Starts a new file if it is time. Call it outside World::advance_to().
+  /// Starts a new file if this one is too large. Call it outside World::advance_to().
   void look();
 
  private:

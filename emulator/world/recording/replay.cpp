@@ -32,7 +32,7 @@ namespace {
 
 using What = RecordedEvent::What;
 
-/// Collects what stations send in the replay, until it is compared.
+/// Collects what stations send in the replay until it is compared.
 class Speeches {
  public:
   struct Speech {
@@ -95,7 +95,7 @@ std::string text_of(const World& world, std::size_t line, SimTime at,
   return hex_words_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
 }
 
-/// Returns an empty text if the output is as recorded, or else the first difference.
+/// Returns the first difference, or an empty text if the output is as recorded.
 std::string compare(const World& world, Speeches& speeches, const RecordedEvent& recorded,
                     std::uint64_t bytes_before) {
   const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
@@ -117,9 +117,9 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
   return {};
 }
 
-/// Compares the world with the state at the end of the recording. Returns an empty text if they agree in all
-/// that matters to the model: bytes that a host has not read yet do not. A state of another version cannot be
-/// compared.
+/// Compares the world with the state at the end of the recording. Returns an empty text if they agree in
+/// everything that affects the model, which excludes bytes that a host has not read yet. A state of another
+/// version cannot be compared.
 std::string compare_state(const World& world, const RecordingHeader& header, const std::string& text) {
   if (text.empty() || header.version != program_version()) return {};
   WorldState recorded = parse_snapshot(text, kBenchOfRecording);

@@ -30,15 +30,15 @@ struct Replayed {
   ReplayResult result;
 };
 
-/// Observes a replay. It is made when the world is in the recording's first state, and destroyed before the
-/// world.
+/// Observes a replay. It is made when the world has been put into the recording's first state, and destroyed
+/// before the world.
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
-  /// Called at the world's present time, before the event is applied; `line_number` is its line in the
+  /// Called at the world's current time, before the event is applied; `line_number` is its line in the
   /// recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
-  /// The replay reached the end of the recording, or a difference.
+  /// Called at the end of the replay, whatever its verdict.
   virtual void ended() {}
 };
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;

@@ -21,8 +21,8 @@ class Timeline {
   static constexpr std::size_t kMaxKeyframes = 1'000;
 
   /// Applies the events in order, from the state in which the recording begins. `on_way` is called at each
-  /// keyframe and at the end, where the world is left. The world must be made from the recording's bench and
-  /// outlive this object.
+  /// keyframe but the first, and at the end, where the world is left. The world must be made from the
+  /// recording's bench and outlive this object.
   Timeline(World& world, const WorldState& begin, std::vector<RecordedEvent> events, SimTime end,
            const std::function<void()>& on_way);
 
@@ -33,7 +33,7 @@ class Timeline {
   SimTime time_of_keyframe(std::size_t number) const { return keyframes_[number].at; }
 
   /// Moves the world to that time, after all events of that moment. `take_back` puts it into the state of a
-  /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls before it.
+  /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls up to it.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
   /// Plays on from where the world is up to that time, or until the world has been stopped. All events of the
   /// moment have then happened.
@@ -57,7 +57,7 @@ class Timeline {
   std::vector<RecordedEvent> events_;
   SimTime end_;
   std::vector<Keyframe> keyframes_;
-  std::size_t next_event_ = 0;  // the first that has not happened where the world is
+  std::size_t next_event_ = 0;  // the first event that is not in the world's past
 };
 
 }  // namespace understudy::emulator::world

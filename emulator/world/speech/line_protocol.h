@@ -1,5 +1,5 @@
-// The protocol of a line: how devices are connected to it, how hosts behave there, what its messages mean.
-// All differences between protocols are behind this interface; a new protocol is one more object
+// The protocol of a line: how devices are connected to it, how hosts behave there, and the meaning of its
+// messages. All differences between protocols are behind this interface; a new protocol is one more object
 // (protocol_of() lists them).
 #pragma once
 
@@ -22,8 +22,8 @@ namespace understudy::emulator::world {
 struct StationConditions {
   bool is_instant = false;      // characters take no time
   bool strict_framing = false;  // silence alone ends a frame
-  SimTime patience{0};          // as of WorldOptions
-  SimTime rest_patience{0};     // as long as LineSetup::byte_timeout, in simulated time
+  SimTime patience{0};          // as in WorldOptions
+  SimTime rest_patience{0};     // LineSetup::byte_timeout in simulated time
 };
 
 class LineProtocol {
@@ -53,8 +53,8 @@ class LineProtocol {
   /// Returns true if an answer says that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
-  /// The same for an answer of these stations, which may be a refusal only to people: something may have been
-  /// changed.
+  /// Like is_refusal(), for people: true for any answer of these stations that reports an error, although
+  /// something may have been changed.
   virtual bool refuses(const LineStations& /*stations*/, std::span<const std::uint8_t> answer) const {
     return is_refusal(answer);
   }

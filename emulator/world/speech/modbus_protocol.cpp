@@ -1,4 +1,4 @@
-// Implements frames of Modbus RTU, for lines with several stations that have a number each.
+// Implements Modbus RTU, for lines with several stations that each have a number.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

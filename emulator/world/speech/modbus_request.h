@@ -16,13 +16,13 @@ struct ModbusRequest {
   Table table = Table::holding;
   std::uint16_t first = 0;
   std::size_t count = 0;
-  std::vector<std::uint16_t> words{};  // of a write; bits are 0 or 1
+  std::vector<std::uint16_t> words{};  // the values of a write; bits are 0 or 1
 
   bool is_write() const { return !words.empty(); }
 };
 
-/// Reads a request from its function code on, without checksum. Returns nothing if it is cut or of another
-/// function.
+/// Reads a request from its function code on, without checksum. Returns nothing if it is incomplete, or has
+/// another function.
 std::optional<ModbusRequest> parse_request(std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

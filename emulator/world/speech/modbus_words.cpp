@@ -115,7 +115,7 @@ const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
   return nullptr;
 }
 
-/// Returns the table that a function accesses. Without input registers, a model has its holding registers
+/// Returns the table that a function accesses. A model without input registers has its holding registers
 /// there.
 Table table_of(const Device* device, const FunctionRow& function) {
   const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();

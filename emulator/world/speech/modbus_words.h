@@ -18,11 +18,11 @@ std::string exception_text(int exception);
 /// Returns true if a frame's function may change something in a device.
 bool is_write(std::span<const std::uint8_t> frame);
 
-/// Returns a host's frame to these stations in words. A frame that cannot be decoded is shown in bytes.
+/// Describes a host's frame to these stations. A frame that cannot be decoded is shown in bytes.
 std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request);
 /// Returns "mill: MOVE X 1000" for a frame that writes a command with a name; otherwise an empty text.
 std::string modbus_command_text(const LineStations& stations, std::span<const std::uint8_t> request);
-/// Returns an answer of one of the stations in words. `request` is empty if it is not known.
+/// Describes an answer of one of the stations. `request` is empty if it is not known.
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply);
 

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns the reason, or an empty text if the tables do not have it: the device has refused for what it was
+/// Returns the reason, or an empty text if it is not in the tables, because it lies in what the device was
 /// doing. `request` is the whole frame, and `exception` the code of the answer.
 std::string why_refused(const Device& device, std::span<const std::uint8_t> request, int exception);
 

@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 
 LinesHeard lines_in(std::string_view text) {
   LinesHeard heard;
-  std::size_t begin = text.starts_with('\n') ? 1 : 0;  // skips the rest of the line end before it
+  std::size_t begin = text.starts_with('\n') ? 1 : 0;  // skips the rest of an earlier line end
   while (begin < text.size()) {
     const std::size_t end = text.find_first_of("\r\n", begin);
     heard.lines.emplace_back(text.substr(begin, end - begin));

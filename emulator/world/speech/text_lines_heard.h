@@ -9,9 +9,9 @@
 namespace understudy::emulator::world {
 
 struct LinesHeard {
-  std::vector<std::string> lines;  // without their ends; the last one may have none yet
-  std::size_t finished = 0;        // how many of them have
-  std::vector<std::size_t> ends;   // of the finished ones: where the next begins
+  std::vector<std::string> lines;  // without line ends; the last one may be incomplete
+  std::size_t finished = 0;        // how many of them are complete
+  std::vector<std::size_t> ends;   // for each complete line: where the next one begins
 };
 
 LinesHeard lines_in(std::string_view text);
@@ -22,10 +22,10 @@ std::string lines_text(std::span<const std::string> lines);
 /// The lines that a step waits for.
 struct LinesWanted {
   std::vector<std::string> lines;  // none: any lines, until the time is over
-  bool is_answer =
-      false;  // an answer to what was just sent; its last line may lack a line end, as a prompt does
+  /// The lines answer what was just sent; the last one may lack a line end, as a prompt does.
+  bool is_answer = false;
 };
-/// Returns true if the wanted lines have arrived, or others instead.
+/// Returns true if the wanted lines, or others instead, have arrived.
 bool has_come(const LinesWanted& wanted, const LinesHeard& heard);
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// Implements lines of text, for a line with one device, which may send without being asked.
+// Implements lines of text, for a line with one device, which may send unasked.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -43,7 +43,7 @@ class TextLineProtocol final : public LineProtocol {
 
   bool carries_text() const override { return true; }
   bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
-    return true;  // only the device itself could know
+    return true;  // only the device could know
   }
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
@@ -89,7 +89,7 @@ class TextLineProtocol final : public LineProtocol {
   }
 
  private:
-  /// Returns why a station's answer refuses something, or an empty text.
+  /// Returns what an error answer of a station means, or an empty text for any other answer.
   static std::string meaning_of(const LineStations& stations, std::span<const std::uint8_t> answer) {
     const std::string text(answer.begin(), answer.end());
     for (const auto& station : stations) {

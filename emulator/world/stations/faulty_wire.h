@@ -1,6 +1,6 @@
 // Stands between a line and a station to apply faults: messages arrive late, garbled, twice or not at all. A
-// station passes it what it has received and what it sends; the wire returns the remains of either to the
-// station (End), in time.
+// station passes it everything that it receives and sends; the wire returns the remains to the station (End)
+// at the right time.
 //
 //   heard ──passes()──> whole: the station serves it          said ──answer()──> End::say()
 //              └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
@@ -49,7 +49,7 @@ class FaultyWire {
   /// `late` is its state, in chronological order. It is a part of the station's state.
   FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
-  /// Null: no faults. The numbers of the device and the line are passed on with each frame.
+  /// Null: no faults. Each frame is passed on with the numbers of the device and the line.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     faults_ = faults;
     device_ = device;
@@ -57,21 +57,22 @@ class FaultyWire {
   }
 
   // --- what the station hears ------------------------------------------------------------------
-  /// Without faults no frame is served early.
+  /// Returns true if there may be faults. Without them no frame is served early.
   bool is_broken() const { return faults_ != nullptr; }
-  /// A character has just completed that frame, which a fault may take as complete at once.
+  /// Called when a character has completed that frame, which a fault may treat as complete at once.
   void look_at_completed(const HeardFrame& frame);
-  /// The completed frame does not exist any more.
+  /// Called when the completed frame no longer exists.
   void forget_early_frame() { is_early_ = false; }
   /// Returns true once for a frame that must be served before the silence after it ends.
   bool take_early_frame();
-  /// A request is complete. Returns true if it arrived whole; otherwise its remains arrive as pieces.
+  /// Called when a request is complete. Returns true if it arrived whole; otherwise its remains arrive as
+  /// pieces.
   bool passes(const HeardFrame& request, pty::Transmitter& out);
 
   // --- what it does and says -------------------------------------------------------------------
   /// Returns how a fault makes the device treat a request.
   FrameFaults::Treatment treatment_of(const HeardFrame& request);
-  /// `delay` is that of the device itself.
+  /// Sends an answer. `delay` is that of the device itself.
   void answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
               pty::SimTime delay = pty::SimTime{0});
 

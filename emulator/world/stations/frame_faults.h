@@ -1,4 +1,4 @@
-// Questions that a station asks about each frame while there are faults.
+// The questions that a station asks about each frame while there are faults.
 #pragma once
 
 #include <cstddef>
@@ -24,18 +24,19 @@ struct HeardFrame {
 
 class FrameFaults {
  public:
-  /// Its last character has arrived. Returns true if the device takes it as complete at once.
+  /// Called when the last character of a frame has arrived. Returns true if the device treats the frame as
+  /// complete at once.
   virtual bool is_early(const HeardFrame& frame) = 0;
-  /// It is complete. Returns the faults of the wire for it.
+  /// Called when a request is complete. Returns the faults of the wire for it.
   virtual std::vector<pty::WireFault> on_request(const HeardFrame& frame) = 0;
 
   struct Treatment {
     int exception = 0;        // it is refused with this exception; 0: it is executed
     bool is_answered = true;  // false: the power fails as soon as it has been executed
   };
-  /// The device is about to carry it out.
+  /// Called before the device executes a request.
   virtual Treatment on_serving(const HeardFrame& frame) = 0;
-  /// It was answered. Returns the faults of the wire for the reply.
+  /// Called when a request was answered. Returns the faults of the wire for the reply.
   virtual std::vector<pty::WireFault> on_reply(const HeardFrame& frame) = 0;
 
  protected:

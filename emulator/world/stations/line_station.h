@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 struct StationCounters {
   std::uint64_t requests = 0;  // for this station: frames, broadcasts included, or lines
   std::uint64_t replies = 0;
-  std::uint64_t exceptions = 0;  // of the replies
+  std::uint64_t exceptions = 0;  // how many of the replies
 };
 
 class LineStation : public pty::Station, private FaultyWire::End {
@@ -29,12 +29,13 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Drops incomplete input and unsent output.
   virtual void reset() = 0;
 
-  /// Sets the source of faults for frames; null: none. It receives the numbers with each frame.
+  /// Sets the source of faults for frames; null: none. It receives these numbers with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     wire_.set_faults(faults, device, line);
   }
 
-  /// The device may have something to send unasked. Returns true if it has; due() has changed then.
+  /// Called when the device may have something to send unasked. Returns true if it has; due() has changed
+  /// then.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
@@ -64,7 +65,6 @@ class LineStation : public pty::Station, private FaultyWire::End {
   FaultyWire wire_;  // everything that it receives and sends passes through it
 };
 
-/// The stations on a line.
 using LineStations = std::vector<std::unique_ptr<LineStation>>;
 
 }  // namespace understudy::emulator::world

@@ -46,7 +46,7 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
   while (const auto frame = state_.framer.take_due(now)) {
-    tell_errors(state_.framer);  // those before the frame
+    tell_errors(state_.framer);  // the errors before the frame
     take_frame(*frame, now, out);
   }
   tell_errors(state_.framer);

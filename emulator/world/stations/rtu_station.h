@@ -1,5 +1,5 @@
 // A Modbus RTU station: a device's presence on a line. It takes frames from its own framer, asks the device
-// whether the address is meant for it, and answers.
+// whether the address is its own, and answers.
 #pragma once
 
 #include "emulator/world/stations/line_station.h"

@@ -21,7 +21,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr std::size_t kMaxWordsRead = 125;
-constexpr std::size_t kMaxWritten = 1968;  // bits, held in a word each while the request is served
+constexpr std::size_t kMaxWritten = 1968;  // bits, each held in a word while the request is served
 constexpr std::uint16_t kOn = 0xFF00;
 constexpr std::uint16_t kOff = 0x0000;
 
@@ -71,7 +71,7 @@ ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objectio
 
 Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
 
-/// A function that the model serves: its table, with regard to the tables the model has, and its own limit.
+/// A function that the model serves: its table, given the tables that the model has, and its own limit.
 struct Service {
   const FunctionRow& row;
   Table table;
@@ -307,7 +307,7 @@ ModbusReply serve_other(RegisterBank& bank, const RtuRules& rules, OtherFunction
   return exception(pdu, nullptr, bad_value(Cause::unknown_function));
 }
 
-/// Returns null if the model does not know such a function.
+/// Returns null if the model does not know the function.
 const OtherFunctionRow* find_other(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;

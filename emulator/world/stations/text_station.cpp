@@ -189,7 +189,7 @@ void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
     } else {
       out.answer(bytes, first.last_character);
     }
-    // A long text takes time even if characters take none, because nobody could read it so fast.
+    // A long text takes time even if characters take none, because no host could read it so fast.
     const bool takes_time = !is_instant_ || size == kPiece;
     if (takes_time) state_.free_at = now + settings().duration_of(static_cast<std::int64_t>(size));
     first.text.erase(0, size);

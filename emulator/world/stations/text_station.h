@@ -22,8 +22,7 @@ class TextStation final : public LineStation {
  public:
   /// The number of characters given to the line at once.
   static constexpr std::size_t kPiece = 1024;
-  /// Like kPiece, if the host may send XOFF: characters that are already on the line cannot be stopped any
-  /// more.
+  /// Like kPiece, if the host may send XOFF: characters that are already on the line cannot be stopped.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
   /// With this many waiting characters it accepts no more text from the device until some are sent.
   static constexpr std::size_t kMaxOutgoing = 64 * 1024;

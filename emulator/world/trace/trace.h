@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 /// One column of a trace.
 struct TraceSignal {
-  std::string name;  // as probes.h has it: "feeder.A.position"
+  std::string name;  // as in probe_names.h: "feeder.A.position"
   enum class Kind : std::uint8_t { whole, real, bit } kind = Kind::whole;
 };
 
@@ -29,7 +29,7 @@ class TraceFormat {
   /// Values are in the order of the signals. `is_new[i]` is true if one has changed since the last call; at
   /// first all are.
   virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
-  /// Nothing has changed since the last row, and nothing more follows.
+  /// Called at the end. Nothing has changed since the last row.
   virtual void end(SimTime at, const std::vector<Number>& values) = 0;
 };
 
@@ -38,7 +38,7 @@ std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
 
 /// Returns the signals of each device: for each axis its pulses, planned speed, the machine's position and
 /// switches, and its duty; inputs and outputs, groups of them as words, and the registers that show its
-/// state. Then follow those in `also`, by the names of probes.h (NameError).
+/// state. Those in `also` come last, by the names of probe_names.h (NameError).
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
 
 /// Watches the world for as long as it lives.

@@ -85,8 +85,8 @@ class VcdTrace final : public TraceFormat {
   }
 
  private:
-  /// Splits "feeder.A.position" at its dots and keeps a bit with its register: "feeder.STATUS.4". Replaces
-  /// blanks, which a name must not contain.
+  /// Splits "feeder.A.position" at its dots, but keeps a bit with its register: "feeder.STATUS.4". Replaces
+  /// blanks, which the format's names must not contain.
   static std::vector<std::string> parts_of(const std::string& name) {
     std::vector<std::string> parts(1);
     for (const char c : name) {

@@ -28,7 +28,7 @@ class WorldCapture {
 
  private:
   World& world_;
-  bool names_ports_;  // a text log has a line's name as one word
+  bool names_ports_;  // a text log shows only the line's name, as one word
   pty::CaptureFile file_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> lines_;
 };

@@ -1,6 +1,6 @@
-// What a world contains, by name and number, but not its present state: enough to resolve names and to check
-// whether a fault is possible. A running world has an inventory, and so does a bench from which no world has
-// been made.
+// Describes the contents of a world, by name and number, but not its current state. That is enough to resolve
+// names and to check whether a fault is possible. A running world has an inventory, and so does a bench from
+// which no world has been made.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class Inventory {
   virtual const std::string& line_name(std::size_t number) const = 0;
   /// Returns the devices by name. Other functions take a device's index in this list.
   virtual const KnownDevices& known() const = 0;
-  /// Returns a device, for what only the device can tell, such as the names of its values. Its values must
+  /// Returns a device, for facts that only the device knows, such as the names of its values. Its values must
   /// not be read.
   virtual const Device& device(std::size_t number) const = 0;
   /// Returns the setup of an axis's machine.

@@ -1,5 +1,5 @@
-// The readable side of a running world: what it contains (inventory.h) and its present state. Observers
-// (probes, peaks) use only this interface; reading changes nothing.
+// The readable side of a running world: its contents (inventory.h) and its current state. Observers (probes,
+// peaks) use only this interface; reading changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ struct WorldLine {
   pty::Line line;
   const LineProtocol& speech;
   LineStations stations;
-  pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
+  pty::RtuFraming framing{};  // from its stations; the shortest silence if they differ
 
-  /// See `speech`.
+  /// These functions use `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
     return speech.request_text(stations, request);
   }
@@ -56,7 +56,7 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Is shown ticks when they are completely over. It may act on the world as an outside event does.
+/// Sees ticks when they are completely over. It may act on the world as an outside event does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
@@ -65,7 +65,7 @@ class TickWatcher {
   /// every tick, kNever if it does not need unchanged ticks. The first tick at which nothing happens is shown
   /// to all observers.
   virtual Tick next_look(Tick done) const { return done + 1; }
-  /// Nothing has changed since the tick that it saw last, and nothing changes up to `last`.
+  /// Called when nothing has changed since the tick that it saw last, and nothing changes up to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }
 };
 
