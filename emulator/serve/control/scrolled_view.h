@@ -19,8 +19,8 @@ class ScrolledView {
 
  private:
   std::size_t top_ = 0;    // the first line that is shown
-  std::size_t page_ = 0;   // how many of them have room, and
-  std::size_t total_ = 0;  // the number of lines when it was last shown
+  std::size_t page_ = 0;   // the number of lines shown at once
+  std::size_t total_ = 0;  // the number of all lines in the last fit()
 };
 
 }  // namespace understudy::emulator::serve

@@ -37,7 +37,7 @@ class Port {
   void serve_on_demand();
   /// Takes what the host has written, as far as there is room, and gives it what the line has for it.
   void attend();
-  /// A host seems to have gone, but the kernel has not released the line yet.
+  /// Returns true if a host seems to have gone, but the kernel has not released the line yet.
   bool is_in_doubt() const { return terminal_ && terminal_->is_in_doubt(); }
 
   /// Passes on the bytes that the wire has delivered, and takes more bytes if the line has room.
@@ -76,13 +76,13 @@ class Port {
   /// Returns false if the line has a host. While a guest is there, hosts that open the pseudo-terminal are
   /// ignored.
   bool admit(Guest& guest);
-  /// Its last bytes are still served.
+  /// The guest leaves. Its last bytes are still served.
   void leave(std::span<const std::uint8_t> last);
-  /// Takes at most room() bytes.
+  /// Takes bytes from the guest, at most room().
   void hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
-  /// The guest flushes bytes that are not on the wire yet.
+  /// Must be called when the guest flushes bytes that are not on the wire yet.
   void take_back();
-  /// The guest discards bytes that it has not taken yet.
+  /// Must be called when the guest discards bytes that it has not taken yet.
   void throw_away();
   std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
   bool is_unplugged() const { return line().is_unplugged(); }
@@ -138,7 +138,7 @@ class Port {
   bool is_watching_ = false;               // the terminal's descriptor
   bool is_on_demand_ = false;              // the terminal's descriptor is not watched
   bool is_pulled_out_ = false;             // by a fault
-  bool has_told_ = false;                  // why it cannot be plugged in again
+  bool has_told_ = false;                  // the log says why it cannot be plugged in again
   struct stat access_ {};                  // of the previous terminal
   WallTime next_recovery_{0};              // when to try again to open a lost terminal; 0: it is not lost
   bool is_listening_ = true;               // the line had room when last something was handed over

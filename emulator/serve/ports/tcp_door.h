@@ -33,7 +33,6 @@ class TcpDoor final : private Port::Guest {
   /// The port must outlive it, and is given the address. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log, Service service = Service::at_once);
-  /// After this, clients are not notified any more that they have gone.
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;
@@ -43,7 +42,7 @@ class TcpDoor final : private Port::Guest {
 
   const world::TcpAddress& address() const { return address_; }
   const Port& port() const { return port_; }
-  /// Takes what the clients have sent, and gives them what there is for them.
+  /// Takes what the clients have sent, and sends them what waits for them.
   void attend();
   /// Returns when attend() has something to do although nobody sends, or nothing.
   std::optional<SimTime> due() const { return due_; }
@@ -87,7 +86,7 @@ class TcpDoor final : private Port::Guest {
   std::vector<std::unique_ptr<TcpClient>> clients_;
   std::size_t turn_ = 0;     // the client whose request is next
   Descriptor next_;          // a client that waits until a finished one has its replies
-  bool is_serving_ = false;  // the line speaks while it is spoken to
+  bool is_serving_ = false;  // serve_line() runs; the line may send meanwhile
   std::vector<std::unique_ptr<Listener>> listeners_;
 };
 
