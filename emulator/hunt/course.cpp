@@ -21,7 +21,7 @@ using play::HuntPlan;
 using When = Disturbance::When;
 
 constexpr std::uint64_t kMaxDisturbances = 16;
-constexpr SimTime kNear = std::chrono::milliseconds(5);  // to the beginning or the end of a step
+constexpr SimTime kNear = std::chrono::milliseconds(5);  // this close to the beginning or the end of a step
 constexpr SimTime kFine = std::chrono::microseconds(100);
 
 /// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,

@@ -29,7 +29,7 @@ namespace understudy::emulator::hunt {
 
 namespace {
 
-constexpr std::size_t kMaxRegisters = 64;  // of a device, whose values are looked at
+constexpr std::size_t kMaxRegisters = 64;  // of a device whose values are sampled
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
 
 /// Mixes a number into a hash.
@@ -77,7 +77,7 @@ class Lines final : public ProgramWatch {
   std::vector<std::vector<std::uint8_t>> seen_;  // by part, by line
 };
 
-/// What is looked at in one device.
+/// The values of one device that are sampled.
 struct Sights {
   std::vector<Place> words;    // registers with named bits
   std::vector<Place> numbers;  // others that the device shows

@@ -1,6 +1,6 @@
-// What a course has reached: a set of numbers, each of which stands for something that can be reached or not.
-// There are four sorts: lines of programs and their decisions; registers with classes of values; states of
-// the whole bench, coarsely; and orders of events: one such state after another.
+// Notes what a course has reached: a set of numbers. Each stands for something that can be reached. There are
+// four sorts: lines of programs and their decisions; registers with classes of values; states of the whole
+// bench, coarsely; and orders of events: one such state after another.
 //
 // It looks when something happens: at messages, faults, inputs, and after each step.
 #pragma once
@@ -26,7 +26,7 @@ using Feature = std::uint64_t;
 constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3); }
 
 struct Reached {
-  /// When each was reached first. Looked up and sorted, never iterated for a result.
+  /// When each was first reached. Results must not depend on the order of iteration.
   std::unordered_map<Feature, SimTime> when{};
 };
 

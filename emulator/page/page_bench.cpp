@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxInAnUpdate = 200;  // limits frames and events
+constexpr std::size_t kMaxInAnUpdate = 200;  // frames, and as many events
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
