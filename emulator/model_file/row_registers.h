@@ -1,4 +1,4 @@
-// The registers that one row of a list describes.
+// Makes the registers that one row of a list describes.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::box {
 
-/// One request and what came back, as bytes of the line.
+/// A request and its reply, as bytes of the line.
 struct Asked {
   Bytes request;
   Bytes reply;          // without an echo; empty: nothing came in time
