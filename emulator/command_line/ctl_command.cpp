@@ -318,7 +318,7 @@ std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
 }
 
-/// Prints what is odd in a program that was accepted.
+/// Prints the warnings about a program that was accepted.
 void print_warnings(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("warnings")) return;
   for (const Json& odd : reply.at("warnings")) {
