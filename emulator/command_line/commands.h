@@ -270,7 +270,7 @@ struct CompareArguments {
   bool power_up = false;  // the captures begin at power-up
   bool json = false;
 };
-/// Plays captures of a real controller to a bench, and judges each reply.
+/// Plays captures of a real controller against a bench, and judges each reply.
 int compare_captures(ModelList models, const CompareArguments& arguments);
 
 struct CalibrateArguments {

@@ -1,4 +1,4 @@
-// Implements `compare`: plays captures to a bench, and judges each reply.
+// Implements `compare`: plays captures against a bench, and judges each reply.
 #include <algorithm>
 #include <array>
 #include <chrono>

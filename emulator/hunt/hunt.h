@@ -1,6 +1,6 @@
-// Plays courses of a scenario file until one fails, and shrinks the first of each kind. Courses are played on
-// several threads, in generations, and judged in the order of their numbers. So the findings depend on the
-// seed alone.
+// Plays courses of a scenario file, and shrinks the first failure of each kind. Courses are played on several
+// threads, in generations, and judged in the order of their numbers. So the findings depend on the seed
+// alone.
 #pragma once
 
 #include <cstdint>

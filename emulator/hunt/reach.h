@@ -1,8 +1,8 @@
 // Notes what a course has reached: a set of numbers. Each stands for something that can be reached. There are
-// four sorts: lines of programs and their decisions; registers with classes of values; states of the whole
-// bench, coarsely; and orders of events: one such state after another.
+// four sorts: lines of programs and their decisions; registers with classes of values; coarse states of the
+// whole bench; and orders, which are two such states in sequence and the events between them.
 //
-// It looks when something happens: at messages, faults, inputs, and after each step.
+// It samples when something happens: at messages, faults, inputs, and after each step.
 #pragma once
 
 #include <array>

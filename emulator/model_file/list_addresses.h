@@ -26,7 +26,7 @@ struct PrintedAddress {
 
 /// Returns nothing for a text that is not an address. `is_hexadecimal`: plain digits are hexadecimal as well.
 std::optional<PrintedAddress> parse_address(std::string_view text, bool is_hexadecimal);
-/// Returns true for letters that only hexadecimal numbers have, without another sign: "10A0".
+/// Returns true for a number that only its letters show to be hexadecimal: "10A0".
 bool has_hexadecimal_letters(std::string_view text);
 
 /// An address on the wire, and the table that its form gives.
@@ -37,7 +37,7 @@ struct WireAddress {
 /// Returns nothing if the number does not suit the reading.
 std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressReading reading);
 
-/// The evidence of all addresses of a list for what they count.
+/// Collects evidence from all addresses of a list for what they count.
 struct AddressEvidence {
   /// `table`: that of the row's own cell, if it has one. `holds_words`: the row's type is not a bit.
   void add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);

@@ -144,7 +144,8 @@ class Raster {
   std::size_t last_ = 0;
 };
 
-/// Compresses by Deflate with its fixed codes. It finds only the last place of the next four bytes.
+/// Compresses by Deflate with its fixed codes. For a repetition it knows only the last place of the next four
+/// bytes.
 class Deflated {
  public:
   explicit Deflated(const std::string& data) : data_(data), last_(std::size_t{1} << kHashBits, kNowhere) {

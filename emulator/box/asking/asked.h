@@ -1,4 +1,4 @@
-// What a real controller answered, and how long that took.
+// The reply of a real controller, and its latency.
 #pragma once
 
 #include <cstdint>

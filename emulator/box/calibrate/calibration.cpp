@@ -164,8 +164,8 @@ class Search {
     return reach;
   }
 
-  /// Tries single options first. If none of them gets further, tries pairs of one that changes any reply and
-  /// any other.
+  /// Tries single options first. If none of them gets further, tries pairs: an option that changes any reply,
+  /// with any other option.
   std::vector<Hypothesis> further_than_parents(const std::vector<Hypothesis>& level) {
     std::set<Hypothesis> found;
     for (const Hypothesis& parent : level) {

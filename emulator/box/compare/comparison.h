@@ -1,4 +1,4 @@
-// Plays a capture to a bench and judges each reply.
+// Plays a capture against a bench, and judges each reply.
 #pragma once
 
 #include <cstddef>

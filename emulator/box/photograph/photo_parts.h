@@ -24,11 +24,11 @@ struct PhotoWork {
   int modules = 0;  // of a chain, once it is known
 
   void note(Asked asked);
-  /// Reports what is asked next.
+  /// Reports the next question.
   void tell(std::string_view next) const {
     if (progress) progress(photo.exchanges.size(), next);
   }
-  /// Adds something that the controller did not tell.
+  /// Adds a value that the controller did not give.
   void refuse(const PhotoRefusal& refusal) { photo.refused.push_back(refusal); }
 };
 

@@ -23,7 +23,7 @@ struct PhotoValue {
   std::uint16_t address = 0;
 };
 
-/// Something that the controller did not tell.
+/// A value that the controller did not give.
 struct PhotoRefusal {
   std::string name;
   std::string why;  // "exception 2", "no answer"
@@ -45,10 +45,10 @@ struct Photograph {
   std::vector<std::pair<std::string, std::string>> left_out{};
 };
 
-/// Receives progress: requests so far, and what is asked next.
+/// Receives the progress: the number of requests so far, and the next question.
 using PhotoProgress = std::function<void(std::size_t requests, std::string_view next)>;
 
-/// Reports that the controller does not answer as its model would. One line.
+/// Thrown if the controller does not answer as its model would. The message is one line.
 struct BoxError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

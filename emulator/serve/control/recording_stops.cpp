@@ -102,7 +102,7 @@ RecordingStops::Wanted RecordingStops::wanted_step(const Json& message) const {
 bool RecordingStops::play_on(SimTime until) {
   const SimTime began = now();
   timeline_.play_on(until, [this] { return debugger().stop() != nullptr; });
-  static_cast<void>(debugger().take_stop());  // the clock stands anyway
+  static_cast<void>(debugger().take_stop());  // the clock is stopped anyway
   return now() > began && debugger().stop() != nullptr;
 }
 

@@ -33,7 +33,7 @@ class RecordingStops {
   };
   /// Plays until the next stop, at most to `until`. Returns false if there was none.
   using PlayOn = std::function<bool(SimTime until)>;
-  /// Returns true if the stop is a wanted one.
+  /// Returns true if the search wants this stop.
   using IsWanted = std::function<bool(const world::DebugStop& stop)>;
 
   Wanted wanted_step(const Json& message) const;

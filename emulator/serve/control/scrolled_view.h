@@ -11,7 +11,7 @@ namespace understudy::emulator::serve {
 class ScrolledView {
  public:
   /// Returns the visible lines. Lines wider than the window are folded. If there are more than `rows`, the
-  /// last row tells which ones are shown.
+  /// last row says which lines are shown.
   std::vector<std::string> fit(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns);
   /// Handles keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G.
   /// Returns true for q.

@@ -71,7 +71,7 @@ class Daemon {
   void do_aside(std::function<std::function<void()>()> work);
   /// Returns true if run() has ended.
   bool is_over();
-  /// The event loop, on which other parts can wait.
+  /// Returns the event loop, on which other parts can wait.
   EventLoop& loop() { return loop_; }
 
   world::World& world() { return world_; }
@@ -82,9 +82,9 @@ class Daemon {
   /// Returns the path of its door, or an empty text if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
-  /// The last frames on the lines.
+  /// Returns the last frames on the lines.
   const world::FrameLog& frames() const { return frames_; }
-  /// Data for observers.
+  /// Returns the data for observers.
   Observers& observers() { return observers_; }
   const Observers& observers() const { return observers_; }
 
@@ -113,7 +113,7 @@ class Daemon {
   /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.
   void catch_up_for_bytes();
 
-  /// The hash of the world's bench, for snapshots.
+  /// Returns the hash of the world's bench, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
   /// Returns all files that it uses, with its ports and its control socket.
   FileClaims files() const;

@@ -258,7 +258,7 @@ void HostTime::take_from_host() {
   doors_.attend();
 }
 
-/// Gives the host what the lines have for it, and ends the waits for that. Returns true if one has ended.
+/// Gives the host the lines' output, and ends the waits for it. Returns true if one has ended.
 bool HostTime::give_to_host() {
   const SimTime now = daemon_.world().now();
   page_.set_now(now);

@@ -99,12 +99,12 @@ class HostWaits {
   void remove(int number) { threads_.erase(number); }
   /// Handles a message of a thread. Messages that are not events of the table change nothing here.
   void heard(int number, const host_time::Message& message);
-  /// Simulated time is now `now`: ends the waits whose end has come. Returns true if there were any.
+  /// Ends the waits whose end has come at simulated time `now`. Returns true if there were any.
   bool time_is(SimTime now);
-  /// Data have arrived on the line whose pseudo-terminal has this number. Returns true if a thread waited for
-  /// it.
+  /// Must be called when data have arrived on the line whose pseudo-terminal has this number. Returns true if
+  /// a thread waited for them.
   bool line_has_news(int terminal);
-  /// All that was written to the line has left the wire.
+  /// Must be called when all bytes written to the line have left the wire.
   bool line_is_drained(int terminal);
   void process_ended(int process);
 

@@ -74,8 +74,8 @@ class EventLoop {
   bool are_pieces_next_ = false;
   WallTime slice_end_ = WallTime::max();  // for rank `later`; unlimited at other times
   bool puts_off_ = false;                 // rank `later` waits for something that is due soon
-  bool has_put_off_ = false;              // since rank `later` was last called
-  WallTime put_off_until_{0};             // when that is due
+  bool has_put_off_ = false;              // it has waited since it was last called
+  WallTime put_off_until_{0};             // when that something is due
 };
 
 }  // namespace understudy::emulator::serve

@@ -20,7 +20,7 @@ class Listener {
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  /// A descriptor was closed: tries again.
+  /// Tries again, because a descriptor was closed.
   void try_again();
   /// Admits all clients that wait now.
   void accept_all();

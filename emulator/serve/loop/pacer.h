@@ -69,7 +69,7 @@ class Pacer {
   bool paused() const { return paused_; }
   /// Returns true if the clock is stopped: paused, or manual.
   bool standing() const { return paused_ || speed_.kind == Speed::Kind::manual; }
-  /// Simulated time was moved by hand, or ran ahead (virtual time): it continues from there.
+  /// Continues from `time`, because simulated time was moved by hand or ran ahead (virtual time).
   void moved_to(SimTime time, WallTime wall);
 
   const Speed& speed() const { return speed_; }

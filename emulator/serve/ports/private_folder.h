@@ -18,7 +18,7 @@ inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 void remove_left_overs(const std::string& beginning = kPrivateFolders,
                        std::chrono::seconds kept = kLeftOversKept);
 
-/// A private folder below /tmp, made when it is first asked for, and removed at the end if it is empty.
+/// A private folder below /tmp. It is made on first use, and removed at the end if it is empty.
 class PrivateFolder {
  public:
   PrivateFolder() = default;

@@ -176,7 +176,7 @@ void Rfc2217::control(Value value) {
     if (wish != range.asks) this->*range.state = wish;
     return answer(5, this->*range.state);
   }
-  answer(5, flow_);  // flow control by lines that do not exist
+  answer(5, flow_);  // flow control by modem lines, which do not exist
 }
 
 void Rfc2217::tell_modem_state() { answer(7, kModemReady); }

@@ -30,7 +30,7 @@ class TcpDoor final : private Port::Guest {
   /// A door on demand serves a host in simulated time: nobody listens at the address, admit() is given the
   /// clients, their bytes are taken only by attend(), and its times are simulated.
   enum class Service : std::uint8_t { at_once, on_demand };
-  /// The port must outlive it, and is given the address. Throws pty::PortError.
+  /// Adds the address to the port, which must outlive the door. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log, Service service = Service::at_once);
   ~TcpDoor() override;
@@ -46,7 +46,7 @@ class TcpDoor final : private Port::Guest {
   void attend();
   /// Returns when attend() has something to do although nobody sends, or nothing.
   std::optional<SimTime> due() const { return due_; }
-  /// Changes when a client was sent something or disconnected.
+  /// Returns a number that changes when something was sent to a client, or a client disconnected.
   std::uint64_t news() const;
 
  private:
