@@ -230,8 +230,8 @@ void require_bench_flags(const ExecArguments& arguments) {
   require_none(of_cases, "is for the cases of a scenario; expected a scenario instead of the bench");
 }
 
-/// If the command cannot run in each case, says why and returns an exit code. A program whose name depends on
-/// the case is checked when it is started.
+/// Returns an exit code, and says why, if the command cannot run in each case. A program whose name depends
+/// on the case is checked when it is started.
 std::optional<int> code_of_unusable(const HostArguments& host) {
   const std::string& program = host.command[0];
   if (program.find("${") != std::string::npos) return std::nullopt;

@@ -31,7 +31,7 @@ struct RunFolders {
 /// paths that cannot be folders.
 void require_folders(const FileClaims& claims, const RunFolders& folders);
 
-/// How failures get their recordings.
+/// The way in which failures get their recordings.
 enum class Recorded : std::uint8_t {
   again,   // a varied case runs once more if it is to be recorded
   always,  // every case is recorded, because none can run again

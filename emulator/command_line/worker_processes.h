@@ -15,7 +15,7 @@ namespace understudy::emulator::command_line {
 
 class WorkerProcesses {
  public:
-  /// Starts `count` processes, each of which makes a Play. Must be called while this process has one thread.
+  /// Starts `count` processes; each makes a Play. Must be called while this process has one thread.
   WorkerProcesses(int count, const std::function<play::Play()>& make_play);
   /// Ends them, and waits until they have ended.
   ~WorkerProcesses();

@@ -21,7 +21,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-// How often it checks the bench and signals.
+// The intervals between checks of the bench and of signals.
 constexpr int kRunningMs = 20;
 constexpr int kStoppedMs = 100;
 constexpr int kRefusedMs = 2000;  // for the first request of a client that is refused

@@ -24,7 +24,7 @@ struct Seed {
   Sort sort = Sort::order;       // the first sort in which something was new
 };
 
-/// How much was reached, by sort.
+/// The number of things reached, by sort.
 using Counts = std::array<std::size_t, kSorts.size()>;
 
 class Corpus {

@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::hunt {
 
-/// How a finding came about, for people.
+/// The origin of a finding, for people.
 struct Origin {
   std::string command;           // finds it again
   std::uint64_t course = 0;      // its number

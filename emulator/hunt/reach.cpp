@@ -40,7 +40,7 @@ constexpr std::uint64_t mixed(std::uint64_t hash, std::uint64_t number) {
   return x ^ (x >> 31);
 }
 
-/// Returns the sign and the number of digits: 0, 1, 2 to 3, 4 to 7, and so on.
+/// Returns a class of values by sign and number of binary digits: 0, 1, 2 to 3, 4 to 7, and so on.
 std::uint64_t class_of(std::int64_t value) {
   const auto magnitude = static_cast<std::uint64_t>(value < 0 ? -value : value);
   return static_cast<std::uint64_t>(std::bit_width(magnitude)) * 2 + (value < 0 ? 1 : 0);

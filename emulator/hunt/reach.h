@@ -26,7 +26,7 @@ using Feature = std::uint64_t;
 constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3); }
 
 struct Reached {
-  /// When each was first reached. Results must not depend on the order of iteration.
+  /// The time at which each was first reached. Results must not depend on the order of iteration.
   std::unordered_map<Feature, SimTime> when{};
 };
 

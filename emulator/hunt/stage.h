@@ -22,7 +22,7 @@
 
 namespace understudy::emulator::hunt {
 
-/// How a course ended.
+/// The end of a course.
 struct Outcome {
   std::string kind{};                            // the kind of failure; empty: there is none that counts
   std::optional<play::ScenarioResult> failed{};  // the scenario, or the branch, that failed

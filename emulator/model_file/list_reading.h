@@ -17,8 +17,8 @@
 
 namespace understudy::emulator::model_file {
 
-/// What the addresses of a list count: registers on the wire (from 0), registers from 1, or Modicon's numbers
-/// (40001 is holding register 0).
+/// The unit that the addresses of a list count: registers on the wire (from 0), registers from 1, or
+/// Modicon's numbers (40001 is holding register 0).
 enum class AddressReading : std::uint8_t { wire, from_one, modicon };
 inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_one", "modicon"};
 

@@ -59,7 +59,7 @@ class PageBench {
   /// Grows when another daemon, or a restarted one, answers: numbers of frames and events begin again.
   std::uint64_t epoch() const { return epoch_; }
 
-  /// What the page observes from now on. If no browser watches, it sends no requests to the bench.
+  /// The data that the page observes from now on. If no browser watches, it sends no requests to the bench.
   struct Wanted {
     std::set<std::string> names;
     bool frames = false;

@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kWidth = 12;    // hypotheses that are kept at each level
 constexpr std::size_t kDeepest = 16;  // options that differ from the bench's
 
-/// How far a hypothesis explains the captures.
+/// The part of the captures that a hypothesis explains.
 struct Reach {
   std::size_t explained = 0;  // exchanges
   bool is_whole = false;

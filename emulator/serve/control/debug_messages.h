@@ -41,7 +41,7 @@ const Device& require_program(Daemon& daemon, const Json& message);
 world::StepKind require_step_kind(const Json& message);
 /// Returns a duration from now on. Throws MessageError.
 SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key);
-/// Returns the stop at which the world is, or null.
+/// Returns the world's present stop, or null.
 Json json_of_stop(const Daemon& daemon);
 /// Returns the time, and the stop if the world is at one.
 Json time_and_stop(const Daemon& daemon);

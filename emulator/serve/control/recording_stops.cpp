@@ -72,7 +72,8 @@ Json RecordingStops::step(const Json& message) {
   }
   if (wanted.kind == world::StepKind::stand)
     throw MessageError("what: stand goes on only; expected instruction, line, over or out with back");
-  // A step back over a routine goes to the last earlier line with no more callers; out of it, with fewer.
+  // A step back over a routine goes to the last earlier line with at most as many callers; a step back out of
+  // it, to the last one with fewer.
   const world::DebugStop* const stop = debugger().stop();
   const std::size_t depth = stop != nullptr ? stop->depth : SIZE_MAX;
   const world::StepKind kind = wanted.kind;

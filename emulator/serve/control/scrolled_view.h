@@ -13,8 +13,8 @@ class ScrolledView {
   /// Returns the visible lines. Lines wider than the window are folded. If there are more than `rows`, the
   /// last row says which lines are shown.
   std::vector<std::string> fit(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns);
-  /// Handles keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G.
-  /// Returns true for q.
+  /// Handles keys as a terminal sends them: arrows, j, k, Enter, Page Up, Page Down, space, b, Home, End, g,
+  /// G. Returns true for q.
   bool press(std::string_view keys);
 
  private:

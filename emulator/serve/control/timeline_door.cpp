@@ -250,7 +250,7 @@ class Travel {
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // declared after the members that collect() uses: it calls that at once
+  world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls that
   RecordingStops stops_{daemon_, timeline_, [this](SimTime time) { go_to(time); }};
 };
 

@@ -198,7 +198,7 @@ void Daemon::judge_stall(WallTime now) {
   }
 }
 
-/// If the debugger has stopped the world, holds the clock there.
+/// Holds the clock if the debugger has stopped the world. Returns true if so.
 bool Daemon::is_held() {
   if (!observers_.debugger.take_stop()) return false;
   if (advance_done_) advance_target_ = world_.now();

@@ -51,8 +51,8 @@ struct DaemonOptions {
 
 class Daemon {
  public:
-  /// Opens everything. Throws an error with the reason (SettingError, PortError, ControlError,
-  /// CaptureError).
+  /// Opens everything. Throws an error with the reason: SettingError, PortError, ControlError, CaptureError
+  /// or GrowingFileError.
   Daemon(const world::Bench& bench, const DaemonOptions& options,
          std::function<void(const std::string&)> log);
   ~Daemon();

@@ -27,7 +27,7 @@ struct Observers {
       : events(world, frames), names(world), debugger(world, events) {}
 
   world::EventLog events;
-  /// How often the world was put into another state. That makes earlier reports invalid.
+  /// The number of restores of the world. Each makes earlier reports invalid.
   std::uint64_t restores = 0;
   /// The moment of a recording at which `what-if` began; nothing: the recording is not altered.
   std::optional<SimTime> altered_at;

@@ -1,7 +1,7 @@
 // Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library answers its clocks
 // and waits, and asks here. Simulated time stops while any thread of the host can continue; when all wait, it
 // advances to whatever comes first: the end of a wait, or data on a line that a thread waits for.
-// docs/host-time.md describes the order in which bytes and time move.
+// docs/host-time.md describes the order in which bytes and time advance.
 #pragma once
 
 #include <chrono>

@@ -57,7 +57,7 @@ class HostWaitLog {
     SimTime begin{0};
     SimTime end{0};
   };
-  /// When a line answered last.
+  /// The byte counts at the last answer of a line.
   struct Answer {
     std::uint64_t bytes_out = 0;
     std::uint64_t bytes_in = 0;

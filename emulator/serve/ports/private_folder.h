@@ -10,7 +10,7 @@ namespace understudy::emulator::serve {
 /// The beginning of the paths of private folders.
 inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
 
-/// How long files that failed runs left in such folders stay there.
+/// Files that failed runs left in such folders are removed after this time.
 inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 
 /// Removes our folders with that beginning in which nothing has changed for this long, and whose owner has

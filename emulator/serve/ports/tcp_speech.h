@@ -39,7 +39,7 @@ class TcpSpeech {
   /// nothing if none waits.
   virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
   virtual void give_up() {}
-  /// For a protocol that puts its requests on the line one after another: returns true if none waits.
+  /// Returns true if no request waits, for a protocol that puts its requests on the line one after another.
   virtual bool is_idle() const { return true; }
   /// The client no longer receives answers. The next waiting request is served.
   virtual void client_gone() {}
