@@ -29,7 +29,7 @@ using models::imported::ListedRegister;
 
 namespace {
 
-/// Returns the row's table. `by_address`: what the form of its address says.
+/// Returns the row's table. `by_address` is the table that the form of its address gives.
 Table table_of(const ListRow& row, std::optional<Table> by_address) {
   if (row.has(Column::table) && !listed_table_called(row.text(Column::table))) {
     row.fail(Column::table,
