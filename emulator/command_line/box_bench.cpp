@@ -35,7 +35,7 @@ std::size_t require_line(const world::Bench& bench, const std::string& command, 
   throw UsageError("--line: the bench has no line called " + quoted(name) + "; expected one of " + names);
 }
 
-/// The memory of a device is that of `--from`, or the file that the bench names.
+/// Reads the devices' memories: the file of `--from`, or those that the bench names.
 void read_memories(world::Bench& bench, std::size_t line, const std::string& from) {
   for (world::DeviceSetup& device : bench.devices) {
     if (device.nv_path.empty()) continue;

@@ -1,4 +1,4 @@
-// What `compare` and `calibrate` work with: captures, and a bench that stands for the controller.
+// The input of `compare` and `calibrate`: captures, and a bench that stands for the controller.
 #pragma once
 
 #include <cstddef>

@@ -51,7 +51,7 @@ std::string choice_name(const world::Bench& bench, box::ChoiceKey key) {
   return choice_text(bench, key.device, box::choice_id(bench, key));
 }
 
-/// "feeder.exceptions: no_answer, feeder.move_begins: one_tick_in"
+/// Returns "feeder.exceptions: no_answer, feeder.move_begins: one_tick_in".
 std::string hypothesis_text(const world::Bench& bench, const box::Hypothesis& hypothesis) {
   std::string text;
   for (const auto& [key, option] : hypothesis)
@@ -119,7 +119,7 @@ void print_calibration(const BoxBench& box, const box::Calibration& found) {
   std::printf("%s, after %zu hypotheses\n", text.c_str(), found.tried);
 }
 
-/// Prints what the device of a bench needs, as a part of a bench file.
+/// Prints the measured choices of the bench's devices, as a part of a bench file.
 void print_measured_choices(const BoxBench& box, const box::Calibration& found) {
   std::size_t device = box.bench.devices.size();
   for (const box::RowFinding& finding : found.findings) {

@@ -72,7 +72,7 @@ struct HostArguments {
   std::vector<std::string> command;  // the words after --: a command and its arguments
   std::vector<std::pair<std::string, std::string>> environment{};  // in addition to ours
   bool tty_shim = false;
-  bool host_time = false;  // the command lives in simulated time
+  bool host_time = false;  // the command runs in simulated time
 };
 struct RunArguments {
   std::vector<std::string> scenarios;  // files
@@ -109,14 +109,14 @@ struct HuntArguments {
   std::uint64_t seed = 0;
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
-  bool unguided = false;    // every course is drawn alone
-  std::string corpus;       // a file of courses to go on from
+  bool unguided = false;    // draws every course without regard to earlier ones
+  std::string corpus;       // a file of courses to start from
   std::string coverage;     // files, as of `run`
   std::string device_coverage;
-  std::string found = "found";  // the folder for what is found
+  std::string found = "found";  // the folder for findings
   std::string version;          // the version of this program
 };
-/// Searches for what breaks a scenario.
+/// Searches for disturbances that break a scenario.
 int hunt_scenario(ModelList models, const HuntArguments& arguments);
 
 struct ExecArguments {
@@ -141,7 +141,7 @@ struct CoverageArguments {
   std::optional<double> min_percent;
   std::string version;  // the version of this program
 };
-/// Adds the coverage of several runs.
+/// Adds up the coverage of several runs.
 int add_coverage(const CoverageArguments& arguments);
 
 struct ReplayArguments {
@@ -153,11 +153,11 @@ struct ReplayArguments {
   std::string capture;
   std::string report;
   std::optional<int> page;  // the port of the recording's live page; 0: any
-  bool serve = false;       // the whole recording, without a page
+  bool serve = false;       // serve the whole recording, without a page
   std::string story;        // an HTML file that holds the recording's page
   std::string picture;      // an SVG or PNG file that shows a panel of that page
   std::string panel;        // which one; empty: the timeline
-  std::string at;           // a duration; the moment that such files show first
+  std::string at;           // a duration; the moment that the page or picture shows first
   std::string version;      // the version of this program
 };
 int replay_recording(ModelList models, const ReplayArguments& arguments);
@@ -208,7 +208,7 @@ struct FramesArguments {
 int follow_frames(const FramesArguments& arguments);
 
 struct PageArguments {
-  std::vector<std::string> sockets;  // control sockets; none: the only daemon
+  std::vector<std::string> sockets;  // control sockets; none: all running daemons
   int port = 0;                      // 0: any
   std::string listen = "127.0.0.1";
   std::vector<std::string> hosts;  // names of this machine besides the loopback's
@@ -225,13 +225,12 @@ void start_page_beside(const std::string& control, int port);
 struct DapArguments {
   std::string listen;  // "127.0.0.1:4711"; empty: standard input and output
 };
-/// Serves editors by the Debug Adapter Protocol (docs/debugging.md).
+/// Serves editors with the Debug Adapter Protocol (docs/debugging.md).
 int serve_debug_adapter(const DapArguments& arguments);
 
 struct PollArguments {
   std::string port;
-  // If unset or empty, the model's factory settings are used; a model without a station number uses station
-  // 1 at 19200 8E1.
+  // Unset or empty settings are the model's factory settings; without a model, station 1 at 19200 8E1.
   static constexpr int kUnsaid = INT_MIN;
   int station = kUnsaid;
   int baud = kUnsaid;
@@ -259,7 +258,7 @@ struct PhotographArguments {
   std::string timeout = "300ms";
   bool arrays = false;
 };
-/// Reads all that a real controller tells, into an NV image and a photograph.
+/// Reads everything readable from a real controller into an NV image and a photograph.
 int take_photograph(ModelList models, const PhotographArguments& arguments);
 
 struct CompareArguments {
@@ -268,16 +267,16 @@ struct CompareArguments {
   std::string line;  // of the bench and of the captures; empty: the only one
   std::string from;  // an NV image: what the controller held at the beginning
   std::string tolerance = "1ms";
-  bool power_up = false;  // the captures begin with it
+  bool power_up = false;  // the captures begin at power-up
   bool json = false;
 };
-/// Plays captures of a real controller to a bench, and judges each reply.
+/// Plays captures of a real controller against a bench, and judges each reply.
 int compare_captures(ModelList models, const CompareArguments& arguments);
 
 struct CalibrateArguments {
   CompareArguments compare;
   std::string output;    // a file; empty: none
-  bool choices = false;  // print what a bench needs
+  bool choices = false;  // print the choices for a bench file
 };
 /// Finds the options of choices with which a bench replies as in captures.
 int calibrate_bench(ModelList models, const CalibrateArguments& arguments);
@@ -311,7 +310,7 @@ struct ImportArguments {
   std::string list;    // a file
   std::string output;  // the model file; empty: next to the list
   std::string name;    // the model's name; empty: as the list
-  // How the list is to be read; empty: guessed.
+  // Settings for reading the list; empty: guessed.
   std::string columns;
   std::string addresses;
   std::string table;

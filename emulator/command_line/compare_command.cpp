@@ -1,4 +1,4 @@
-// Implements `compare`: plays captures to a bench, and judges each reply.
+// Implements `compare`: plays captures against a bench, and judges each reply.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -43,7 +43,7 @@ std::string delay_text(SimTime time) {
   return text;
 }
 
-/// "118 same, 1 different"
+/// Returns "118 same, 1 different".
 std::string verdicts_text(const VerdictCounts& counts) {
   std::string text;
   for (const auto& [verdict, name] : box::kVerdictNames) {
@@ -56,7 +56,7 @@ std::string verdicts_text(const VerdictCounts& counts) {
   return text;
 }
 
-/// A request in words, without the values that it writes: the same for all requests that are alike.
+/// Returns a request in words without the values that it writes: the same for all similar requests.
 std::string request_kind(const std::string& request) { return request.substr(0, request.find(" = ")); }
 
 struct Compared {

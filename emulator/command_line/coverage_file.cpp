@@ -32,7 +32,7 @@ namespace {
 bool is_xml(const std::string& path) { return path.ends_with(".xml"); }
 bool is_page(const std::string& path) { return path.ends_with(".html"); }
 
-/// Files that a scenario reads and that may be programs.
+/// Returns the files that a scenario reads and that may be programs.
 std::vector<world::ProgramSource> sources_of(const play::Scenario& scenario) {
   std::vector<world::ProgramSource> sources;
   for (const FileClaim& claim : scenario.files) {

@@ -78,17 +78,17 @@ struct RunCoverage {
   CoverageFile programs;
   DeviceCoverageFile devices;
 };
-/// Returns what a run is asked for.
+/// Returns the coverage that a run's flags ask for.
 CoverageWish coverage_of(const RunArguments& arguments);
 
-/// Both kinds of a world that is served.
+/// Both kinds of coverage of a served world.
 class ServedCoverage {
  public:
-  /// Counts from this moment on, unless the path is empty, and so does the control socket, whose clients may
-  /// begin their count again. Throws GrowingFileError.
+  /// Counts from now on, unless the path is empty. So does the control socket, whose clients may restart
+  /// their count. Throws GrowingFileError.
   ServedCoverage(const ServeArguments& arguments, serve::Daemon& daemon);
 
-  /// Writes the files that are asked for.
+  /// Writes the requested files.
   void write();
 
  private:

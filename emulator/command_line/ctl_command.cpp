@@ -113,7 +113,8 @@ std::string listing_of(const std::string& path) {
   if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
   if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty())
     throw UsageError("ctl program: " + path + ": " + why);
-  // A command that failed before the pipe, or a file that was not saved, is not a wish to remove a program.
+  // An empty text comes from a failed command before the pipe, or an unsaved file. It must not remove the
+  // program.
   if (text->find_first_not_of(" \t\r\n") == std::string::npos)
     throw UsageError("ctl program: " + (path == "-" ? std::string("standard input is") : path + ": is") +
                      " empty; expected a listing");
@@ -318,7 +319,7 @@ std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
 }
 
-/// Prints what is odd in a program that was accepted.
+/// Prints the warnings about a program that was accepted.
 void print_warnings(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("warnings")) return;
   for (const Json& odd : reply.at("warnings")) {

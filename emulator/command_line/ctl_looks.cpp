@@ -37,7 +37,7 @@ std::int64_t require_whole(const ControlArguments& arguments, const std::string&
   return *number;
 }
 
-/// A word such as "find=speed": its key and its value, or nothing without "=".
+/// The key and the value of a word such as "find=speed".
 struct KeyedWord {
   std::string key;
   std::string value;

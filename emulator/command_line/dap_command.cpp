@@ -36,7 +36,7 @@ namespace understudy::emulator::command_line {
 namespace {
 
 constexpr std::size_t kMostRefused = 8;  // at a time; others are closed without a word
-constexpr int kLookMs = 500;             // for signals, and for sessions that have ended
+constexpr int kLookMs = 500;             // between checks for signals and ended sessions
 
 std::string text_in(const dap::Json& arguments, const char* key) {
   const std::string text = dap::text_or(arguments, key);
@@ -52,7 +52,7 @@ dap::Launched attach(const dap::Json& arguments) {
   return {.link = std::make_unique<dap::SocketLink>(choose_daemon(which))};
 }
 
-/// Returns the words that serve what is to be debugged. A scenario has been recorded.
+/// Returns the command line that serves the bench or recording to debug. A scenario has been recorded before.
 std::vector<std::string> words_to_serve(const dap::Json& arguments, std::string recording) {
   const std::string bench = text_in(arguments, "bench");
   const std::string model = text_in(arguments, "model");
@@ -107,7 +107,7 @@ void forget_ended(std::vector<pid_t>& processes) {
   std::erase_if(processes, [](pid_t one) { return waitpid(one, nullptr, WNOHANG) == one; });
 }
 
-/// Serves one client after the other. Who comes while one is served is told so.
+/// Serves one client after another. Clients that come meanwhile are refused with a reason.
 void serve_clients(const std::vector<Descriptor>& listeners) {
   std::vector<pid_t> serving;
   std::vector<pid_t> refusing;

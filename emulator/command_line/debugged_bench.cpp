@@ -34,7 +34,7 @@ namespace {
 constexpr std::chrono::seconds kStarting{60};  // a recording is played before it is served
 constexpr std::chrono::milliseconds kAgain{5};
 
-/// Returns the last line of what a program said, without its name.
+/// Returns the last line of a program's output, without its name.
 std::string last_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   const std::size_t before = text.rfind('\n');
@@ -60,7 +60,7 @@ QuietProgram::QuietProgram(std::vector<std::string> words)
   pointers.push_back(nullptr);
   pid_ = fork();
   if (pid_ != 0) return;
-  // It ends with this process, however that ends, and says nothing to the client.
+  // It ends with this process, however that ends, and its output does not reach the client.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kExitWell);
   const int nothing = open("/dev/null", O_RDWR);

@@ -1,4 +1,4 @@
-// What a debug adapter has started: this program, run again.
+// Starts the programs that a debug adapter needs.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// This program, run again. It ends with this process, and its log goes to a file in memory.
+/// Another process of this program. It ends with this process, and its log goes to a file in memory.
 class QuietProgram {
  public:
   explicit QuietProgram(std::vector<std::string> words);
@@ -22,19 +22,19 @@ class QuietProgram {
   void end();
   /// Returns its exit code, or nothing while it runs.
   std::optional<int> ended();
-  /// Returns the whole lines that it has logged since the last call.
+  /// Returns the complete lines that it has logged since the last call.
   std::string news();
 
  private:
   Descriptor said_;
-  off_t told_ = 0;  // of its bytes
+  off_t told_ = 0;  // how many bytes news() has returned
   pid_t pid_ = -1;
 };
 
-/// A scenario that has been run to its end, or to its failure.
+/// Runs a scenario to its end or its failure, and keeps the recording.
 class RecordedScenario {
  public:
-  /// Throws dap::RequestError if it cannot be run, or is more than one.
+  /// Throws dap::RequestError if it cannot be run, or has several cases.
   explicit RecordedScenario(const std::string& scenario);
   ~RecordedScenario();
   RecordedScenario(const RecordedScenario&) = delete;
@@ -45,14 +45,14 @@ class RecordedScenario {
  private:
   void find_recording();
 
-  std::string folder_;  // is removed with it
+  std::string folder_;  // removed at the end
   std::string recording_;
 };
 
 class DebuggedBench {
  public:
-  /// Runs `understudy WORDS --control SOCKET`, and returns when it answers there. Throws dap::RequestError
-  /// with what it said if it ends before.
+  /// Runs `understudy WORDS --control SOCKET`, and returns when it answers there. If it ends before, throws
+  /// dap::RequestError with its message.
   DebuggedBench(std::vector<std::string> words, const std::string& socket);
 
   void end() { program_.end(); }

@@ -1,5 +1,5 @@
-// The file of `--device-coverage`: what the hosts, programs and faults of all runs have exercised of the
-// devices.
+// The file of `--device-coverage`: the parts of the devices that hosts, programs and faults of all runs have
+// exercised.
 #pragma once
 
 #include <cstdio>

@@ -41,7 +41,7 @@ namespace {
 // These are the codes of timeout(1) and of shells.
 constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
-constexpr int kExitNoHostTime = 125;  // the command cannot live in simulated time
+constexpr int kExitNoHostTime = 125;  // the command cannot run in simulated time
 
 /// Puts everything without a given path into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
@@ -76,7 +76,7 @@ int tell_of(const CourseEnd& end, const play::Scenario& scenario) {
   return code;
 }
 
-/// Reports why the command's own exit code does not count, if it does not.
+/// Returns the exit code. If it is not the command's own, reports why.
 int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   const std::string command = one_line(arguments.host.command[0]);
   if (end.has_timed_out) {
@@ -162,7 +162,7 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
   return code;
 }
 
-/// Runs the command several times, and compares what happened.
+/// Runs the command several times, and compares the recordings.
 int execute_repeatedly(ModelList models, const ExecArguments& arguments, int times) {
   if (!arguments.host.host_time)
     throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
@@ -230,8 +230,8 @@ void require_bench_flags(const ExecArguments& arguments) {
   require_none(of_cases, "is for the cases of a scenario; expected a scenario instead of the bench");
 }
 
-/// Returns an exit code if the command cannot be what runs in each case, and says why. A program whose name
-/// depends on the case is looked for when it is started.
+/// Returns an exit code, and says why, if the command cannot run in each case. A program whose name depends
+/// on the case is checked when it is started.
 std::optional<int> code_of_unusable(const HostArguments& host) {
   const std::string& program = host.command[0];
   if (program.find("${") != std::string::npos) return std::nullopt;

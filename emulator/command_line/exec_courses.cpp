@@ -18,7 +18,7 @@ namespace {
 // A line begins with the time and the word of the event.
 constexpr std::size_t kLongestBegin = 48;
 
-/// The event's simulated time; every event begins with it.
+/// Returns the event's simulated time. Every event begins with it.
 std::string time_in(std::string_view event) {
   constexpr std::string_view kBegin = "{\"t\":";
   if (!event.starts_with(kBegin)) return "its end";
@@ -44,7 +44,7 @@ std::string without_waits(std::string_view text) {
   return rest;
 }
 
-/// Returns the line in which the place lies.
+/// Returns the line that contains the place.
 std::string_view line_at(std::string_view text, std::size_t place) {
   const std::size_t before = place == 0 ? std::string_view::npos : text.rfind('\n', place - 1);
   const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;

@@ -9,9 +9,9 @@ namespace understudy::emulator::command_line {
 
 class Courses {
  public:
-  /// Adds the recording of the next run. Returns the first difference from the first run, in one line, if
-  /// its course is new; otherwise an empty text. What the threads of the host waited for does not count: it
-  /// has not reached the devices.
+  /// Adds the recording of the next run. Returns the first difference from the first run, in one line, if its
+  /// course is new; otherwise an empty text. The waits of the host's threads do not count, because they have
+  /// not reached the devices.
   std::string add(const std::string& recording);
   std::size_t count() const { return courses_.size(); }
   /// Returns a line about all runs: "20 runs, all the same".

@@ -1,4 +1,5 @@
-// What led to the failure of a scenario, from its recording: the same text that the live page shows.
+// Lists the events that led to the failure of a scenario, from its recording. The live page shows the same
+// text.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns a line for each event that led there, or none if the recording cannot be replayed.
+/// Returns a line for each such event, or none if the recording cannot be replayed.
 std::vector<std::string> what_led_to_it(ModelList models, const std::string& recording);
 
 }  // namespace understudy::emulator::command_line

@@ -32,7 +32,7 @@ constexpr FindingRule kFindingRules[] = {
 
 std::string rule_of(const CheckedFile& checked) { return "understudy/" + checked.kind; }
 
-/// Returns "file:4:9: ", with the known parts of the position.
+/// Returns the known parts of a position, such as "file:4:9: ".
 std::string place_text(const FilePlace& place) {
   std::string text = place.file + ":";
   if (place.line > 0) text += std::to_string(place.line) + ":";

@@ -1,6 +1,6 @@
-// This file and app_words.cpp are the only ones that include CLI11, because it is slow to compile. Building
-// all flags takes longer than most commands run, so the parser leaves out commands whose names are not on the
-// command line. For errors and help, it is built again with all commands.
+// Only this file and app_words.cpp are compiled with CLI11, because that is slow. Building all flags takes
+// longer than most commands run, so the parser leaves out commands whose names are not on the command line.
+// For errors and help, it is built again with all commands.
 #include "emulator/command_line/flags.h"
 
 #include <CLI/CLI.hpp>

@@ -33,14 +33,14 @@ namespace understudy::emulator::command_line {
 namespace {
 
 constexpr serve::WallTime kUsualTimeout = std::chrono::seconds(60);
-constexpr std::size_t kToldLines = 5;     // of what the command has printed last
-constexpr std::size_t kToldBytes = 2000;  // of these
+constexpr std::size_t kToldLines = 5;     // the last lines of the command's output
+constexpr std::size_t kToldBytes = 2000;  // their bytes, at most
 
 bool is_command_end(const play::Step& step) {
   return std::holds_alternative<play::CommandEndStep>(step.what);
 }
 
-/// A file that has no name any more.
+/// Makes a file for output, and removes its name at once.
 Descriptor make_output(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0600));
   if (!file) throw std::system_error(errno, std::generic_category(), path);
@@ -70,8 +70,8 @@ std::vector<std::string> last_lines(int file) {
   return lines;
 }
 
-/// Ports with their links in the folder, and memories that are never written. In real time cases that run
-/// side by side cannot listen at the same addresses, so they do not listen at any.
+/// Returns a setup with links in the folder and memories that are never written. In real time, cases that
+/// run side by side cannot listen at the same addresses, so they do not listen at any.
 Serving serving_of(const play::Scenario& scenario, const RunArguments& arguments, const std::string& folder,
                    const std::string& recording) {
   Serving serving;
@@ -93,7 +93,7 @@ Serving serving_of(const play::Scenario& scenario, const RunArguments& arguments
   return serving;
 }
 
-/// Returns a word as a shell wants it written.
+/// Returns a word, quoted for a shell if necessary.
 std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -105,7 +105,7 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-/// Returns the words that run this case alone, with all that decides what it does.
+/// Returns the command line that runs this case alone, with all flags that affect it.
 std::string rerun_of(const play::Scenario& scenario, const RunArguments& arguments) {
   const HostArguments& host = arguments.host;
   std::string text = "exec " + shell_word(scenario.file);

@@ -1,4 +1,4 @@
-// One case of a campaign over a host program: `exec SCENARIO -- COMMAND`.
+// Runs one case of a campaign over a host program: `exec SCENARIO -- COMMAND`.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ namespace understudy::emulator::command_line {
 void require_steps_for(const play::Scenario& scenario, bool has_command);
 
 /// Runs the scenario with its command on ports of its own. The command must exit with code 0, unless the
-/// scenario has a `host` step. `recording` is where the recording goes.
+/// scenario has a `host` step. `recording` is the path of the recording.
 std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, play::RunOptions options,
                                                 const RunArguments& arguments, const std::string& recording);
 

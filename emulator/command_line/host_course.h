@@ -1,5 +1,5 @@
-// One course of a command beside a bench: the bench is served until the command, and the scenario beside it,
-// have ended.
+// Runs a command beside a bench. The bench is served until the command, and the scenario beside it, have
+// ended.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,8 @@ struct CourseSetup {
   std::optional<serve::WallTime> timeout{};
   const play::Scenario* scenario = nullptr;  // null: none
   play::RunOptions run{};                    // of the scenario; its executor is replaced
-  /// Where the command's output goes. If it is not ours (-1), the command has no terminal either, and it ends
-  /// with a scenario that has failed or has nothing more to do with it.
+  /// A descriptor for the command's output. If it is not ours (-1), the command has no terminal either, and
+  /// it is ended when the scenario has failed or no longer needs it.
   int output = -1;
 };
 
@@ -44,7 +44,7 @@ std::optional<serve::WallTime> parse_timeout(const std::string& text);
 /// Throws UsageError if two lines would have the same variable.
 void require_variables(const world::Bench& bench);
 
-/// Runs a course. The command is told its ports by environment variables. Throws ChildError and the errors of
+/// Runs a course. Environment variables tell the command its ports. Throws ChildError and the errors of
 /// Daemon.
 CourseEnd run_course(CourseSetup setup, const ServeArguments& flags, serve::ParentSignals& signals);
 

@@ -38,7 +38,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Returns when the hunt is to end; nothing if only the number of courses ends it.
+/// Returns the end of the hunt, or nothing if only the number of courses ends it.
 std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
   constexpr auto kUsual = std::chrono::seconds(60);
   if (arguments.time.empty()) {
@@ -90,7 +90,7 @@ std::string rate_text(double rate) {
   return figures;
 }
 
-/// Returns the line that a terminal shows.
+/// Makes the line of progress for a terminal.
 class HuntProgress {
  public:
   explicit HuntProgress(const hunt::Hunt& hunt) : hunt_(hunt) {}
@@ -137,7 +137,8 @@ void print_curve(const hunt::Hunt& hunt) {
   }
 }
 
-/// Plays the courses that reached something new once more, and prints what none of them has reached.
+/// Plays the courses that reached something new again, and prints the lines and parts that none of them
+/// reached.
 void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
   hunt.play_corpus([&](const play::Scenario& scenario) {
     return std::vector{coverage.programs.observer(scenario), coverage.devices.observer()};

@@ -1,4 +1,4 @@
-// The files of `hunt`: what was found, and the corpus.
+// The files of `hunt`: the findings and the corpus.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace understudy::emulator::command_line {
 
-/// Keeps what is found in a folder, and tells people about it.
+/// Keeps findings in a folder, and prints them.
 class FoundFiles {
  public:
-  /// Throws UsageError if the folder cannot be one.
+  /// Throws UsageError if the path is a file.
   FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims);
 
   /// Writes and prints a finding. Throws GrowingFileError.

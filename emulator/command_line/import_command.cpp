@@ -62,7 +62,7 @@ std::string counts_text(const std::vector<models::imported::ListedRegister>& reg
          ")";
 }
 
-/// Returns what the flags say about the list.
+/// Returns the settings for reading the list, as the flags give them.
 model_file::ListReading reading_of(const ImportArguments& arguments) {
   model_file::ListReading reading{.guesses_addresses = true, .encoding = arguments.encoding};
   const auto index_in = [](const auto& words, const std::string& flag, const std::string& word) {

@@ -1,4 +1,4 @@
-// Writes files that a user starts from.
+// Writes the first files of a user.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Implements `understudy page`, the live page of running benches, and the page of a `serve`.
+// Implements `understudy page`, the live page of running benches, and `serve --page`.
 #include <sys/prctl.h>
 #include <sys/types.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Implements `photograph`: reads all that a real controller tells.
+// Implements `photograph`: reads everything readable from a real controller.
 #include <unistd.h>
 
 #include <chrono>
@@ -74,14 +74,14 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
           .has_arrays = arguments.arrays};
 }
 
-/// Checks a path before anything is asked, because that takes seconds. Nothing is created if it fails.
+/// Checks a path before the controller is asked, which takes seconds. It creates nothing.
 void require_writable(FileClaims& claims, const std::string& path, ContentKind kind) {
   require_output(claims, "--output", path);
   if (const std::string why = why_not_writable(path, kind); !why.empty())
     throw UsageError("--output: " + path + " cannot be written: " + why);
 }
 
-/// Shows on a terminal what is asked.
+/// Shows the progress on a terminal.
 class AskedLine {
  public:
   ~AskedLine() {

@@ -340,7 +340,7 @@ bool answers_at_0(ModelList models, const PollArguments& arguments) {
   return numbers && numbers->lowest == 0;
 }
 
-/// Returns all items to poll. `low_word_first` is as above.
+/// Returns all items to poll. `low_word_first` is as in parse_item().
 std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
                            std::optional<bool> low_word_first) {
   std::vector<Item> items;

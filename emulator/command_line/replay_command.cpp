@@ -83,13 +83,13 @@ class Rememberer final : public world::ReplayWatcher {
   std::vector<world::RecordedEvent>& events_;
 };
 
-/// A recording that has been replayed as a whole, to move in.
+/// A recording that has been replayed as a whole, so its timeline can show any moment.
 struct Travelled {
   world::Replayed replayed;
   serve::TimelineSetup setup;
 };
 
-/// Replays the whole recording, to show any moment of it, at first `at`, the failure or the beginning. A
+/// Replays the whole recording. The timeline shows `at` first, or else the failure or the beginning. A
 /// recording that differs is shown up to the difference.
 Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   std::ifstream file(arguments.recording, std::ios::binary);

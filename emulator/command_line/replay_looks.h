@@ -40,7 +40,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   std::unique_ptr<play::RunLogger> run_logger_;  // for the page
 };
 
-/// Returns the result for the page. `seen` is what the looks have collected.
+/// Returns the result for the page. `seen` has the content that ReplayLooks has collected.
 play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,
                                play::ScenarioResult seen);
 

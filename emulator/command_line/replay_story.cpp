@@ -26,7 +26,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// A daemon of the recording's bench to which nothing is connected: no port and no socket.
+/// A daemon of the recording's bench without ports and without a control socket.
 class Teller {
  public:
   explicit Teller(serve::TimelineSetup setup)

@@ -1,4 +1,4 @@
-// Tells a recording as a file: `replay --export`, `--picture`.
+// Writes the page or a picture of a recording: `replay --export`, `--picture`.
 #pragma once
 
 #include "emulator/command_line/commands.h"
@@ -6,13 +6,13 @@
 
 namespace understudy::emulator::command_line {
 
-/// Checks the flags for files that tell a recording. Throws UsageError.
+/// Checks the flags for these files. Throws UsageError.
 void require_story_flags(const ReplayArguments& arguments);
 
-/// Returns true if a file was asked for.
+/// Returns true if the flags ask for a file.
 bool wants_story(const ReplayArguments& arguments);
 
-/// Writes the files. The recording has been played.
+/// Writes the files of a recording that has been replayed.
 void tell_story(const ReplayArguments& arguments, serve::TimelineSetup setup);
 
 }  // namespace understudy::emulator::command_line

@@ -25,7 +25,7 @@ inline constexpr std::string_view kStandardOutput = "-";
 /// files, such as /dev/stdout, are allowed.
 class ResultFile {
  public:
-  /// With an empty path, nothing is written.
+  /// An empty path means that nothing is written.
   ResultFile(const char* flag, const std::string& path, ContentKind kind) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {

@@ -210,7 +210,7 @@ void require_flags_that_agree(const RunArguments& arguments) {
   }
 }
 
-/// How failures get their recordings.
+/// Returns how failures get their recordings.
 Recorded recorded_by(const RunArguments& arguments) {
   if (has_command(arguments)) return Recorded::apart;
   return arguments.real_time ? Recorded::always : Recorded::again;
@@ -294,7 +294,7 @@ class Stagehand {
   play::RunOptions options_{};
 };
 
-/// Makes what runs cases for each thread. A case with a command runs in a process of its own.
+/// Makes a function for each thread that runs cases. A case with a command runs in a separate process.
 class Players {
  public:
   Players(const Stagehand& stagehand, const play::CaseList& case_list, bool have_processes, int threads)

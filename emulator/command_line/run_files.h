@@ -20,8 +20,8 @@ namespace understudy::emulator::command_line {
 
 /// The folders for the files of each scenario. `run` makes them if needed. An empty path means no files.
 struct RunFolders {
-  std::string recordings;  // for all recordings; if empty, the first failure of each kind is recorded:
-  std::string failures;    // in this folder, or, if empty, below /tmp
+  std::string recordings;  // for all recordings; empty: only first failures are recorded
+  std::string failures;    // for those of first failures; empty: below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
@@ -31,10 +31,10 @@ struct RunFolders {
 /// paths that cannot be folders.
 void require_folders(const FileClaims& claims, const RunFolders& folders);
 
-/// How failures get their recordings.
+/// The way in which failures get their recordings.
 enum class Recorded : std::uint8_t {
   again,   // a varied case runs once more if it is to be recorded
-  always,  // no case comes twice
+  always,  // every case is recorded, because none can run again
   apart,   // the run makes a recording itself
 };
 

@@ -109,8 +109,8 @@ void print(const std::vector<std::string>& lines) {
   std::fflush(stdout);
 }
 
-/// Holds the content of one reply. Later replies may be refused, for example without power; then it shows the
-/// refusal.
+/// Makes the lines of the display from replies. A later reply may be a refusal, for example without power,
+/// which it then shows.
 class Shown {
  public:
   explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}

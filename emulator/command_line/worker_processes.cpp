@@ -24,7 +24,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// What a worker answers.
+/// A worker's reply to a case.
 struct Answer {
   std::string error;  // empty: none
   std::vector<play::ScenarioResult> results;
@@ -72,7 +72,7 @@ bool put(int wire, const Answer& answer) {
   return put(wire, &size, sizeof size) && put(wire, bytes.data(), bytes.size());
 }
 
-/// Ends with its parent, however that ends.
+/// Runs cases until the parent closes the wire or ends.
 [[noreturn]] void work(int wire, pid_t parent, const std::function<play::Play()>& make_play) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);

@@ -1,5 +1,4 @@
-// Runs cases in processes of their own: a case with a command has children and signals, of which a process
-// has one set.
+// Runs cases in separate processes, because a case with a command needs its own children and signals.
 #pragma once
 
 #include <sys/types.h>
@@ -16,16 +15,16 @@ namespace understudy::emulator::command_line {
 
 class WorkerProcesses {
  public:
-  /// Starts `count` processes, each of which makes a Play. Must be called while this process has one thread.
+  /// Starts `count` processes; each makes a Play. Must be called while this process has one thread.
   WorkerProcesses(int count, const std::function<play::Play()>& make_play);
-  /// Lets them end, and waits for that.
+  /// Ends them, and waits until they have ended.
   ~WorkerProcesses();
   WorkerProcesses(const WorkerProcesses&) = delete;
   WorkerProcesses& operator=(const WorkerProcesses&) = delete;
 
   std::size_t count() const { return workers_.size(); }
-  /// Runs a case in that worker, which no other thread may use meanwhile. Throws pty::PortError with the
-  /// message of what the worker has thrown, or if it has ended.
+  /// Runs a case in that worker, which no other thread may use meanwhile. Throws pty::PortError if the worker
+  /// has ended, or with the message of its exception.
   std::vector<play::ScenarioResult> play(std::size_t worker, const play::CaseId& which_case) const;
 
  private:

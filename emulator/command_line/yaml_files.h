@@ -1,4 +1,4 @@
-// Replaces folders among the arguments of `run` and `check` by their files.
+// Replaces folders among the arguments of `run` and `check` with their files.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::array<std::string_view, 2> kYamlEndings{".yaml", ".yml"};
 /// and folders that are links are left out. Throws FileError if a folder cannot be read, or has none.
 std::vector<std::string> files_below(const std::string& folder, std::span<const std::string_view> endings);
 
-/// Replaces each folder by its files.
+/// Replaces each folder with its files.
 std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths,
                                              std::span<const std::string_view> endings);
 

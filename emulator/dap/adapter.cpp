@@ -21,7 +21,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-// How often it looks at the bench, and for signals.
+// The intervals between checks of the bench and of signals.
 constexpr int kRunningMs = 20;
 constexpr int kStoppedMs = 100;
 constexpr int kRefusedMs = 2000;  // for the first request of a client that is refused
@@ -41,7 +41,7 @@ std::string text_of_message(const Json& message) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Answers all requests that are whole. Returns why nothing more can be read, or an empty text.
+/// Answers all complete requests. Returns why nothing more can be read, or an empty text.
 std::string handle_all(Session& session, Unframer& unframer) {
   try {
     while (!session.is_over()) {

@@ -9,7 +9,7 @@
 namespace understudy::emulator::dap {
 
 /// Serves until the client ends the session, or goes away, or `is_interrupted` returns true after a signal.
-/// Returns an empty text, or one sentence: what came was not the protocol, and nothing behind it can be read.
+/// Returns an empty text, or one sentence if the input is not the protocol; nothing after it can be read.
 std::string serve_session(int input, int output, const Launcher& launcher,
                           const std::function<bool()>& is_interrupted);
 

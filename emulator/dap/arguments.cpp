@@ -11,7 +11,7 @@ namespace understudy::emulator::dap {
 namespace {
 
 constexpr int kDeepest = 64;
-constexpr std::int64_t kGreatest = std::int64_t{1} << 53U;  // JavaScript's
+constexpr std::int64_t kGreatest = std::int64_t{1} << 53U;  // JavaScript's numbers are exact up to this
 
 RequestError is_not(const char* key, const char* expected) {
   return RequestError(std::string(key) + ": expected " + expected);

@@ -81,12 +81,12 @@ void SocketLink::pause() {
   ask({{"do", "pause"}});
   while (awaited_.get() >= 0) {
     pollfd wait{.fd = awaited_.get(), .events = POLLIN, .revents = 0};
-    if (poll(&wait, 1, kAgainMs) == 0) ask({{"do", "pause"}});  // it came before the advance began
+    if (poll(&wait, 1, kAgainMs) == 0) ask({{"do", "pause"}});  // `pause` came before the advance began
     try {
       take_reply();
     } catch (const GoneError&) {
       throw;
-    } catch (const RequestError&) {  // nobody wants to know any more
+    } catch (const RequestError&) {  // nobody needs the reply any more
     }
   }
 }

@@ -1,4 +1,4 @@
-// The control messages of a daemon, as a debug adapter uses them.
+// Exchanges control messages between a debug adapter and a daemon.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ namespace understudy::emulator::dap {
 
 using Json = nlohmann::ordered_json;
 
-/// A request is refused. The message is one sentence.
+/// Thrown if a request is refused. The message is one sentence.
 struct RequestError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The daemon is not there any more.
+/// Thrown if the daemon has gone.
 struct GoneError : RequestError {
   using RequestError::RequestError;
 };
@@ -28,7 +28,7 @@ class BenchLink {
  public:
   virtual ~BenchLink() = default;
 
-  /// Returns the reply. Throws RequestError if the daemon refuses, GoneError if it is not there.
+  /// Returns the reply. Throws RequestError if the daemon refuses, GoneError if it has gone.
   virtual Json ask(const Json& message) const = 0;
   /// Returns one member of the reply, or null.
   Json ask_for(const char* member, const Json& message) const { return ask(message).value(member, Json()); }
@@ -36,19 +36,19 @@ class BenchLink {
   virtual void begin(const Json& message) = 0;
   /// Returns true while that reply is awaited.
   virtual bool is_awaiting() const = 0;
-  /// Returns the descriptor at which it comes, or -1.
+  /// Returns the descriptor on which it arrives, or -1.
   virtual int awaited() const = 0;
-  /// Returns the reply once it is whole. Throws RequestError if it is a refusal,
-  /// GoneError if it never comes.
+  /// Returns the reply once it is complete. Throws RequestError if it is a refusal, GoneError if it never
+  /// comes.
   virtual std::optional<Json> take_reply() = 0;
   /// Ends the advance whose reply is awaited, and drops the reply.
   virtual void pause() = 0;
 };
 
-/// Returns a reply, or throws the RequestError that it is.
+/// Parses a reply. Throws RequestError if it is a refusal.
 Json judged_reply(const std::string& line);
 
-/// Over a daemon's control socket.
+/// Talks to a daemon over its control socket.
 class SocketLink final : public BenchLink {
  public:
   explicit SocketLink(std::string socket) : socket_(std::move(socket)) {}

@@ -1,4 +1,4 @@
-// Breakpoints of a session: those of a source, of data, and of events.
+// Sets the breakpoints of a session: in sources, on data, and on events.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-/// Adds what each kind of breakpoint may have.
+/// Adds the fields that every kind of breakpoint may have.
 void add_common(const Json& wanted, Json& message) {
   const std::string condition = text_or(wanted, "condition");
   if (!condition.empty()) message["when"] = condition;
@@ -55,7 +55,7 @@ std::vector<std::string_view> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Returns the first difference between a file and what the device has; nothing if they are equal.
+/// Returns the first difference between a file and the device's program, or an empty text.
 std::string difference(const std::string& device, const std::string& file, const std::string& loaded) {
   const auto in_file = lines_of(file);
   const auto in_device = lines_of(loaded);
@@ -72,7 +72,7 @@ std::string difference(const std::string& device, const std::string& file, const
 
 }  // namespace
 
-/// Deletes ours from the bench, and leaves them known to the session.
+/// Deletes the session's breakpoints from the bench, but not from the session.
 void Session::delete_from_bench() {
   for (SetPoint& point : points_) {
     if (point.number == 0) continue;
@@ -86,7 +86,7 @@ void Session::delete_from_bench() {
   }
 }
 
-/// Sets all anew: their counts of hits begin again.
+/// Sets all breakpoints again; their hit counts restart.
 void Session::set_again() {
   for (SetPoint& point : points_) {
     try {
@@ -110,7 +110,7 @@ void Session::delete_those(const std::string& key) {
   points_ = std::move(others);
 }
 
-/// Sets a breakpoint. A refusal is told in it: the others of a request are set all the same.
+/// Sets a breakpoint. The reply reports a refusal, so the other breakpoints of a request are still set.
 Json Session::set_one(const std::string& key, int id, Json message) {
   try {
     const Json set = link_->ask(message)["breakpoint"];
@@ -131,8 +131,8 @@ Json Session::set_one(const std::string& key, int id, Json message) {
   }
 }
 
-/// Returns the devices that run a source. If none does, `why_none` says so. `what_differs` tells how a file
-/// differs from what they have loaded.
+/// Returns the devices that run a source. If none does, `why_none` says so. `what_differs` says how the file
+/// differs from the programs that they have loaded.
 std::vector<std::size_t> Session::devices_with(const Json& source, std::string& why_none,
                                                std::string& what_differs) {
   if (const auto reference = whole_or(source, "sourceReference", 0); reference > 0)
@@ -167,7 +167,7 @@ std::vector<std::size_t> Session::devices_with(const Json& source, std::string& 
   return found;
 }
 
-/// Sets a line's breakpoint in all devices. The first one's is told.
+/// Sets a line's breakpoint in all devices. Returns that of the first one.
 Json Session::set_line(const std::string& key, const Json& wanted, const std::vector<std::size_t>& devices) {
   const int id = ++last_id_;
   Json told;

@@ -1,4 +1,4 @@
-// Expressions that a session evaluates, and values that it sets.
+// Evaluates expressions, sets values, and completes names.
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -30,7 +30,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text);
 }
 
-/// Returns where "NAME = VALUE" has its sign, or npos.
+/// Returns the position of the equals sign in "NAME = VALUE", or npos.
 std::size_t assignment_in(const std::string& text) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0) return std::string::npos;
@@ -46,7 +46,7 @@ std::string told_value(const Json& reply) {
 
 }  // namespace
 
-/// Returns the device whose name stands in front.
+/// Returns the device whose name the text begins with, or the first device.
 std::size_t Session::device_of_name(const std::string& whole) const {
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     if (whole == devices_[d].name || whole.starts_with(devices_[d].name + ".")) return d;
@@ -54,7 +54,7 @@ std::size_t Session::device_of_name(const std::string& whole) const {
   return 0;
 }
 
-/// Returns the name with its device: a name without one is the frame's device's.
+/// Returns the name with its device. A name without one belongs to the frame's device.
 std::string Session::whole_name(const std::string& name, std::size_t device) const {
   for (const DeviceInfo& one : devices_) {
     if (name.starts_with(one.name + ".")) return name;
@@ -118,7 +118,7 @@ Json Session::evaluate(const Json& arguments) {
   return {{"result", told_value(value_of(text, device))}, {"variablesReference", 0}};
 }
 
-/// Sets a register, a value or an input to the value of an expression. Returns what it then is.
+/// Sets a register, a value or an input to the value of an expression. Returns its new value.
 Json Session::set_value(const std::string& whole, const std::string& value) const {
   const std::size_t device = device_of_name(whole);
   const Json to = value_of(trimmed(value), device)["value"];
@@ -127,7 +127,7 @@ Json Session::set_value(const std::string& whole, const std::string& value) cons
   } catch (const GoneError&) {
     throw;
   } catch (const RequestError&) {
-    // What is not a register may be an input; if it is neither, the first refusal says more.
+    // A name that is not a register may be an input; if it is neither, the first refusal says more.
     bool is_input = false;
     try {
       link_->ask({{"do", "input"}, {"values", {{whole, to}}}});
@@ -137,7 +137,7 @@ Json Session::set_value(const std::string& whole, const std::string& value) cons
     } catch (const RequestError&) {
     }
     if (!is_input) throw;
-    return {{"value", to}};  // the device looks at it in the next tick
+    return {{"value", to}};  // the device reads it in the next tick
   }
   const Json now = link_->ask({{"do", "get"}, {"names", {whole}}});
   Json told{{"value", now["values"][whole]}};
@@ -181,7 +181,7 @@ Json Session::set_expression(const Json& arguments) {
   return {{"value", told_value(set_value(whole_name(name, device), require_text(arguments, "value")))}};
 }
 
-/// Returns names that have that part: those that its program uses come first.
+/// Returns names that contain the part: those that its program uses come first.
 std::vector<std::string> Session::names_of(const DeviceInfo& device, const std::string& part) const {
   std::vector<std::string> names;
   const auto add = [&](const Json& message, const char* list, const auto& take) {
@@ -204,7 +204,7 @@ std::vector<std::string> Session::names_of(const DeviceInfo& device, const std::
   return names;
 }
 
-/// Proposes names that go on with the word before the cursor: devices, axes' values, registers.
+/// Proposes names that begin with the word before the cursor: devices, axes' values, registers.
 Json Session::completions(const Json& arguments) {
   const std::string text = require_text(arguments, "text");
   const auto column = static_cast<std::size_t>(std::clamp<std::int64_t>(

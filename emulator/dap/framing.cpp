@@ -38,7 +38,7 @@ std::size_t length_in(std::string_view head) {
 
 std::optional<std::string> Unframer::take() {
   const std::size_t end = bytes_.find(kEnd);
-  // Of the end, three bytes can have come with a head that is not too long.
+  // After a head that is not too long, three of the end's four bytes may have arrived.
   if (std::min(end, bytes_.size()) > kLongestHead + (end == std::string::npos ? kEnd.size() - 1 : 0))
     throw FramingError("the head of a message has no end; expected at most 1024 bytes and an empty line");
   if (end == std::string::npos) return std::nullopt;

@@ -1,4 +1,5 @@
-// The frames of the Debug Adapter Protocol: "Content-Length: N", an empty line, and N bytes of JSON.
+// Makes and reads the frames of the Debug Adapter Protocol: "Content-Length: N", an empty line, and N bytes
+// of JSON.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace understudy::emulator::dap {
 
-/// What comes is no frame, and nothing behind it can be read. The message is one line.
+/// Thrown if the input is not a frame; nothing after it can be read. The message is one line.
 struct FramingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -20,7 +21,7 @@ inline constexpr std::size_t kLongestHead = 1024;
 class Unframer {
  public:
   void push(std::string_view bytes) { bytes_ += bytes; }
-  /// Returns the next message, or nothing if it has not come whole. Throws FramingError.
+  /// Returns the next message, or nothing if it is not complete yet. Throws FramingError.
   std::optional<std::string> take();
   bool is_empty() const { return bytes_.empty(); }
 

@@ -1,4 +1,4 @@
-// Goes on and stops: requests, and what happens on the bench meanwhile.
+// Continues, steps and pauses on request, and follows what happens on the bench meanwhile.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,7 +14,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-constexpr int kMostPages = 50;  // of events in one look
+constexpr int kMostPages = 50;  // pages of events in one look
 
 }  // namespace
 
@@ -60,7 +60,7 @@ Json Session::reverse(const Json& /*arguments*/) {
   return nullptr;
 }
 
-/// A refusal comes with the reply that tells the end of the step (look()).
+/// A refusal arrives in the reply at the end of the step (look()).
 Json Session::step(const Json& arguments, const char* what, bool is_back) {
   const Thread& thread = thread_of(arguments);
   goes_back_ = is_back;
@@ -76,7 +76,7 @@ Json Session::step(const Json& arguments, const char* what, bool is_back) {
   return nullptr;
 }
 
-/// The stop itself is seen by look(). A recording stops by itself, at its end.
+/// look() sees the stop itself. A recording stops by itself, at its end.
 Json Session::pause(const Json& /*arguments*/) {
   if (is_recording_) return nullptr;
   link_->ask({{"do", "pause"}});
@@ -96,7 +96,7 @@ const char* Session::reason_of(const Json& stop, Json& body) const {
   return "breakpoint";
 }
 
-/// The bench has stopped, where `stop` says, or for the reason given.
+/// Reports that the bench has stopped: where `stop` says, or for the given reason.
 void Session::stands(const Json& stop, const char* reason, const std::string& text) {
   phase_ = Phase::stopped;
   wants_pause_ = false;
@@ -128,7 +128,7 @@ void Session::stands(const Json& stop, const char* reason, const std::string& te
   event("stopped", std::move(body));
 }
 
-/// Shows what logpoints print. Tells which breakpoints are elsewhere after another program was loaded.
+/// Shows the output of logpoints. Reports breakpoints that have moved because another program was loaded.
 void Session::hear_events(const Json& events) {
   bool may_have_moved = false;
   std::map<int, Json> places;  // of logpoints, by their numbers
@@ -159,7 +159,7 @@ void Session::hear_events(const Json& events) {
   }
 }
 
-/// Returns what the bench tells of itself, after its events.
+/// Handles the new events of the bench, then returns its state.
 Json Session::look_at_bench() {
   Json seen;
   for (int page = 0; page < kMostPages; ++page) {
@@ -177,16 +177,16 @@ Json Session::look_at_bench() {
   return seen;
 }
 
-/// The clock may have been stopped, or let go, by something that was no request of this session.
+/// Follows a clock that something other than this session has stopped or started.
 void Session::follow(const Json& seen) {
   if (link_->is_awaiting()) {
-    // The advance may have begun after `pause` had come.
+    // The advance may have begun after the `pause`.
     if (wants_pause_ && seen.value("advancing", false)) link_->ask({{"do", "pause"}});
     return;
   }
   const bool is_held = (is_manual_ || seen.value("paused", false)) && !seen.value("advancing", false);
   if (phase_ == Phase::running && is_held) return stands(seen.value("stop", Json()), "pause");
-  if (phase_ == Phase::stopped && !is_held) {  // somebody else lets it go on
+  if (phase_ == Phase::stopped && !is_held) {  // somebody else has continued it
     phase_ = Phase::running;
     event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});
   }
@@ -212,7 +212,7 @@ void Session::look() {
       refusal = error.what();
       reply = Json::object();
     }
-    // What led to an earlier moment has been told before.
+    // The events before an earlier moment have been reported already.
     if (reply && goes_back_)
       next_event_ = link_->ask({{"do", "events"}, {"last", 0}}).value("next", next_event_);
     const Json seen = look_at_bench();

@@ -1,4 +1,4 @@
-// Begins and ends a session with a bench.
+// Starts and ends a session with a bench.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAtLaunch = "dap";  // the snapshot to which `restart` goes back
 
-/// Returns the course of a recording, or null: only a daemon that serves one knows it.
+/// Returns the timeline of a recording, or null: only a daemon that serves one has it.
 Json timeline_of(const BenchLink& link) {
   try {
     return link.ask({{"do", "timeline"}})["timeline"];
@@ -93,7 +93,7 @@ void Session::map_sources(const Json& arguments) {
   }
 }
 
-/// Tells where hosts find the lines of a launched bench.
+/// Prints where hosts find the lines of a launched bench.
 void Session::say_ports() {
   if (is_recording_) return;
   const Json daemon = link_->ask({{"do", "identify"}})["daemon"];
@@ -130,7 +130,7 @@ Json Session::configuration_done(const Json& /*arguments*/) {
   return nullptr;
 }
 
-/// Tells where it stands when all is configured. The recording of a failure stands there.
+/// Reports the first stop, after the configuration. The recording of a failure stands at the failure.
 void Session::stands_at_entry() {
   if (failure_.empty() || stops_at_entry_) return stands(Json(), "entry");
   say(failure_ + "\n");
@@ -176,7 +176,7 @@ void Session::end() {
   if (!link_) return;
   try {
     if (!launched_.end) {
-      // A step that is under way has stopped the clock as well.
+      // A step in progress has stopped the clock as well.
       const bool is_held = phase_ == Phase::stopped || link_->is_awaiting();
       if (link_->is_awaiting() && !is_recording_) link_->pause();
       delete_from_bench();

@@ -1,4 +1,4 @@
-// Receives requests, looks for who answers each, and sends replies and events.
+// Receives requests, calls the function that answers each, and sends replies and events.
 #include "emulator/dap/session.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::string_view word_of(Phase phase) {
   return {};
 }
 
-/// What stops the bench besides breakpoints at lines and values.
+/// An event that can stop the bench, besides breakpoints on lines and values.
 struct Filter {
   const char* name;
   const char* label;

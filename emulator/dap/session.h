@@ -1,4 +1,4 @@
-// A session of the Debug Adapter Protocol: it answers requests by messages to a daemon's control socket.
+// A session of the Debug Adapter Protocol. It answers requests by sending messages to a daemon.
 #pragma once
 
 #include <cstddef>
@@ -20,10 +20,10 @@ namespace understudy::emulator::dap {
 struct Launched {
   std::unique_ptr<BenchLink> link;
   std::function<void()> end{};          // ends it; empty if it is not ours
-  std::function<std::string()> news{};  // what it has said since the last call; may be empty
+  std::function<std::string()> news{};  // what it has printed since the last call; may be empty
 };
 /// Starts or finds a daemon for the request `launch` or `attach` with these arguments. A daemon that it
-/// starts has a stopped clock. Throws an exception of one sentence.
+/// starts has a stopped clock. Throws an exception whose message is one sentence.
 using Launcher = std::function<Launched(std::string_view request, const Json& arguments)>;
 
 class Session {
@@ -39,14 +39,14 @@ class Session {
   /// Answers a request.
   void handle(const std::string& text);
   bool is_over() const { return phase_ == Phase::over; }
-  /// Returns true if look() is to be called now and then.
+  /// Returns true if look() must be called regularly.
   bool has_bench() const { return link_ != nullptr; }
   bool is_running() const { return phase_ == Phase::running; }
-  /// Returns the descriptor at which the end of an advance is told, or -1.
+  /// Returns the descriptor that reports the end of an advance, or -1.
   int awaited() const { return link_ ? link_->awaited() : -1; }
   /// Tells the client what has happened on the bench.
   void look();
-  /// Tells the client something that is no answer.
+  /// Shows the client a message that is not an answer.
   void say(const std::string& text, const char* category = "important");
 
  private:
@@ -60,9 +60,9 @@ class Session {
   struct DeviceInfo {
     std::string name;
     bool has_program = false;
-    bool has_many = false;  // programs at the same time; otherwise it is one thread, whatever its name
+    bool has_many = false;  // several programs at once; otherwise it is one thread, whatever its name
     std::vector<std::pair<std::int64_t, std::string>> sections{};  // rows, and what they are
-    std::map<std::string, Json> registers{};                       // as `registers` tells them
+    std::map<std::string, Json> registers{};                       // rows of a `registers` reply
     std::string mapped{};       // the file that has the text of its program, if the bench names none
     std::string mapped_text{};  // that text
   };
@@ -74,9 +74,9 @@ class Session {
   struct Source {
     std::string path;
     std::string text;
-    Json lines;  // those that have an instruction
+    Json lines;  // the lines that have an instruction
   };
-  /// A breakpoint of the client. One in a file that several devices run is several of ours.
+  /// A breakpoint in a device. A client's breakpoint in a file that several devices run becomes several.
   struct SetPoint {
     int id = 0;
     std::string key{};  // the source, or kData, kEvents
@@ -85,7 +85,7 @@ class Session {
     std::size_t device = 0;
     int line = 0;  // 0: it is not at a line, or not found
   };
-  // Above the references of scopes are those of registers with bits, and their numbers in with_bits_.
+  // References above this are registers with bits: this number plus the place in with_bits_, from 1.
   static constexpr std::int64_t kFirstBits = 1'000'000'000;
   static constexpr const char* kEvents = "events";
   static constexpr const char* kData = "data";
@@ -182,22 +182,22 @@ class Session {
   Send send_;
   Phase phase_ = Phase::fresh;
   std::int64_t next_sequence_ = 1;
-  int line_offset_ = 0;    // what a client's lines are less than ours
-  int column_offset_ = 0;  // likewise
+  int line_offset_ = 0;    // added to the client's line numbers
+  int column_offset_ = 0;  // added to the client's columns
   bool stops_at_entry_ = false;
   bool is_manual_ = true;
   bool wants_pause_ = false;
   bool is_recording_ = false;
   bool goes_back_ = false;   // in a recording
-  std::string failure_{};    // with which the recording of a scenario ends, in a sentence
+  std::string failure_{};    // the failure at the end of a scenario's recording, in a sentence
   bool was_paused_ = false;  // when it was attached
-  std::string speed_{};      // that a launched bench is to have
+  std::string speed_{};      // of a launched bench
   Launched launched_{};
   std::unique_ptr<BenchLink> link_{};
   std::vector<DeviceInfo> devices_{};
   std::vector<Thread> threads_{};         // by number, from 1
   std::vector<std::string> with_bits_{};  // whole names of registers
-  Json stop_{};                           // of the bench, while it stands at one
+  Json stop_{};                           // the bench's present stop, or null
   std::uint64_t next_event_ = 1;
   std::vector<SetPoint> points_{};
   int last_id_ = 0;

@@ -1,4 +1,4 @@
-// Threads are the programs of devices. Their stacks, and the sources of these.
+// Reports threads, which are the programs of devices, with their stacks and sources.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -66,7 +66,7 @@ Json Session::threads(const Json& /*arguments*/) {
       all.push_back({{"id", number}, {"name", thread_name(threads_[static_cast<std::size_t>(number) - 1])}});
     }
   }
-  // Without a program, the bench itself is a thread: clients need one to stop and go on.
+  // Without a program, the bench itself is a thread: clients need one to stop and continue.
   if (all.empty() && !devices_.empty()) {
     const int number = thread_number(0, {});
     all.push_back({{"id", number}, {"name", devices_[0].name}});
@@ -96,7 +96,7 @@ Json Session::stack_trace(const Json& arguments) {
   const Thread& thread = thread_of(arguments);
   const bool has_many = devices_[thread.device].has_many;
   const Json told = stack_of(thread.device);
-  std::vector<std::pair<int, std::string>> lines;  // and what is there
+  std::vector<std::pair<int, std::string>> lines;  // with their texts
   for (const Json& stack : told["stacks"]) {
     if (has_many && text_or(stack, "program") != thread.program) continue;
     for (const Json& frame : stack["frames"])
@@ -107,7 +107,7 @@ Json Session::stack_trace(const Json& arguments) {
                            stop_.value("device", std::string()) == devices_[thread.device].name &&
                            (!has_many || text_or(stop_, "program") == thread.program);
   if (has_stopped) {
-    // It may have gone on within the tick: people look for the line at which it stopped.
+    // The program may have continued within the tick, but people expect the line at which it stopped.
     const auto callers = stop_.value("callers", std::size_t{0});
     if (lines.size() > callers)
       lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(callers));

@@ -1,4 +1,4 @@
-// Values that a session shows: scopes and their variables.
+// Reports the values that a session shows: scopes and their variables.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -18,10 +18,10 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-// References: a device's scopes and sections.
+// References of a device's scopes and sections.
 constexpr std::int64_t kPerDevice = 1'000;
-constexpr std::int64_t kState = 1;    // what programs do
-constexpr std::int64_t kProgram = 2;  // and the other scopes
+constexpr std::int64_t kState = 1;    // the state of the programs
+constexpr std::int64_t kProgram = 2;  // the first of kScopes
 constexpr std::int64_t kFirstSection = 10;
 
 constexpr std::array<std::pair<const char*, const char*>, 3> kScopes{
@@ -159,7 +159,7 @@ void Session::add_scope(std::size_t device, const std::string& scope, bool as_he
   }
 }
 
-/// A section's registers: those from `start` on, `count` of them, or all.
+/// Adds a section's registers: `count` of them from `start` on, or all.
 void Session::add_section(std::size_t device, std::int64_t section, const Json& arguments, Json& all) {
   const std::string& name = devices_[device].name;
   const std::int64_t start = std::max<std::int64_t>(0, whole_or(arguments, "start", 0));

@@ -23,8 +23,8 @@ namespace {
 using Json = nlohmann::json;
 using When = play::Disturbance::When;
 
-constexpr std::size_t kMaxMoments = 16;  // of a seed
-constexpr std::size_t kMaxRead = 64;     // disturbances of a course
+constexpr std::size_t kMaxMoments = 16;  // for each seed
+constexpr std::size_t kMaxRead = 64;     // disturbances of a course in a file
 constexpr std::array<std::string_view, 3> kWhen{"here", "at", "nth"};
 
 template <typename Number>

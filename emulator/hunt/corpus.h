@@ -1,5 +1,5 @@
-// The courses of a hunt that reached something new. Later courses go on from them. A file keeps them for the
-// next night.
+// The courses of a hunt that reached something new. Later courses start from them. A file keeps them for the
+// next hunt.
 #pragma once
 
 #include <array>
@@ -20,16 +20,16 @@ namespace understudy::emulator::hunt {
 /// A course that reached something new.
 struct Seed {
   Course course;
-  std::vector<SimTime> moments;  // at which it did, a few of them
-  Sort sort = Sort::order;       // the first sort of what was new
+  std::vector<SimTime> moments;  // when it did; at most a few
+  Sort sort = Sort::order;       // the first sort in which something was new
 };
 
-/// How much was reached, by sort.
+/// The number of things reached, by sort.
 using Counts = std::array<std::size_t, kSorts.size()>;
 
 class Corpus {
  public:
-  /// Keeps the course if it reached anything that no course before it did. Returns whether it did. It is not
+  /// Keeps the course if it reached anything that no course before it did. Returns true if it did. It is not
   /// among the seeds until they are renewed.
   bool add(const Course& course, const Reached& reached);
   /// Makes all courses so far seeds.

@@ -21,11 +21,11 @@ using play::HuntPlan;
 using When = Disturbance::When;
 
 constexpr std::uint64_t kMaxDisturbances = 16;
-constexpr SimTime kNear = std::chrono::milliseconds(5);  // to the beginning or the end of a step
+constexpr SimTime kNear = std::chrono::milliseconds(5);  // this close to the beginning or the end of a step
 constexpr SimTime kFine = std::chrono::microseconds(100);
 
-/// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,
-/// where things meet, or near one at which something new happened.
+/// Draws a time from `low` to `high`: any millisecond or, equally often, a moment near the beginning or the
+/// end of a step, where things meet, or near one at which something new happened.
 SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
   if (dice.one_in(2)) {
     const Undisturbed& undisturbed = ground.undisturbed;

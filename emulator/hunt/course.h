@@ -1,5 +1,4 @@
-// A course is a case of a scenario file with disturbances: a value that is drawn, and made smaller when it
-// fails.
+// A course is a case of a scenario file with disturbances. Courses are drawn, and shrunk when they fail.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +15,17 @@ namespace understudy::emulator::hunt {
 struct Course {
   std::uint64_t case_number = 0;
   std::vector<play::Disturbance> disturbances{};  // in the order of their steps
-  // What the shrinker has left out: steps of the scenario, and all from `end` on.
+  // The shrinker left out these steps of the scenario, and all from `end` on.
   std::set<std::size_t> left_out{};
   std::size_t end = SIZE_MAX;
 
   bool operator==(const Course&) const = default;
 };
 
-/// What happens in a case without disturbances: the bounds of what is drawn.
+/// A case without disturbances. It bounds what is drawn.
 struct Undisturbed {
   std::vector<SimTime> begins;  // of each step
-  std::vector<SimTime> ends;    //
+  std::vector<SimTime> ends;    // likewise
   std::int64_t requests = 0;    // of all stations
 };
 
@@ -52,11 +51,11 @@ class Dice {
   std::uint64_t drawn_ = 0;
 };
 
-/// What a drawn course is made from.
+/// The data from which disturbances are drawn.
 struct Ground {
   const play::HuntPlan& plan;
   const Undisturbed& undisturbed;
-  std::span<const SimTime> moments{};  // at which something new happened
+  std::span<const SimTime> moments{};  // when something new happened
 };
 
 /// Draws which disturbances a course may have at all, then how many of them, then their values and moments.

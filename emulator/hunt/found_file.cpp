@@ -101,7 +101,7 @@ std::string with_comment(std::string step, const std::string& comment) {
   return step;
 }
 
-/// Returns the spans of the plan of which one was broken.
+/// Returns the spans of the plan that may be the broken one.
 std::vector<world::YamlFields> broken_spans(const Stage& stage, const play::Failure& failure) {
   std::vector<world::YamlFields> spans;
   for (const world::YamlFields& span : stage.plan().spans()) {

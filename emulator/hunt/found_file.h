@@ -1,4 +1,4 @@
-// Writes what a hunt has found as an ordinary scenario.
+// Writes a finding of a hunt as an ordinary scenario.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace understudy::emulator::hunt {
 
-/// How a finding came about, for people.
+/// The origin of a finding, for people.
 struct Origin {
-  std::string command;           // with which it is found again
+  std::string command;           // finds it again
   std::uint64_t course = 0;      // its number
   std::size_t disturbances = 0;  // of the course
 };

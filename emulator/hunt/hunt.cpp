@@ -27,7 +27,7 @@ namespace understudy::emulator::hunt {
 
 namespace {
 
-constexpr std::size_t kMaxStages = 64;  // of one thread
+constexpr std::size_t kMaxStages = 64;  // for each thread
 
 }  // namespace
 
@@ -60,8 +60,8 @@ std::shared_ptr<Stage> Hunt::stage_of(Actor& actor, std::uint64_t case_number) c
   return actor.stages.emplace(case_number, std::move(stage)).first->second;
 }
 
-/// Draws a seed: each sort of new things as often as another, and of these younger ones more often, since
-/// they are closer to what is still unknown.
+/// Draws a seed: each sort equally often, and younger seeds more often, since they are closer to what is
+/// still unknown.
 std::size_t Hunt::draw_seed(Dice& dice) const {
   std::vector<const std::vector<std::size_t>*> sorts;
   for (std::size_t i = 0; i < kSorts.size(); ++i) {
@@ -73,7 +73,7 @@ std::size_t Hunt::draw_seed(Dice& dice) const {
   return numbers[std::max(first, dice.below(numbers.size()))];
 }
 
-/// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
+/// Draws a course: a new one or, equally often, a change of one that reached something new.
 Course Hunt::draw(Actor& actor, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
@@ -120,7 +120,7 @@ void Hunt::judge(std::uint64_t number, const Played& played,
     if (!outcome.kind.empty()) ++tally_.failed;
     if (outcome.is_cut_short) ++tally_.cut_short;
     if (is_new) ++tally_.findings;
-    // A course that fails always ends in the same way, so nothing goes on from it.
+    // A course that fails always ends in the same way, so no other starts from it.
     if (outcome.kind.empty() && !outcome.is_cut_short) corpus_.add(played.course, played.reached);
     tally_.reached = corpus_.counts();
   }
@@ -175,7 +175,7 @@ bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
   return true;
 }
 
-/// Plays the courses of earlier hunts, to know what they have reached.
+/// Plays the courses of earlier hunts, to learn what they have reached.
 void Hunt::play_earlier() {
   auto actor = take_actor();
   options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances

@@ -1,6 +1,6 @@
-// Plays courses of a scenario file until one fails, and shrinks the first of each kind. Courses are played on
-// several threads, in generations, and judged in the order of their numbers. So the findings depend on the
-// seed alone.
+// Plays courses of a scenario file, and shrinks the first failure of each kind. Courses are played on several
+// threads, in generations, and judged in the order of their numbers. So the findings depend on the seed
+// alone.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct HuntOptions {
   play::Shard shard{};
   std::uint64_t first = 0;                               // the number of the first course
   std::vector<Course> corpus{};                          // courses of earlier hunts, which are played first
-  bool is_guided = true;                                 // goes on from courses that reached something new
+  bool is_guided = true;                                 // starts from courses that reached something new
   std::function<bool()> is_over = [] { return false; };  // may be called on any thread
 };
 
@@ -41,7 +41,7 @@ struct Finding {
   std::shared_ptr<Stage> stage{};  // of its case
 };
 
-/// What has happened so far.
+/// The totals so far.
 struct Tally {
   std::uint64_t courses = 0;
   std::uint64_t failed = 0;
@@ -51,7 +51,7 @@ struct Tally {
   Counts reached{};
 };
 
-/// What had been reached after some courses.
+/// The counts after some courses.
 struct CurvePoint {
   std::uint64_t courses = 0;
   Counts reached{};

@@ -29,7 +29,7 @@ namespace understudy::emulator::hunt {
 
 namespace {
 
-constexpr std::size_t kMaxRegisters = 64;  // of a device, whose values are looked at
+constexpr std::size_t kMaxRegisters = 64;  // of a device whose values are sampled
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;
 
 /// Mixes a number into a hash.
@@ -40,7 +40,7 @@ constexpr std::uint64_t mixed(std::uint64_t hash, std::uint64_t number) {
   return x ^ (x >> 31);
 }
 
-/// Returns the sign and the number of digits: 0, 1, 2 to 3, 4 to 7, and so on.
+/// Returns a class of values by sign and number of binary digits: 0, 1, 2 to 3, 4 to 7, and so on.
 std::uint64_t class_of(std::int64_t value) {
   const auto magnitude = static_cast<std::uint64_t>(value < 0 ? -value : value);
   return static_cast<std::uint64_t>(std::bit_width(magnitude)) * 2 + (value < 0 ? 1 : 0);
@@ -77,7 +77,7 @@ class Lines final : public ProgramWatch {
   std::vector<std::vector<std::uint8_t>> seen_;  // by part, by line
 };
 
-/// What is looked at in one device.
+/// The values of one device that are sampled.
 struct Sights {
   std::vector<Place> words;    // registers with named bits
   std::vector<Place> numbers;  // others that the device shows

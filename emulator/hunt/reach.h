@@ -1,8 +1,8 @@
-// What a course has reached: a set of numbers, each of which stands for something that can be reached or not.
-// There are four sorts: lines of programs and their decisions; registers with classes of values; states of
-// the whole bench, coarsely; and orders of events: one such state after another.
+// Notes what a course has reached: a set of numbers. Each stands for something that can be reached. There are
+// four sorts: lines of programs and their decisions; registers with classes of values; coarse states of the
+// whole bench; and orders, which are two such states in sequence and the events between them.
 //
-// It looks when something happens: at messages, faults, inputs, and after each step.
+// It samples when something happens: at messages, faults, inputs, and after each step.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ using Feature = std::uint64_t;
 constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3); }
 
 struct Reached {
-  /// When each was reached first. Looked up and sorted, never iterated for a result.
+  /// The time at which each was first reached. Results must not depend on the order of iteration.
   std::unordered_map<Feature, SimTime> when{};
 };
 

@@ -51,7 +51,7 @@ Shrunk Shrinker::shrink(const Course& course, const Outcome& outcome) {
   return std::move(best_);
 }
 
-/// Leaves out everything behind the step that failed.
+/// Leaves out everything after the step that failed.
 void Shrinker::end_early() {
   if (best_.outcome.failed_step == SIZE_MAX) return;
   Course shorter = best_.course;
@@ -75,7 +75,7 @@ bool Shrinker::remove_disturbances() {
   return is_smaller;
 }
 
-/// Finds a smallest number with which the course fails, as if it failed with all greater ones.
+/// Finds the smallest number with which the course fails, assuming that it fails with all greater ones.
 void Shrinker::lower(std::size_t number, std::uint64_t low, std::uint64_t high,
                      const std::function<void(Disturbance&, std::uint64_t)>& set) {
   const auto attempt = [&](std::uint64_t value) {
@@ -132,7 +132,7 @@ void Shrinker::round_moment(std::size_t number) {
   }
 }
 
-/// Leaves out steps of the scenario, from the end on, if the course then still fails because of its
+/// Leaves out steps of the scenario, the last one first, if the course then still fails because of its
 /// disturbances, and the scenario without them does not.
 void Shrinker::leave_out_steps() {
   const auto& steps = stage_.scenario().steps;

@@ -1,4 +1,4 @@
-// Makes a course that failed smaller, as long as it fails in the same way.
+// Makes a failed course smaller, as long as it fails in the same way.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct Shrunk {
   Course course;
   Outcome outcome;
   int plays = 0;            // how many courses it took
-  bool is_minimal = false;  // without any one of its disturbances it does not fail in that way
+  bool is_minimal = false;  // each of its disturbances is needed for that failure
 };
 
 class Shrinker {

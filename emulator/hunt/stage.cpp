@@ -133,7 +133,7 @@ Outcome Stage::outcome_of(std::vector<ScenarioResult> results) const {
       continue;
     }
     if (is_span) {
-      // It does not matter in which step a condition was broken.
+      // The step in which a condition was broken does not matter.
       ScenarioResult bare = result;
       bare.steps.clear();
       outcome.kind = play::kind_of_failure(bare);

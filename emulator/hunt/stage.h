@@ -22,9 +22,9 @@
 
 namespace understudy::emulator::hunt {
 
-/// What has become of a course.
+/// The end of a course.
 struct Outcome {
-  std::string kind{};                            // of its failure; empty: there is none that counts
+  std::string kind{};                            // the kind of failure; empty: there is none that counts
   std::optional<play::ScenarioResult> failed{};  // the scenario, or the branch, that failed
   std::size_t failed_step = SIZE_MAX;            // the number of the scenario's step; SIZE_MAX: a branch's
   bool is_cut_short = false;                     // a disturbance failed as a step, so the rest was not played
@@ -67,7 +67,7 @@ class Stage {
   play::StepsReader reader_;
   play::Steps spans_;
   play::Scenario played_;             // with the steps of the present course
-  std::vector<std::size_t> sources_;  // for each of these: the scenario's step, or SIZE_MAX
+  std::vector<std::size_t> sources_;  // for each of those steps: the scenario's step, or SIZE_MAX
   std::optional<Outcome> undisturbed_outcome_;
   Undisturbed undisturbed_;
 };

@@ -76,11 +76,11 @@ int read_input(const YamlFields& field, const Description& description) {
              suggestion(field.text(), names, "`inputs` of the model has none"));
 }
 
-/// A key that another key requires.
+/// A key, and another key that it requires.
 struct Need {
   std::string_view key;
   std::string_view needed;
-  std::string_view instead{};  // this does as well
+  std::string_view instead{};  // may stand in for `needed`
 };
 constexpr std::array<Need, 10> kNeeds{{{"start", "target"},
                                        {"start", "speed"},
@@ -95,7 +95,7 @@ constexpr std::array<Need, 10> kNeeds{{{"start", "target"},
 /// These keys exclude each other.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kEither{
     {{"acceleration_time", "acceleration"}, {"deceleration_time", "deceleration"}}};
-/// These keys are of no use without an input.
+/// These keys need an input.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kInputNeeds{
     {{"home", "home"},
      {"alarm", "alarm"},

@@ -15,10 +15,10 @@
 
 namespace understudy::emulator::model_file {
 
-/// Everything that fails throws FileError at the field.
+/// All functions throw FileError at the field.
 class Binder {
  public:
-  /// Both must outlive it. The map has the description's registers, bound to nothing.
+  /// Both must outlive it. The map has the description's registers, without bindings.
   Binder(const models::imported::Description& description, const RegisterMap& map)
       : description_(description), map_(map) {}
 

@@ -20,7 +20,7 @@ std::string without_blanks(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin));
 }
 
-/// Returns the separator that the first line with any has most of. Titles have none.
+/// Returns the most frequent separator of the first line that has any. Titles have none.
 char separator_of(std::string_view text) {
   constexpr int kMaxTitles = 20;
   for (int line = 0; line < kMaxTitles && !text.empty(); ++line) {

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Returns the index of a word in a form's list. Throws for any other word.
+/// Returns the index of a word in a schema's list. Throws FileError for any other word.
 std::size_t read_word(const world::YamlFields& field, const world::Schema& form);
 
 /// Reads everything except `station_in`. Keeps all errors.

@@ -47,7 +47,7 @@ std::optional<std::int64_t> hexadecimal(std::string_view digits) {
   return parse_integer("0x" + std::string(digits));
 }
 
-/// Returns the digits of a number in one of the forms for hexadecimal ones, or nothing.
+/// Returns the digits of a number in one of the hexadecimal forms, or nothing.
 std::string_view hexadecimal_digits(std::string_view text) {
   constexpr std::array<std::string_view, 6> kBefore{"0x", "0X", "&H", "16#", "x", "X"};
   for (const std::string_view before : kBefore) {
@@ -58,7 +58,7 @@ std::string_view hexadecimal_digits(std::string_view text) {
   return {};
 }
 
-/// Parses "4x0001" and "4:0001". What begins with 0x is hexadecimal.
+/// Parses "4x0001" and "4:0001". A text that begins with 0x is hexadecimal instead.
 std::optional<PrintedAddress> parse_with_block(std::string_view text) {
   if (text.size() < 5 || text[0] < '1' || text[0] > '4') return std::nullopt;
   if (text[1] != 'x' && text[1] != 'X' && text[1] != ':') return std::nullopt;
@@ -102,7 +102,7 @@ int take_bit(std::string_view& text) {
   return static_cast<int>(*bit);
 }
 
-/// Returns where the block of a plain number begins, and its size: 40001 and 9999, or 400001 and 65536.
+/// A plain number such as 40001 or 400001: its table, and its offset in the table's block.
 struct Block {
   Table table = Table::holding;
   std::int64_t offset = 0;

@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// An address before it is known what the list counts.
+/// A printed address, before it is known what the list counts.
 struct PrintedAddress {
   std::int64_t number = 0;
   std::int64_t last = 0;         // of a pair or a range; otherwise `number`
@@ -26,7 +26,7 @@ struct PrintedAddress {
 
 /// Returns nothing for a text that is not an address. `is_hexadecimal`: plain digits are hexadecimal as well.
 std::optional<PrintedAddress> parse_address(std::string_view text, bool is_hexadecimal);
-/// Returns true for letters that only hexadecimal numbers have, without another sign: "10A0".
+/// Returns true for a number that only its letters show to be hexadecimal: "10A0".
 bool has_hexadecimal_letters(std::string_view text);
 
 /// An address on the wire, and the table that its form gives.
@@ -37,14 +37,14 @@ struct WireAddress {
 /// Returns nothing if the number does not suit the reading.
 std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressReading reading);
 
-/// What all addresses of a list together say.
+/// Collects evidence from all addresses of a list for what they count.
 struct AddressEvidence {
   /// `table`: that of the row's own cell, if it has one. `holds_words`: the row's type is not a bit.
   void add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);
 
   /// Returns the only possible reading, if there is one.
   std::optional<AddressReading> certain() const;
-  /// Returns the reading that is likely: nothing if two are.
+  /// Returns the likely reading, or nothing if two are likely.
   std::optional<AddressReading> likely() const;
 
   bool all_are_modicon = true;   // they lie in the blocks of their tables, 40001 to 49999 and so on

@@ -95,7 +95,7 @@ class Planner {
     std::stable_sort(claims.begin(), claims.end(),
                      [](const Claim& one, const Claim& other) { return one.rank < other.rank; });
     for (const Claim& claim : claims) take(claim);
-    for (const Claim& claim : claims) {  // where a row has no name, the next best column may have one
+    for (const Claim& claim : claims) {  // if a row has no name, the next best column may have one
       if (claim.column == Column::name && plan_.columns[claim.cell] == Column::left_out)
         plan_.names.push_back(claim.cell);
     }
@@ -145,7 +145,7 @@ class Planner {
     return {};
   }
 
-  /// Returns false if what stands below a heading shows that it means something else.
+  /// Returns false if the text below a heading shows that the heading means something else.
   bool suits(std::size_t cell, const Heading& heading) const {
     const std::string text = sample(cell);
     if (text.empty()) return true;

@@ -1,4 +1,4 @@
-// Finds out what the columns of a list of registers mean.
+// Determines what the columns of a register list mean.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct ColumnPlan {
   bool operator==(const ColumnPlan&) const = default;
 };
 
-/// Keeps all errors. The plan is worth nothing if there were any.
+/// Keeps all errors. The plan is useless if there were any.
 ColumnPlan plan_columns(const std::vector<CsvRow>& rows, const ListReading& reading, const ListPlace& place,
                         world::Diagnostics& diagnostics, Remarks& remarks);
 

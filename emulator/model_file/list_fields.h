@@ -1,4 +1,4 @@
-// Reads how a list is to be read: from a model file, or from flags of `import`.
+// Reads the settings for reading a list, from a model file or from flags of `import`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The headings of columns. They stand in the order of their columns; a heading may have several meanings.
+// The headings of columns, in the order of the columns. A heading may have several meanings.
 #include <array>
 
 #include "emulator/model_file/list_words.h"
@@ -7,7 +7,7 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-// A plain std::array of so many would be more than clang deduces.
+// clang cannot deduce the type of a plain std::array with this many elements.
 constexpr auto kAllHeadings = std::to_array<Heading>({
     Heading{"table", Column::table, 0},
     Heading{"register type", Column::table, 2},

@@ -1,4 +1,4 @@
-// How a list of registers is to be read, and what its reader had to guess.
+// The settings for reading a register list, and the remarks of its reader.
 #pragma once
 
 #include <array>
@@ -17,23 +17,23 @@
 
 namespace understudy::emulator::model_file {
 
-/// What the addresses of a list count: registers on the wire (from 0), registers from 1, or Modicon's numbers
-/// (40001 is holding register 0).
+/// The unit that the addresses of a list count: registers on the wire (from 0), registers from 1, or
+/// Modicon's numbers (40001 is holding register 0).
 enum class AddressReading : std::uint8_t { wire, from_one, modicon };
 inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_one", "modicon"};
 
-/// What a user says about a list: flags of `import`, or `list` in a model file.
+/// A user's settings for a list: flags of `import`, or `list` in a model file.
 struct ListReading {
   std::vector<std::pair<Column, std::string>> columns{};  // and their headings
   std::optional<AddressReading> addresses{};              // none: wire, unless they cannot be that
-  bool guesses_addresses = false;                         // refuses those that are uncertain
+  bool guesses_addresses = false;                         // false: refuses uncertain ones
   Table table = Table::holding;                           // of rows that do not say it
   std::string encoding{};                                 // empty: guessed
   std::vector<Firmware> firmwares{};                      // that rows may begin with; empty: any
 };
 
-/// Collects what a reader had to guess or pass over. Of each kind of remark it keeps the first, and counts
-/// the rest.
+/// Collects what a reader had to guess or pass over. It keeps the first remark of each kind, and counts the
+/// rest.
 class Remarks {
  public:
   void add(const std::string& kind, const FilePlace& place, const std::string& text) {

@@ -1,4 +1,4 @@
-// One row of a list of registers: its cells by column, for the readers of its parts.
+// A row of a register list: its cells by column.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Remembers what words for types stand for, because a list has few of them and many rows.
+/// Remembers the meanings of type words, because a list has few of them and many rows.
 class KnownTypes {
  public:
   const std::optional<TypeMeaning>& of(const std::string& word) {
@@ -26,7 +26,7 @@ class KnownTypes {
   std::map<std::string, std::optional<TypeMeaning>> all_;
 };
 
-/// What all rows of a list share. It must outlive them.
+/// The data that all rows of a list share. It must outlive them.
 struct ListContext {
   const ListReading& reading;
   const ColumnPlan& plan;
@@ -48,7 +48,7 @@ class ListRow {
   FilePlace place_of(Column column) const;
   /// Throws FileError at the column's cell.
   [[noreturn]] void fail(Column column, const std::string& what) const;
-  /// Tells what was passed over, or guessed, at the column's cell.
+  /// Adds a remark about something ignored or guessed at the column's cell.
   void remark(const std::string& kind, Column column, const std::string& what) const;
   bool yes_or_no(Column column) const;
   /// Returns what the cell `type` stands for.

@@ -1,4 +1,4 @@
-// Turns the text of a list into UTF-8, whatever a spreadsheet has saved it in.
+// Converts the text of a list to UTF-8 from any encoding that spreadsheets use.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace understudy::emulator::model_file {
 
 inline constexpr std::array<std::string_view, 5> kEncodings{"utf-8", "utf-16", "latin-1", "big5", "gbk"};
 
-/// Returns the text of a list in UTF-8. `encoding` is one of the above, or empty: then it is guessed, and
-/// told if it is not UTF-8. Throws FileError if the text is not in that encoding, or if two are possible.
+/// Returns the text of a list in UTF-8. `encoding` is one of the above, or empty: then it is guessed, with a
+/// remark if it is not UTF-8. Throws FileError if the text is not in that encoding, or if two are possible.
 std::string decode_list(const std::string& bytes, const std::string& encoding, const ListPlace& place,
                         Remarks& remarks);
 

@@ -10,12 +10,12 @@
 
 namespace understudy::emulator::model_file {
 
-/// A decimal number, exactly: digits * 10^-places.
+/// An exact decimal number: digits * 10^-places.
 struct Decimal {
   std::int64_t digits = 0;
   int places = 0;
 };
-/// Parses "50.00", "-0,5" and "7", and such a number with a unit behind it if `may_have_unit`.
+/// Parses "50.00", "-0,5" and "7", and such a number with a unit after it if `may_have_unit`.
 std::optional<Decimal> parse_decimal(std::string_view text, bool may_have_unit);
 /// Returns true if a text is a number with decimals: "50.0".
 bool has_decimals(std::string_view text);
@@ -30,7 +30,7 @@ struct Step {
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step);
 /// Returns the step that a unit such as "0.01Hz" begins with.
 std::optional<Step> step_of_unit(std::string_view unit);
-/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 is taken as N counts for one.
+/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 means N counts for one.
 std::optional<Step> step_of_scale(std::string_view scale);
 
 /// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.

@@ -257,7 +257,7 @@ constexpr std::array kTypeWords{
     TypeWord{"字串", TypeKind::text, Type::u16, 0},
 };
 
-/// Returns a word without what stands in parentheses, and without blanks and signs: "R/W" is "rw".
+/// Returns a word without parts in parentheses, blanks and signs: "R/W" is "rw".
 std::string word_key(std::string_view text) {
   std::string key;
   int depth = 0;

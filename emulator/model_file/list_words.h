@@ -1,4 +1,4 @@
-// The words of lists of registers, as tables of data: headings of columns, types, kinds of access, tables and
+// The words of register lists, as tables of data: headings of columns, types, kinds of access, tables and
 // orders of bytes, in the languages of manuals.
 #pragma once
 
@@ -56,7 +56,7 @@ std::span<const Heading> headings();
 std::string_view name_of(Column column);
 /// Returns the column of that name.
 std::optional<Column> column_called(std::string_view name);
-/// Returns a heading in small letters, without what stands in parentheses, with single blanks for signs.
+/// Returns a heading in lower case, without parts in parentheses, with single blanks for signs.
 std::string heading_key(std::string_view heading);
 /// Returns true if a heading says that its numbers are hexadecimal: "Address (hex)".
 bool says_hexadecimal(std::string_view heading);
@@ -65,7 +65,7 @@ using models::imported::WordOrder;
 /// Returns nothing for an unknown word.
 std::optional<WordOrder> order_called(std::string_view word);
 
-/// What a word for a type stands for. A type without a Type, or with more than two words, only holds its
+/// The meaning of a word for a type. A type without a Type, or with more than two words, only holds its
 /// words.
 struct TypeMeaning {
   enum class Kind : std::uint8_t {
@@ -90,10 +90,10 @@ std::optional<Table> listed_table_called(std::string_view word);
 std::optional<Table> table_of_function(std::string_view text);
 /// Returns nothing for a text that is neither yes nor no.
 std::optional<bool> yes_or_no_called(std::string_view word);
-/// Returns true for the name of an address that the maker keeps for himself: "Reserved".
+/// Returns true for the name of an address that the maker reserves: "Reserved".
 bool is_reserved(std::string_view name);
 
-/// Returns a text in small letters.
+/// Returns a text in lower case.
 std::string lower(std::string_view text);
 
 }  // namespace understudy::emulator::model_file

@@ -1,4 +1,4 @@
-// Makes models from files. The command line passes it on with the list of the models.
+// Makes models from files. The command line passes it on with the list of models.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Declares the keys of a model file (docs/import.md) and the forms of their values.
+// Declares the keys of a model file (docs/import.md) and the schemas of their values.
 #pragma once
 
 #include <array>

@@ -45,7 +45,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The text of the list, and its place.
+/// The text of a register list, and its place.
 struct ReadList {
   std::string text;
   ListPlace place;

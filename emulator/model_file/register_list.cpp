@@ -104,7 +104,7 @@ class ListReader {
   void read() {
     const std::size_t before = diagnostics_.count();
     plan_ = plan_columns(rows_, reading_, place_, diagnostics_, list_.remarks);
-    if (diagnostics_.count() != before) return;  // what columns mean is not known
+    if (diagnostics_.count() != before) return;  // the meaning of the columns is unknown
     for (std::size_t i = plan_.heading_row + 1; i < rows_.size(); ++i) {
       const bool is_empty = std::all_of(rows_[i].cells.begin(), rows_[i].cells.end(),
                                         [](const CsvCell& cell) { return cell.text.empty(); });

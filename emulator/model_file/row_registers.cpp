@@ -29,7 +29,7 @@ using models::imported::ListedRegister;
 
 namespace {
 
-/// Returns the row's table. `by_address`: what the form of its address says.
+/// Returns the row's table. `by_address` is the table that the form of its address gives.
 Table table_of(const ListRow& row, std::optional<Table> by_address) {
   if (row.has(Column::table) && !listed_table_called(row.text(Column::table))) {
     row.fail(Column::table,
@@ -57,7 +57,7 @@ WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& 
   row.fail(Column::address, quoted(row.text(Column::address)) + " is not an address; expected " + expected);
 }
 
-/// Takes a name as the manual prints it. If expressions cannot have it, they get one with other letters.
+/// Takes a name as the manual prints it. If expressions cannot contain it, they use one with other letters.
 void read_name(const ListRow& row, ListedRegister& listed) {
   const std::string& name = row.text(Column::name);
   if (name.empty()) row.fail(Column::name, "is missing; expected one in every row");
@@ -108,7 +108,7 @@ Firmware since_of(const ListRow& row) {
                " is not a firmware of the model; expected one of its `firmware`, such as 1.52");
 }
 
-/// Returns one register for each quantity, or for each word of what only holds its words.
+/// Returns one register for each quantity, or for each word of a type that only holds words.
 std::vector<ListedRegister> spread(const ListRow& row, const RowShape& shape, const ListedRegister& first) {
   if (!shape.holds_only_words() && shape.count == 1) return {first};
   const std::vector<std::uint16_t> words =

@@ -1,4 +1,4 @@
-// The registers that one row of a list describes.
+// Makes the registers that one row of a list describes.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Several registers if the row is text, has 64 bits, or names a range of addresses.
+/// A row has several registers if it is text, has 64 bits, or names a range of addresses.
 struct RowRegisters {
   std::vector<models::imported::ListedRegister> registers{};
   /// Set if the row describes only some bits of its register, which another row may describe as well.

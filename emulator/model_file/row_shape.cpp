@@ -100,7 +100,7 @@ RowShape shape_by_type(const ListRow& row, Table table) {
   return shape;
 }
 
-/// Returns true if a type has another one with the same sign and 32 bits, and its word does not say 16.
+/// Returns true if the row's integer type may also mean 32 bits, because its word does not say 16.
 bool may_be_wider(const ListRow& row, const RowShape& shape) {
   const bool is_integer = shape.type == Type::u16 || shape.type == Type::s16;
   return shape.kind == TypeKind::number && is_integer && !shape.is_flag && !row.has(Column::width) &&

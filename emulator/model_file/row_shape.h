@@ -9,9 +9,9 @@ namespace understudy::emulator::model_file {
 
 struct RowShape {
   TypeMeaning::Kind kind = TypeMeaning::Kind::number;
-  Type type = Type::u16;  // of each register; for `only_words` f32 tells a real number of 64 bits
+  Type type = Type::u16;  // of each register; for `only_words`, f32 means a real number of 64 bits
   int words = 1;          // of one quantity
-  int count = 1;          // quantities, one behind the other
+  int count = 1;          // quantities, one after another
   int bits = 0;           // of a part
   WordOrder order{};
   bool is_flag = false;  // 0 or 1 in a whole word

@@ -85,7 +85,7 @@ class RowNumbers {
     return value_of_real(single);
   }
 
-  /// Parses a whole number, which may have its unit behind it.
+  /// Parses a whole number, which may have its unit after it.
   static std::optional<std::int64_t> whole(const std::string& word) {
     if (const auto number = parse_integer(word)) return number;
     const auto number = parse_decimal(word, true);
@@ -175,7 +175,7 @@ void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape,
   listed.ranged = true;
 }
 
-/// Takes from a text for people what it says about values: a range, or an enumeration. It may say neither.
+/// Reads a range or an enumeration from a text for people, which may contain neither.
 void read_values(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
   const std::string& text = row.text(Column::values);
   if (const auto all = parse_enumeration(text)) return take_enumeration(*all, shape, listed);

@@ -1,4 +1,4 @@
-// The numbers of a row: its range, its default, and what its values stand for.
+// Reads the numbers of a row: its range, its default, and the meanings of its values.
 #pragma once
 
 #include "emulator/model_file/list_row.h"
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Reads what the row says about one register of this shape. Each throws FileError for the first mistake.
+/// Read a row's numbers for one register of this shape. Each throws FileError for the first mistake.
 void read_range(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);
 /// The range must be known.
 void read_factory(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);

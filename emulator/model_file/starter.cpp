@@ -30,7 +30,7 @@ struct Guess {
   std::string_view key;
   bool is_written = true;  // by hosts
   std::array<std::string_view, 4> words{};
-  std::string_view behind{};  // the name: a bit, or a value
+  std::string_view behind{};  // comes after the name, such as a bit
   std::string_view otherwise;
   std::string_view meaning;
 };
@@ -82,7 +82,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
-/// Returns the key `firmware` if rows begin with later ones.
+/// Returns the line `firmware: [...]` if some registers begin with a later version.
 std::string firmwares_of(const std::vector<ListedRegister>& registers) {
   std::set<Firmware> all;
   for (const ListedRegister& listed : registers) all.insert(listed.since);

@@ -14,7 +14,7 @@ namespace understudy::emulator::model_file {
 
 class TakenPlaces {
  public:
-  /// Gives a register another name if it has that of an earlier one. Throws FileError if an address is taken.
+  /// Renames a register that has the name of an earlier one. Throws FileError if an address is taken.
   void place(const ListRow& row, std::vector<models::imported::ListedRegister>& registers);
   /// Remembers registers; the first of them has this number in the list.
   void take(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,

@@ -24,9 +24,9 @@ struct Point {
 struct Shape {
   enum class Kind : std::uint8_t { box, line, text } kind = Kind::box;
   enum class Anchor : std::uint8_t { begin, middle, end } anchor = Anchor::begin;
-  std::vector<Point> points;  // two corners; the points of a line; where a text stands
+  std::vector<Point> points;  // two corners; the points of a line; the place of a text
   Colour colour;
-  double size = 0;  // how wide a line is, how large a text is
+  double size = 0;  // the width of a line, or the size of a text
   std::string text{};
 };
 
@@ -37,7 +37,7 @@ class Drawing {
   void box(double left, double top, double right, double bottom, Colour colour);
   /// A line through one point is a dot.
   void line(std::vector<Point> points, Colour colour, double wide = 1);
-  /// `y` is the middle of its letters. What does not fit into `room` is cut off.
+  /// `y` is the middle of its letters. A text wider than `room` is cut off.
   void text(double x, double y, std::string_view text, Colour colour, double room = 1e9,
             Shape::Anchor anchor = Shape::Anchor::begin, double size = kTextSize);
 
@@ -47,7 +47,7 @@ class Drawing {
   const std::vector<Shape>& shapes() const { return shapes_; }
 
   static constexpr double kTextSize = 12;
-  /// Returns how wide a text is, at most.
+  /// Returns the greatest width that a text can have.
   static double width_of(std::string_view text, double size = kTextSize);
 
  private:
@@ -59,7 +59,7 @@ class Drawing {
 /// Returns the number of characters, not of bytes.
 std::size_t length_of(std::string_view text);
 
-/// `words` describe the picture to whoever does not see it.
+/// `words` describe the picture to people who cannot see it.
 std::string svg_of(const Drawing& drawing, std::string_view words);
 std::string png_of(const Drawing& drawing);
 

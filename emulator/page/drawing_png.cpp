@@ -1,4 +1,4 @@
-// Draws shapes on a raster, and writes that as PNG.
+// Draws shapes on a raster, and writes the raster as PNG.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace understudy::emulator::page {
 namespace {
 
 constexpr double kScale = 2;  // dots for each unit of the drawing
-constexpr double kPen = 0.1;  // how wide the strokes of letters are, in sizes of the text
+constexpr double kPen = 0.1;  // the width of the strokes of letters, in sizes of the text
 
 class Raster {
  public:
@@ -39,7 +39,7 @@ class Raster {
   const std::uint8_t* row(std::size_t y) const { return dots_.data() + y * width_ * 3; }
 
  private:
-  /// What part of a dot lies between two edges.
+  /// Returns the part of a dot that lies between two edges.
   static double part(double dot, double from, double to) {
     return std::clamp(std::min(dot + 1, to) - std::max(dot, from), 0.0, 1.0);
   }
@@ -115,7 +115,7 @@ class Raster {
     }
   }
 
-  /// Lays the colour on what the mask covers, and empties the mask.
+  /// Blends the colour into the dots that the mask covers, and clears the mask.
   void lay(const Colour& colour) {
     for (std::size_t y = first_; y < last_; ++y) {
       for (std::size_t x = 0; x < width_; ++x) {
@@ -144,7 +144,8 @@ class Raster {
   std::size_t last_ = 0;
 };
 
-/// Deflate with the fixed codes. Of the places where the next bytes were before, only the last one is known.
+/// Compresses by Deflate with its fixed codes. For a repetition it knows only the last place of the next four
+/// bytes.
 class Deflated {
  public:
   explicit Deflated(const std::string& data) : data_(data), last_(std::size_t{1} << kHashBits, kNowhere) {
@@ -223,7 +224,7 @@ class Deflated {
     return group;
   }
   void repeat(unsigned length, unsigned distance) {
-    unsigned base = kMaxMatch;  // which has a code of its own
+    unsigned base = kMaxMatch;  // this length has a code of its own
     unsigned extra = 0;
     const unsigned symbol = length == kMaxMatch ? 285 : 257 + group_of(length, 3, 4, base, extra);
     symbol < 280 ? code(symbol - 256, 7) : code(0b11000000 + symbol - 280, 8);
@@ -233,7 +234,7 @@ class Deflated {
   }
 
   const std::string& data_;
-  std::vector<std::size_t> last_;  // by the hash of four bytes: where they were last
+  std::vector<std::size_t> last_;  // by the hash of four bytes: their last place
   std::string bytes_{"\x78\x01"};
   unsigned waiting_ = 0;
   std::uint64_t count_ = 0;

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxInAnUpdate = 200;  // limits frames and events
+constexpr std::size_t kMaxInAnUpdate = 200;  // frames, and as many events
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -54,8 +54,8 @@ std::uint64_t first_of(const Json& look, const char* key, const char* next_key) 
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
-/// Takes the frames or events from a look, if it has any. If they were forgotten since it was asked for, its
-/// list would not begin where they begin now.
+/// Takes the frames or events from a look, if it has any. If they were forgotten after the request, its list
+/// does not fit, and it is ignored.
 template <class Ring>
 void take_list(const Json& look, const char* key, const char* next_key, std::uint64_t asked, Ring& ring,
                std::uint64_t& next) {

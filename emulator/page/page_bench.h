@@ -59,7 +59,7 @@ class PageBench {
   /// Grows when another daemon, or a restarted one, answers: numbers of frames and events begin again.
   std::uint64_t epoch() const { return epoch_; }
 
-  /// What the page observes from now on. If no browser watches, it sends no requests to the bench.
+  /// The data that the page observes from now on. If no browser watches, it sends no requests to the bench.
   struct Wanted {
     std::set<std::string> names;
     bool frames = false;
@@ -69,8 +69,8 @@ class PageBench {
   };
   void want(Wanted wanted);
 
-  /// Passes on a browser's message, a line of JSON, at the next turn. The answer is nothing if the bench
-  /// does not answer.
+  /// Passes on a browser's message, a line of JSON, at the next turn. The answer is empty if the bench does
+  /// not answer.
   void ask(std::string message, ControlWire::Answered answered);
 
   /// Returns everything new for a browser, as the members of a JSON object, or an empty text.
@@ -96,7 +96,7 @@ class PageBench {
   void plan(std::chrono::milliseconds time);
   void look();
   void send_asks();
-  /// From where on a look was asked for.
+  /// The first frame and event that a look asked for.
   struct Asked {
     std::uint64_t frames = 0;
     std::uint64_t events = 0;

@@ -1,4 +1,4 @@
-// What the panels of a picture have in common.
+// Colours, sizes and functions that the panels of a picture share.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::page {
 
-// The page's colours in the light.
+// The page's colours in its light theme.
 inline constexpr Colour kGround{255, 255, 255};
 inline constexpr Colour kInk{26, 29, 33};
 inline constexpr Colour kFaint{84, 93, 105};
@@ -38,7 +38,7 @@ std::string grouped(double number);
 /// Returns seconds to the microsecond: "3.598083 s".
 std::string seconds_of(std::int64_t time_ns);
 
-/// A round number that is at least so large: 1, 2 or 5 times a power of ten.
+/// Returns a round number that is at least `rough`: 1, 2 or 5 times a power of ten.
 double round_step(double rough);
 
 struct StoryAxis {
@@ -47,10 +47,10 @@ struct StoryAxis {
 };
 std::vector<StoryAxis> axes_of(const Asker& ask);
 
-/// Returns the least and the greatest of a curve, or nothing if it has no values.
+/// Returns the least and the greatest value of a curve.
 std::pair<double, double> range_of(const Json& curve);
 
-/// Each draws below `top` and returns where the next thing may begin.
+/// Each draws a panel below `top`, and returns its lower end.
 double draw_timeline(Drawing& drawing, double top, const Asker& ask, const Json& timeline);
 double draw_axes(Drawing& drawing, double top, const Asker& ask);
 double draw_path(Drawing& drawing, double top, const Asker& ask, const Json& timeline);

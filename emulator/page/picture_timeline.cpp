@@ -1,4 +1,4 @@
-// The timeline as a picture: time from left to right, and a lane for everything that has a course.
+// Draws the timeline: time from left to right, and a lane for each thing that changes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace understudy::emulator::page {
 
 namespace {
 
-constexpr double kLabels = 176;  // where time begins
+constexpr double kLabels = 176;  // the width of the labels, left of the time
 constexpr double kEnd = kPictureWidth - kPictureMargin;
 constexpr double kRuler = 22;
 constexpr std::size_t kMaxAxes = 8;
@@ -78,7 +78,7 @@ class Lanes {
     end(kHeight);
   }
 
-  /// Draws what crosses all lanes.
+  /// Draws the marks that cross all lanes.
   void finish(std::int64_t at, const Json& timeline) {
     for (const double mark : marks_) drawing_.box(mark, top_ + kRuler, mark + 1, y_, faded(kEdge, 0.25));
     if (timeline.contains("story")) {
@@ -107,7 +107,7 @@ class Lanes {
     std::vector<Point> points;
     const auto add = [&](double at, double value) {
       const Point point{at, y_ + 6 + room * (1 - (value - base) / size)};
-      // Of a straight level only the ends are kept.
+      // Only the ends of a straight level are kept.
       const bool is_more =
           points.size() > 1 && points.back().y == point.y && points[points.size() - 2].y == point.y;
       if (is_more) points.back() = point;

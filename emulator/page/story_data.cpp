@@ -13,24 +13,24 @@ namespace understudy::emulator::page {
 
 namespace {
 
-constexpr std::uint64_t kMaxDots = 4'000;      // as control.md has it
+constexpr std::uint64_t kMaxDots = 4'000;      // the limit in docs/control.md
 constexpr std::uint64_t kMaxPoints = 200'000;  // in one reply
 constexpr std::size_t kMaxCourses = 400;       // in a file
-constexpr std::size_t kMaxListed = 4'000;      // frames, and events
-constexpr std::size_t kListedAtOnce = 200;     // the ones that a daemon keeps from before a moment
+constexpr std::size_t kMaxListed = 4'000;      // frames, and as many events
+constexpr std::size_t kListedAtOnce = 200;     // how many a daemon lists from before a moment
 constexpr std::int64_t kTick_ns = 1'000'000;
-constexpr std::int64_t kOverlap_ns = 50'000'000;    // a frame counts when its last character is over
-constexpr std::int64_t kBefore_ns = 3'000'000'000;  // of the stretch that has every tick
+constexpr std::int64_t kOverlap_ns = 50'000'000;    // a frame is listed only after its last character
+constexpr std::int64_t kBefore_ns = 3'000'000'000;  // of the stretch with every tick
 constexpr std::int64_t kAfter_ns = 1'000'000'000;
 
-// What the panel of axes shows of each, the most important first.
+// The values that the axes panel shows of each axis, the most important first.
 constexpr std::array<std::string_view, 15> kOfAxes{
     "position", "speed", "pulses", "target", "servo",       "lost",      "encoder",    "ready",
     "alarm",    "pwm",   "home",   "mark",   "lower_limit", "near_home", "upper_limit"};
 
 std::string text_of(const Json& object, const char* key) { return object.at(key).get<std::string>(); }
 
-/// Returns the names whose courses a file has. With many axes, the first words of all come first.
+/// Returns the names whose courses a file has: the most important value of every axis first, then the next.
 std::vector<std::string> names_of(const Json& devices) {
   std::vector<std::string> names;
   for (const std::string_view what : kOfAxes) {
@@ -44,7 +44,7 @@ std::vector<std::string> names_of(const Json& devices) {
   return names;
 }
 
-/// Returns what those names, and who drives each terminal, are at this moment.
+/// Returns the present values of the names, and who drives each terminal.
 Json values_of(const Asker& ask, const std::vector<std::string>& names) {
   Json values = Json::object();
   constexpr std::size_t kAtOnce = 1'000;
@@ -87,12 +87,12 @@ Json json_of(const Asker& ask, const std::vector<std::string>& names, const Cour
               {"spans", spans_of(ask, course)}};
 }
 
-/// Collects the last frames or events of the recording, which are told for one moment after the other.
+/// Collects the last frames or events of the recording, moment by moment.
 class Listed {
  public:
   Listed(const char* word, const Json& message) : word_(word), message_(message) {}
 
-  /// Takes what is told now. Returns the time from which on everything is known.
+  /// Takes the entries that the daemon lists now. Returns the time from which on everything is known.
   std::int64_t take(const Asker& ask) {
     const Json reply = require_reply(ask, message_);
     const Json& some = reply.at(word_);

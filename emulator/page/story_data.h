@@ -1,5 +1,5 @@
-// What a recording has to tell, asked from the control socket of a daemon that shows it: for a file that
-// needs neither that daemon nor this program.
+// Collects the data of a recording from the control socket of a daemon that shows it, for a file that needs
+// neither that daemon nor this program.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 /// Sends a message to a control socket and returns the reply.
 using Asker = std::function<std::string(const std::string& message)>;
 
-/// Thrown if the recording cannot be told so. The message is one line.
+/// Thrown if the daemon refuses a message. The message is one line.
 struct RefusedError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,7 +27,7 @@ Json require_reply(const Asker& ask, const Json& message);
 /// Returns the whole timeline of the recording: its marks and its story.
 Json timeline_of(const Asker& ask);
 
-/// A stretch of the recording, each name with its least and greatest values in so many dots.
+/// A stretch of the recording. Curves have the least and greatest value in each of its `dots`.
 struct Course {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;

@@ -12,7 +12,7 @@ namespace understudy::emulator::page {
 
 namespace {
 
-// Browsers load modules from a file only if they stand in it. An import map gives each of them a name.
+// Browsers load no modules from other files on a disk, so the page contains them. An import map names each.
 constexpr std::string_view kHere = "from './";
 constexpr std::string_view kMapped = "from 'page/";
 
@@ -55,7 +55,7 @@ std::string import_map() {
   return Json{{"imports", std::move(imports)}}.dump();
 }
 
-/// Returns what a reader without JavaScript sees.
+/// Returns the text for readers without JavaScript.
 std::string words_of(const Json& timeline) {
   if (!timeline.contains("story")) return "<p>This page needs JavaScript.</p>\n";
   const Json& story = timeline.at("story");

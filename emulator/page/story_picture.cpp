@@ -185,7 +185,7 @@ double draw_axes(Drawing& drawing, double top, const Asker& ask) {
 
 namespace {
 
-/// Returns the numbers of the first two curves that vary, or of others if fewer do.
+/// Returns the indices of the first two curves that vary, filled up with others if fewer do.
 std::vector<std::size_t> two_that_move(const std::vector<Json>& curves) {
   std::vector<std::size_t> moving;
   for (const bool wants_still : {false, true}) {

@@ -9,10 +9,10 @@ namespace understudy::emulator::page {
 
 inline constexpr double kAdvance = 0.55;      // from one letter to the next, in sizes of the text
 inline constexpr double kStrokeAcross = 0.1;  // one step of a stroke to the right
-inline constexpr double kStrokeDown = 0.12;   // and downwards
+inline constexpr double kStrokeDown = 0.12;   // the same step downwards
 
-// Of each character from the space on, its strokes: pairs of digits, how far to the right (0 to 4) and how
-// far down (0 to 8; the letters stand at 6). A space lifts the pen.
+// The strokes of each character from the space on: pairs of digits, how far to the right (0 to 4) and how far
+// down (0 to 8; the baseline is 6). A space lifts the pen.
 inline constexpr std::array<std::string_view, 95> kStrokes{
     "", "2024 2626", "1012 3032", "1016 3036 0242 0444", "413010010213334445361605 2026", "0640 1111 3535",
     "4612112031320405162644", "2022", "30121436", "10323416", "2125 0244 0442", "2125 0343", "2617", "0343",
@@ -40,7 +40,7 @@ inline constexpr std::string_view kArrowStrokes = "0343 324334";
 inline constexpr std::string_view kDotsStrokes = "0606 2626 4646";
 inline constexpr std::string_view kOtherStrokes = "1016363010";
 
-/// Returns the strokes of the character with which a text begins, and takes it from the text.
+/// Returns the strokes of the first character of a text, and removes it from the text.
 inline std::string_view next_strokes(std::string_view& text) {
   const auto code = static_cast<unsigned char>(text.front());
   std::size_t bytes = 1;

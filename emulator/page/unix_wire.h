@@ -76,8 +76,8 @@ class UnixWire final : public ControlWire {
           });
     }
 
-    /// Drops all unanswered messages; the next message connects again. Do not call it from within ask(),
-    /// which is not finished then.
+    /// Drops all unanswered messages; the next message connects again. The senders are notified later,
+    /// because ask() may not have returned yet.
     void fail() {
       boost::system::error_code ignored;
       socket.close(ignored);

@@ -44,7 +44,7 @@ using Error = boost::system::error_code;
 using Executor = net::io_context::executor_type;
 using Tcp = net::ip::tcp;
 using TcpStream = beast::basic_stream<Tcp, Executor>;
-// Uncompressed, because most browsers are on the same machine.
+// It does not compress, because most browsers are on the same machine.
 using Socket = websocket::stream<TcpStream, false>;
 using Timer = net::basic_waitable_timer<std::chrono::steady_clock,
                                         net::wait_traits<std::chrono::steady_clock>, Executor>;
@@ -99,7 +99,7 @@ class PendingSlot {
     if (is_pending_) unauthenticated_.erase(place_);
     is_pending_ = false;
   }
-  /// Sets how to close the connection. An empty function means that it closes already.
+  /// Sets how to close the connection. An empty function means that it is already closing.
   void set_end(std::function<void()> end) { end_ = std::move(end); }
   /// Frees the place for another connection.
   void vacate() {

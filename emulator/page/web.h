@@ -40,7 +40,7 @@ class WebEvents {
   virtual void heard(BrowserId browser, std::string_view text) = 0;
   /// Called when a browser has gone, also after close().
   virtual void closed(BrowserId browser) = 0;
-  /// All queued data has been sent.
+  /// Called when all queued data has been sent.
   virtual void drained(BrowserId browser) = 0;
 
  protected:

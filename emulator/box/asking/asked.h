@@ -1,4 +1,4 @@
-// What a real controller answered, and how long that took.
+// The reply of a real controller, and its latency.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::box {
 
-/// One request and what came back, as bytes of the line.
+/// A request and its reply, as bytes of the line.
 struct Asked {
   Bytes request;
   Bytes reply;          // without an echo; empty: nothing came in time

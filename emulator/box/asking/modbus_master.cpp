@@ -24,8 +24,8 @@ constexpr std::size_t kHeader = 6;  // of Modbus TCP: transaction, protocol, len
 
 std::size_t length_in(const Bytes& frame) { return static_cast<std::size_t>(frame[4] << 8 | frame[5]); }
 
-/// Returns true if the bytes begin with all of the request. A reply to a read never does: where the request
-/// has the upper half of an address, the reply has its length.
+/// Returns true if the bytes begin with all of the request. A reply to a read can do so only if its length
+/// equals the upper half of the address, and its values the rest of the request.
 bool begins_with(const Bytes& bytes, const Bytes& request) {
   return bytes.size() >= request.size() && std::equal(request.begin(), request.end(), bytes.begin());
 }

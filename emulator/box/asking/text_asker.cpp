@@ -31,7 +31,7 @@ std::vector<std::string> lines_of(const Bytes& bytes) {
   return lines;
 }
 
-/// Removes what is no part of the answer: the echo, and a prompt such as ">".
+/// Removes the echo, and a prompt such as ">". Returns true if there was an echo.
 bool drop_dialogue(std::vector<std::string>& lines, const std::string& sent) {
   for (std::string& line : lines) {
     const std::size_t begin = line.find_first_not_of("> ");

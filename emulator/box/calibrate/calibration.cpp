@@ -25,10 +25,10 @@ namespace understudy::emulator::box {
 
 namespace {
 
-constexpr std::size_t kWidth = 12;    // explanations that are followed
+constexpr std::size_t kWidth = 12;    // hypotheses that are kept at each level
 constexpr std::size_t kDeepest = 16;  // options that differ from the bench's
 
-/// How far a hypothesis explains the captures.
+/// The part of the captures that a hypothesis explains.
 struct Reach {
   std::size_t explained = 0;  // exchanges
   bool is_whole = false;
@@ -96,7 +96,7 @@ class Search {
     return result;
   }
 
-  /// Returns all that one other option makes of a hypothesis.
+  /// Returns the hypotheses that add one other option.
   std::vector<Hypothesis> neighbours_of(const Hypothesis& hypothesis) const {
     std::vector<Hypothesis> all;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
@@ -164,7 +164,8 @@ class Search {
     return reach;
   }
 
-  /// Single options first. If none of them gets further, pairs of one that changes any reply and any other.
+  /// Tries single options first. If none of them gets further, tries pairs: an option that changes any reply,
+  /// with any other option.
   std::vector<Hypothesis> further_than_parents(const std::vector<Hypothesis>& level) {
     std::set<Hypothesis> found;
     for (const Hypothesis& parent : level) {

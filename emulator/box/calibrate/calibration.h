@@ -1,8 +1,8 @@
 // Finds the options of choices with which a bench replies as a real controller did.
 //
 // A hypothesis gives some choices another option. At the first difference, every other option of every choice
-// is tried; those that get further are kept, all of them, and tried on. So several explanations can remain;
-// a choice is only called measured if all of them agree, and every other option contradicts a reply.
+// is tried; all that get further are kept and tried again with more. So several explanations can remain. A
+// choice is called measured only if all of them agree, and every other option contradicts a reply.
 #pragma once
 
 #include <compare>
@@ -39,17 +39,17 @@ struct RowFinding {
   ChoiceKey key;
   std::set<std::uint8_t> remaining{};  // options
   std::uint8_t before = 0;             // the bench's option
-  /// For one option that contradicts: where.
+  /// The place of a contradiction, for one of the other options.
   std::optional<std::size_t> capture{};
   std::size_t place = 0;
 };
 
 struct Calibration {
   bool explains = false;
-  std::vector<Hypothesis> explanations;  // equally good ones; or the one that gets furthest
+  std::vector<Hypothesis> explanations;  // equally good ones, or the one that gets furthest
   std::vector<RowFinding> findings;      // of all choices with several options, in the order of the tables
   std::size_t tried = 0;                 // hypotheses
-  // If nothing explains everything: where the best one ends.
+  // If nothing explains everything: the end of the best one.
   std::size_t capture = 0;
   std::size_t exchange = 0;
 };
@@ -59,13 +59,13 @@ struct CalibrateSettings {
   unsigned threads = 0;  // 0: one for each core
 };
 
-/// Tells how many hypotheses were tried, and what is done.
+/// Receives the number of hypotheses tried so far; `what` is always empty.
 using CalibrateProgress = std::function<void(std::size_t tried, const std::string& what)>;
 
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateProgress& progress);
 
-/// Returns the single options that make the first difference of a capture an agreement.
+/// Returns the single options that remove the first difference of a capture.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
                                  std::size_t first_difference, const CalibrateSettings& settings);
 

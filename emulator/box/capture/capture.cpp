@@ -11,8 +11,7 @@ namespace understudy::emulator::box {
 
 namespace {
 
-/// Joins pieces to exchanges. They are in the order in which they were completed, so a reply follows its
-/// request.
+/// Joins pieces to exchanges. Pieces arrive in the order of their ends, so a reply follows its request.
 class Joiner {
  public:
   Joiner(Capture& capture, std::string wanted) : capture_(capture), wanted_(std::move(wanted)) {}

@@ -1,4 +1,4 @@
-// A capture of a line as it was read: what a host sent and what came back, with times.
+// A capture of a line: what a host sent and what came back, with times.
 #pragma once
 
 #include <cstddef>
@@ -35,12 +35,12 @@ struct Exchange {
 
 struct Capture {
   std::string path;
-  std::string line;  // the one that was taken
+  std::string line;  // the chosen line
   std::vector<Exchange> exchanges;
   std::size_t unasked = 0;  // pieces of the controller before the first request
 };
 
-/// The message begins with the path and the place, and says what was expected.
+/// Thrown for a bad capture. The message begins with the path and the place, and says what was expected.
 struct CaptureReadError : FileError {
   using FileError::FileError;
 };

@@ -19,7 +19,7 @@ namespace understudy::emulator::box {
 
 namespace {
 
-/// A controller that was on before the capture began has finished its start.
+/// A controller that was on before the capture began has finished its start after this time.
 constexpr SimTime kStarted = std::chrono::seconds(5);
 /// A reply later than this belongs to no request.
 constexpr SimTime kLongestWait = std::chrono::seconds(2);
@@ -37,8 +37,7 @@ class Fingerprint {
   std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
 };
 
-/// Replies all come later, or earlier, by the time of adapters and drivers. What differs from that is late or
-/// early.
+/// Adapters and drivers delay all replies alike. Replies that differ from this usual delay are late or early.
 void judge_times(Comparison& comparison, const std::vector<bool>& has_time, SimTime tolerance) {
   std::vector<SimTime> all;
   for (std::size_t i = 0; i < comparison.judgements.size(); ++i)

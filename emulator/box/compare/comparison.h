@@ -1,4 +1,4 @@
-// Plays a capture to a bench and judges each reply.
+// Plays a capture against a bench, and judges each reply.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ struct CompareSettings {
 
 struct Judgement {
   Verdict verdict = Verdict::same;
-  SimTime later{0};       // how much later than the bench's the reply was
-  std::string request{};  // in words; only if `tells`
+  SimTime later{0};       // how much later the reply was than the bench's
+  std::string request{};  // in words; only for Extent::whole
   std::string box{};
   std::string bench{};
 };
@@ -37,7 +37,7 @@ struct Comparison {
 };
 
 enum class Extent : std::uint8_t {
-  to_difference,  // ends at the first one; frames are not told in words
+  to_difference,  // ends at the first difference, and describes no frames
   whole,
 };
 /// Throws what World throws for settings that a model refuses.

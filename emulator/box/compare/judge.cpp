@@ -42,7 +42,7 @@ std::vector<std::uint16_t> words_in(const Addressed& asked, std::span<const std:
   return words;
 }
 
-/// The worst of several verdicts about one reply.
+/// Returns the worse of two verdicts about one reply.
 Verdict worse(Verdict a, Verdict b) {
   constexpr std::array kOrder{Verdict::same, Verdict::within, Verdict::undecidable, Verdict::different};
   const auto place = [&](Verdict verdict) { return std::ranges::find(kOrder, verdict) - kOrder.begin(); };

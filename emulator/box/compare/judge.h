@@ -1,9 +1,9 @@
-// Judges replies of a real controller by those of a bench.
+// Compares replies of a real controller with those of a bench.
 //
-// What a controller holds when a capture begins is not known, unless it begins at the power-up. A register
-// that shows another value than the bench's when it is read for the first time is therefore not different
-// but undecidable, and its value is learned: as long as the bench's stays, so must the controller's, and a
-// counter may keep its distance. A write of the host ends that.
+// A controller's values at the beginning of a capture are unknown, unless the capture begins at power-up. So
+// a register whose first value differs from the bench's is not different but undecidable. Its value is
+// learned: as long as the bench's stays, so must the controller's, and a counter may keep its distance. A
+// write of the host ends that.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ enum class Verdict : std::uint8_t {
   early,   // the same reply, at another time than usual
   late,
   different,
-  undecidable,  // it depends on what the capture does not tell
+  undecidable,  // it depends on something that the capture does not show
 };
 inline constexpr std::array kVerdictNames = {
     std::pair{Verdict::same, std::string_view("same")},

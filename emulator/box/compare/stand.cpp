@@ -38,7 +38,7 @@ std::optional<Addressed> addressed_by(std::span<const std::uint8_t> request) {
   return {};
 }
 
-/// Hears what stations send.
+/// Collects what stations send.
 class Stand::Ear final : public pty::LineObserver {
  public:
   void on_start_bit(SimTime) override {}

@@ -1,4 +1,4 @@
-// A bench that is asked what a host asked a real controller, at the same times.
+// A bench that gets the requests that a host sent to a real controller, at the same times.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ std::optional<Addressed> addressed_by(std::span<const std::uint8_t> request);
 struct StandReply {
   Frame bytes;                  // empty: there was no reply
   std::optional<SimTime> at{};  // when the first character began
-  /// For a read of registers: what they held a tolerance before and after.
+  /// For a read of registers: their values a tolerance before the request and after the reply.
   std::vector<std::uint16_t> before{};
   std::vector<std::uint16_t> after{};
   /// The same for a query of a text controller that asks for a number.
@@ -46,7 +46,8 @@ class Stand {
   Stand(const Stand&) = delete;
   Stand& operator=(const Stand&) = delete;
 
-  /// Sends the request at `at`, and lets time pass until `until`, or until it is answered and the line quiet.
+  /// Sends the request at `at`, and advances time until `until`, or until the reply is complete and the line
+  /// is quiet.
   StandReply ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance);
 
   const world::WorldLine& line() const { return world_.line(line_); }

@@ -34,7 +34,7 @@ std::int64_t in_microseconds(WallTime time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time).count();
 }
 
-/// A number as such if JSON writes it with the same digits; anything else as text.
+/// Returns a number if JSON writes it with the same digits, and a text otherwise.
 OrderedJson json_value(const std::string& text) {
   OrderedJson number = OrderedJson::parse(text, nullptr, false);
   if (number.is_number() && number.dump() == text) return number;

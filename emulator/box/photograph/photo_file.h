@@ -1,4 +1,4 @@
-// A photograph as JSON: values, refusals, latencies, and every exchange.
+// Writes a photograph as JSON: values, refusals, latencies, and every exchange.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace understudy::emulator::box {
 
 std::string photo_json(const Photograph& photo);
 
-/// The least, the middle and the largest of all latencies.
+/// The least, the median and the greatest of all latencies.
 struct Latencies {
   WallTime least{0};
   WallTime median{0};

@@ -1,4 +1,4 @@
-// Shared by the two ways to take a photograph.
+// Code shared by the two ways to take a photograph.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::box {
 
-/// What is known while a photograph is taken.
+/// The state of a photograph in progress.
 struct PhotoWork {
   const Model& model;
   const PortName& port;
@@ -24,16 +24,16 @@ struct PhotoWork {
   int modules = 0;  // of a chain, once it is known
 
   void note(Asked asked);
-  /// Reports what is asked next.
+  /// Reports the next question.
   void tell(std::string_view next) const {
     if (progress) progress(photo.exchanges.size(), next);
   }
-  /// Adds to what the controller did not tell.
+  /// Adds a value that the controller did not give.
   void refuse(const PhotoRefusal& refusal) { photo.refused.push_back(refusal); }
 };
 
-/// Returns the settings of the line to try, the likeliest first: what the user set, or else all that the
-/// model's ports can be set to. One of its own if the port has no settings.
+/// Returns the line settings to try, the likeliest first: the user's, or else all that the model's ports can
+/// have. If the port has no settings, only the first.
 std::vector<pty::LineSettings> settings_to_try(const Model& model, const PortName& port);
 
 /// Returns the message for a controller that does not answer: what was asked, and at which settings.
@@ -43,7 +43,7 @@ std::string silence_text(const PortName& port, const std::string& who,
 void photograph_registers(PhotoWork& work);
 void photograph_text(PhotoWork& work);
 
-/// Makes the image from persistent values: takes out, one by one, what the model refuses.
+/// Makes the image from persistent values. Removes, one by one, those that the model refuses.
 void settle_image(PhotoWork& work, NvImage image);
 
 }  // namespace understudy::emulator::box

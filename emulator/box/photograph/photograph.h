@@ -1,4 +1,4 @@
-// A photograph of a real controller: everything that reads can tell, at about one moment.
+// A photograph of a real controller: everything that can be read, at about one moment.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct PhotoValue {
   std::uint16_t address = 0;
 };
 
-/// Something that the controller did not tell.
+/// A value that the controller did not give.
 struct PhotoRefusal {
   std::string name;
   std::string why;  // "exception 2", "no answer"
@@ -36,19 +36,19 @@ struct Photograph {
   std::string place;
   std::string line;         // "19200 8E1"; empty if the port has no settings
   int station = -1;         // -1: the model has none
-  bool is_echoing = false;  // the adapter sends back what it is given
+  bool is_echoing = false;  // the adapter echoes what is sent
   std::vector<PhotoValue> values{};
   std::vector<PhotoRefusal> refused{};
   std::vector<Asked> exchanges{};  // all of them, in order
-  NvImage image{};                 // what is persistent and differs from the factory's values
+  NvImage image{};                 // persistent values that differ from the factory's
   /// Persistent values that an image of the model cannot hold, and why.
   std::vector<std::pair<std::string, std::string>> left_out{};
 };
 
-/// Receives progress: requests so far, and what is asked next.
+/// Receives the progress: the number of requests so far, and the next question.
 using PhotoProgress = std::function<void(std::size_t requests, std::string_view next)>;
 
-/// Reports that the controller does not answer as its model would. One line.
+/// Thrown if the controller does not answer as its model would. The message is one line.
 struct BoxError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -57,8 +57,8 @@ struct PhotoSettings {
   std::optional<int> station{};
   Firmware firmware = 0;
   WallTime timeout{0};
-  int modules = 0;          // of a chain; 0: as the chain says
-  bool has_arrays = false;  // of a text controller: its long arrays, too
+  int modules = 0;          // of a chain; 0: ask the chain
+  bool has_arrays = false;  // also reads the long arrays of a text controller
 };
 
 /// Reads everything. Only reads are sent. Throws BoxError and WireError.

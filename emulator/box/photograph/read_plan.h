@@ -1,4 +1,4 @@
-// What there is to read of a model's registers, in requests that the model allows.
+// Plans the requests, within the model's limits, that read all of a model's registers.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct ReadCell {
   int size = 1;  // in words, or bits
 };
 
-/// Neighbouring registers, which one request reads.
+/// Neighbouring registers that one request reads.
 struct ReadBlock {
   Table table = Table::holding;
   std::vector<ReadCell> cells;
@@ -26,8 +26,8 @@ struct ReadBlock {
   int count() const { return cells.back().address + cells.back().size - first(); }
 };
 
-/// Returns blocks in ascending order: coils, discrete inputs, holding and input registers. Tables that the
-/// model has no function for are left out, and so is what cannot be read.
+/// Returns blocks in ascending order: coils, discrete inputs, holding and input registers. Registers that
+/// cannot be read, and tables without a function in the model, are left out.
 std::vector<ReadBlock> read_plan(const Model& model);
 
 /// Returns both halves of a block of several cells.

@@ -107,7 +107,7 @@ class RegisterPhoto {
     throw BoxError(silence_text(work_.port, who, tried, is_noisy, work_.photo.is_echoing));
   }
 
-  /// The order of words may be a setting of the controller.
+  /// Reads the order of words, which may be a setting of the controller.
   void find_word_order() {
     const std::string name(map_.policy().word_order_in);
     const auto place = name.empty() ? std::nullopt : map_.find(name, work_.model.firmwares.back());
@@ -116,7 +116,7 @@ class RegisterPhoto {
     if (reply.kind == Kind::good) low_word_first_ = reply.words.front() == 1;
   }
 
-  /// Repeats a request that is not answered, or while the controller is busy.
+  /// Sends a request, and repeats it if there is no answer or the controller is busy.
   play::HostReply ask(Table table, std::uint16_t first, int count, const std::string& name) {
     play::HostReply reply;
     for (int i = 0; i < kTries; ++i) {
@@ -192,7 +192,7 @@ class RegisterPhoto {
   PhotoWork& work_;
   const RegisterMap& map_;
   std::vector<ReadBlock> plan_;
-  std::unique_ptr<Device> device_;  // knows what is persistent
+  std::unique_ptr<Device> device_;  // knows which values are persistent
   std::optional<ModbusMaster> master_;
   std::optional<ReadBlock> known_good_;  // the last block that was answered
   NvImage image_;

@@ -33,7 +33,7 @@ constexpr WallTime kPause = std::chrono::milliseconds(8);
 constexpr WallTime kPauseInList = std::chrono::milliseconds(300);
 constexpr std::string_view kRefused = "ERR";
 
-/// Queries that tell no persistent value. Errors come first: a query that is refused becomes one.
+/// Queries for values that are not persistent. Errors come first, because a refused query becomes one.
 constexpr std::string_view kOfChain[] = {"ERR", "ERC", "VER", "ST", "IN", "AIN", "TM"};
 constexpr std::string_view kOfModule[] = {"PE", "MD", "MT", "AC", "IMX", "IC", "FLE", "TEMP"};
 constexpr std::string_view kLinkedModules = "PN50";  // a bit for each
@@ -80,7 +80,7 @@ class TextPhoto {
     throw BoxError(silence_text(work_.port, "the chain", tried, is_noisy, work_.photo.is_echoing));
   }
 
-  /// Returns false for what a wrong speed makes of an answer.
+  /// Returns false for an answer that a wrong speed has garbled.
   static bool is_text(const std::vector<std::string>& lines) {
     return std::ranges::all_of(lines, [](const std::string& line) {
       return std::ranges::all_of(line, [](char c) { return c >= ' ' && c <= '~'; });
@@ -120,8 +120,8 @@ class TextPhoto {
     }
   }
 
-  /// The modules are not tried, because a module that is missing becomes an error in the controller's
-  /// history.
+  /// Returns the linked modules, a bit for each. It does not try them, because a missing module becomes an
+  /// error in the controller's history.
   unsigned linked_modules() {
     if (work_.settings.modules != 0) {
       work_.modules = work_.settings.modules;
@@ -174,7 +174,7 @@ class TextPhoto {
     image_.program = std::move(reply.lines);
   }
 
-  /// A real that happens to be whole was answered like an integer: the model says which it is.
+  /// A whole real number looks like an integer in an answer; the model knows which it is.
   void settle() {
     NvImage first = image_;
     settle_image(work_, std::move(first));

@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::box {
 
-/// `place` is for messages. Throw WireError if the other end is gone.
+/// `place` is for messages. Both throw WireError if the other end is gone.
 void write_all(const Descriptor& to, std::span<const std::uint8_t> bytes, const std::string& place);
 bool read_some(const Descriptor& from, Bytes& bytes, WallTime until, const std::string& place);
 

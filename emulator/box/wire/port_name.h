@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::box {
 
-/// Reports what is wrong with the text, and what was expected.
+/// Thrown for a bad text. The message says what was expected.
 struct PortNameError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,7 +21,7 @@ struct PortNameError : std::runtime_error {
 struct PortName {
   std::string place;  // without settings
   std::optional<world::TcpAddress> tcp{};
-  // What the user set; the rest is the model's.
+  // The user's settings; the model has the rest.
   std::optional<int> baud{};
   std::optional<pty::LineSettings> framing{};  // data bits, parity and stop bits
 

@@ -68,7 +68,7 @@ void SerialWire::set_line(const pty::LineSettings& settings) {
   port.c_cc[VTIME] = 0;
   cfsetspeed(&port, speed->code);
   if (tcsetattr(port_.get(), TCSANOW, &port) == 0) return;
-  // A pseudo-terminal has no parity, and the C library refuses what sets nothing else.
+  // A pseudo-terminal has no parity, and the C library refuses a call that changes nothing else.
   port.c_cflag &= ~static_cast<tcflag_t>(PARENB | PARODD);
   if (errno == EINVAL && tcsetattr(port_.get(), TCSANOW, &port) == 0) return;
   throw WireError(one_line(path_) + ": cannot be set to " + pty::to_string(settings) + ": " +

@@ -1,5 +1,5 @@
-// The way to a real controller: bytes to and from a serial port of this machine or one behind TCP, in wall
-// time.
+// A connection to a real controller: bytes to and from a serial port of this machine or one behind TCP, in
+// wall time.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ namespace understudy::emulator::box {
 using Bytes = std::vector<std::uint8_t>;
 using serve::WallTime;
 
-/// The port cannot be opened, or is lost. The message is one line that names it and what was expected.
+/// Thrown if the port cannot be opened, or is lost. The message is one line that names it and what was
+/// expected.
 struct WireError : pty::PortError {
   using pty::PortError::PortError;
 };
@@ -33,11 +34,11 @@ class Wire {
   virtual void set_line(const pty::LineSettings& settings) = 0;
   /// Sends all bytes. Throws WireError.
   virtual void send(std::span<const std::uint8_t> bytes) = 0;
-  /// Adds the bytes that are there, or come before `until`. Returns false if there are none. Throws
+  /// Adds the bytes that have arrived, or arrive before `until`. Returns false if there are none. Throws
   /// WireError.
   virtual bool receive(Bytes& bytes, WallTime until) = 0;
 
-  /// Drops what was received and nobody has read.
+  /// Drops received bytes that nobody has read.
   void discard();
 };
 

@@ -27,9 +27,9 @@ constexpr std::size_t kMaxCurves = 256;
 constexpr std::uint64_t kMaxDots = 4'000;
 constexpr std::size_t kMaxPoints = 200'000;  // of all names
 constexpr std::size_t kMaxSpans = 2'000;     // in a reply
-/// Up to this much work every tick is looked at; beyond it, only some moments of each dot.
-constexpr Tick kMaxCurveWork = 4'000'000;  // ticks by names and devices
-constexpr Tick kMaxProgramWork = 100'000;  // ticks by devices
+/// Up to this much work every tick is sampled; beyond it, only some moments of each dot.
+constexpr Tick kMaxCurveWork = 4'000'000;  // ticks times the weight of names and devices
+constexpr Tick kMaxProgramWork = 100'000;  // ticks times devices
 constexpr std::uint64_t kLooksADot = 8;
 
 struct Stretch {
@@ -53,7 +53,7 @@ Stretch stretch_of(const Json& message, const world::Timeline& timeline) {
   return stretch;
 }
 
-/// Returns how far apart moments are looked at: the whole stretch if a watcher sees every tick of it.
+/// Returns the interval between samples: the whole stretch if a watcher sees every tick of it.
 SimTime apart_of(const Stretch& stretch, bool is_exact) {
   const SimTime length = stretch.to - stretch.from;
   if (is_exact) return length;
@@ -66,7 +66,7 @@ Json points_of(const std::vector<double>& values) {
   return points;
 }
 
-/// A span of the timeline. Those of a lane that lie within one dot are told as one.
+/// A span of the timeline. Spans of a lane that lie within one dot are reported as one.
 struct Span {
   std::string lane;
   SimTime begin{0};
@@ -102,7 +102,7 @@ void add_exchanges(std::vector<Span>& spans, const world::History& history) {
   }
 }
 
-/// Faults last from their beginning, and devices without power from power off, each to its end.
+/// Adds a span for each fault and for each time that a device has no power.
 void add_events(std::vector<Span>& spans, const world::History& history, SimTime end) {
   std::map<std::string, std::size_t> under_way;  // by what ends it: the number of its span
   const auto begin = [&](const std::string& key, const world::Event& event, const char* lane,
@@ -148,7 +148,7 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
   }
 }
 
-/// What the threads of a host in simulated time waited for.
+/// Adds the waits of the threads of a host in simulated time.
 void add_waits(std::vector<Span>& spans, const world::Timeline& timeline) {
   for (const world::RecordedEvent& event : timeline.events()) {
     if (event.what != world::RecordedEvent::What::wait) continue;
@@ -184,7 +184,7 @@ void add_programs(std::vector<Span>& spans, const Stretch& stretch, const world:
   }
 }
 
-/// Keeps what lies in the stretch, ordered by its beginning; spans of a lane within one dot become one.
+/// Keeps the spans in the stretch, ordered by their beginning. Spans of a lane within one dot become one.
 std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
   std::erase_if(spans, [&](const Span& span) { return span.end < stretch.from || span.begin > stretch.to; });
   std::stable_sort(spans.begin(), spans.end(),

@@ -27,7 +27,7 @@ void continue_message(Daemon& daemon, const Json& message, const ControlServer::
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"stack","device":"feeder"}: where its programs are, and their callers.
 Json stack_message(Daemon& daemon, const Json& message);
-/// {"do":"source","device":"feeder"}: the text of its program, in whose lines `break` and `stack` count.
+/// {"do":"source","device":"feeder"}: the text of its program. `break` and `stack` use its line numbers.
 Json source_message(Daemon& daemon, const Json& message);
 /// {"do":"variables","device":"feeder","scope":"axes"}: the values of the names in its program, of its axes,
 /// of its terminals; without "scope" all of these.
@@ -41,7 +41,7 @@ const Device& require_program(Daemon& daemon, const Json& message);
 world::StepKind require_step_kind(const Json& message);
 /// Returns a duration from now on. Throws MessageError.
 SimTime require_duration(const Daemon& daemon, const Json& message, const std::string& key);
-/// Returns the stop at which the world is, or null.
+/// Returns the world's present stop, or null.
 Json json_of_stop(const Daemon& daemon);
 /// Returns the time, and the stop if the world is at one.
 Json time_and_stop(const Daemon& daemon);

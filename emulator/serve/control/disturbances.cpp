@@ -138,7 +138,7 @@ Json turn_message(Daemon& daemon, const Json& message) {
       turns.push_back(world::find_fault(daemon.world().known(), text));
       world::check_fault(daemon.world(), turns.back());
     } catch (const world::NameError& error) {
-      // The message of a fault begins with its kind, which is the name of this command already.
+      // The message of a fault begins with its kind, which is also the name of this command.
       const std::string_view what = error.what();
       constexpr std::string_view kKind = "turn: ";
       throw MessageError(std::string(what.starts_with(kKind) ? what.substr(kKind.size()) : what));

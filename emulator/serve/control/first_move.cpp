@@ -14,7 +14,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns what stands between the braces of "  - write: { ... }", or an empty text for another step.
+/// Returns the text between the braces of "  - write: { ... }", or an empty text for another step.
 std::string_view inside(std::string_view line, std::string_view step) {
   const std::size_t at = line.find(step);
   const std::size_t end = line.rfind(" }");

@@ -1,4 +1,4 @@
-// The first move of a model, for somebody who has no host yet: the messages that do it.
+// Returns the messages for the first move of a model, for a user who has no host yet.
 #pragma once
 
 #include "emulator/device/model.h"
@@ -7,8 +7,7 @@
 namespace understudy::emulator::serve {
 
 /// Returns what the steps of the model's first files do, as messages for a device: {"set":{"Aaxis_SVON":1}}
-/// or
-/// {"command":"RSM_SET_V X 2000"}. Steps that only look are left out.
+/// or {"command":"RSM_SET_V X 2000"}. Steps that only look are left out.
 Json first_move_of(const Model& model);
 
 }  // namespace understudy::emulator::serve

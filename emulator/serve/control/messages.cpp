@@ -177,7 +177,7 @@ void answer(const ControlServer::Reply& reply, const std::function<Json()>& make
 
 namespace {
 
-/// Does what a message says. Returns null if the reply comes later.
+/// Executes a message. Returns null if the reply comes later.
 Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
   const Verb& verb = require_verb(message);
   const std::string author = take_author(message);

@@ -26,7 +26,7 @@ bool is_back(const Json& message) {
   return message["back"].get<bool>();
 }
 
-/// A step ends at a breakpoint on its way as well.
+/// Returns true if the stop ends a step: at its end, or at a breakpoint on the way.
 bool is_at_a_line(const world::DebugStop& stop) {
   using Reason = world::DebugStop::Reason;
   return stop.reason == Reason::step || (stop.reason == Reason::breakpoint && stop.place.line != 0);
@@ -72,7 +72,8 @@ Json RecordingStops::step(const Json& message) {
   }
   if (wanted.kind == world::StepKind::stand)
     throw MessageError("what: stand goes on only; expected instruction, line, over or out with back");
-  // Back over a routine, or out of it, is to the last line with no more callers, or with fewer.
+  // A step back over a routine goes to the last earlier line with at most as many callers; a step back out of
+  // it, to the last one with fewer.
   const world::DebugStop* const stop = debugger().stop();
   const std::size_t depth = stop != nullptr ? stop->depth : SIZE_MAX;
   const world::StepKind kind = wanted.kind;
@@ -102,7 +103,7 @@ RecordingStops::Wanted RecordingStops::wanted_step(const Json& message) const {
 bool RecordingStops::play_on(SimTime until) {
   const SimTime began = now();
   timeline_.play_on(until, [this] { return debugger().stop() != nullptr; });
-  static_cast<void>(debugger().take_stop());  // the clock stands anyway
+  static_cast<void>(debugger().take_stop());  // the clock is stopped anyway
   return now() > began && debugger().stop() != nullptr;
 }
 
@@ -115,9 +116,8 @@ bool RecordingStops::step_on(const Wanted& wanted, SimTime until) {
 
 void RecordingStops::begin_at(std::size_t keyframe) { go_to_(timeline_.time_of_keyframe(keyframe)); }
 
-/// Plays from a keyframe on. Returns how many stops lead to the last wanted one before that moment. It plays
-/// to the tick after the next keyframe: from there, a line that begins in that tick would seem to run
-/// already.
+/// Plays from a keyframe on. Returns the number of the last wanted stop before that moment. It plays to the
+/// tick after the next keyframe: from there, a line that begins in that tick would seem to run already.
 std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTime before, const PlayOn& play,
                                                      const IsWanted& is_wanted) {
   const bool is_last = keyframe + 1 == timeline_.keyframes();
@@ -135,7 +135,7 @@ std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTi
   return found;
 }
 
-/// Looks from one keyframe after the other, the last one first.
+/// Searches from one keyframe after another, the last one first.
 void RecordingStops::go_back(const PlayOn& play, const IsWanted& is_wanted) {
   const SimTime from = now();
   for (std::size_t keyframe = timeline_.keyframes(); keyframe-- > 0;) {

@@ -1,4 +1,4 @@
-// Goes on and back in a recording to where a debugger stops.
+// Moves forward and backward in a recording to the stops of a debugger.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ class RecordingStops {
   /// `go_to` takes the world to a moment. All must outlive it.
   RecordingStops(Daemon& daemon, world::Timeline& timeline, std::function<void(SimTime)> go_to);
 
-  /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. Without a stop it goes to the end, or
-  /// to the beginning.
+  /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. If there is no stop, goes to the end,
+  /// or back to the beginning.
   Json go_on(const Json& message);
   /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and by ticks.
   Json step(const Json& message);
@@ -31,9 +31,9 @@ class RecordingStops {
     std::size_t device = 0;
     std::string program{};
   };
-  /// Plays on to a stop, `until` at most. Returns false if there was none.
+  /// Plays until the next stop, at most to `until`. Returns false if there was none.
   using PlayOn = std::function<bool(SimTime until)>;
-  /// Whether a stop is one of those that are wanted.
+  /// Returns true if the search wants this stop.
   using IsWanted = std::function<bool(const world::DebugStop& stop)>;
 
   Wanted wanted_step(const Json& message) const;

@@ -325,7 +325,7 @@ ReplyTask tell_rows(Daemon& daemon, WantedPage wanted) {
 ReplyTask tell_values(Daemon& daemon, WantedPage wanted) {
   const Pause pause(daemon);
   const Device& device = daemon.world().device(wanted.device);
-  // To find the names takes long, to read the values does not. So all values are of one moment.
+  // Finding the names takes long; reading the values does not. So all values are of one moment.
   std::vector<PageValue> page;
   PageWalk walk(device, wanted);
   while (walk.step()) {

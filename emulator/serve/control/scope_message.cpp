@@ -118,7 +118,7 @@ Json scope_reply(const world::Scope* scope) {
   return Json{{"ok", true}, {"scope", scope != nullptr ? course_of_scope(*scope) : Json()}};
 }
 
-/// Returns samples. It copies all at one moment and writes them in pieces.
+/// Returns samples. It copies them all at one moment, then writes them in pieces.
 ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.observers().scope;

@@ -119,7 +119,7 @@ Json device_status(const world::World& world, std::size_t number) {
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
-  // Counts and groups have objects of their own, if there are any.
+  // Counts and groups, if there are any, have separate objects.
   for (const TerminalSight& sight : terminal_sights(device)) {
     const bool is_count =
         sight.what == TerminalSight::What::pulses || sight.kind == TerminalRow::Kind::counted_in;

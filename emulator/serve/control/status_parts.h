@@ -1,5 +1,5 @@
 // The state of a bench in parts: a line, one of its stations, a device. Each part is of one moment, which
-// lines and devices give as "time_ns"; while the clock is stopped, all parts have the same.
+// lines and devices give as "time_ns"; while the clock is stopped, it is the same in all parts.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ namespace {
 
 constexpr std::size_t kMaxMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
-constexpr std::size_t kMaxBefore = 200;  // frames, and events, that the logs keep from before a moment
+constexpr std::size_t kMaxBefore = 200;  // frames, and as many events, from before a moment
 
 /// Returns true for events that appear on the bar.
 bool is_mark(std::string_view what) {
@@ -47,7 +47,8 @@ bool is_mark(std::string_view what) {
          what == "power" || what == "program";
 }
 
-/// The commands that only read, or look on. Others are not allowed in a recording: it shows what happened.
+/// The commands that leave the bench as it is. A recording refuses the others, because it shows what
+/// happened.
 constexpr std::array<std::string_view, 19> kLooks{"status", "identify", "bench",     "registers", "choices",
                                                   "faults", "get",      "eval",      "list",      "frames",
                                                   "events", "where",    "look",      "scope",     "snapshots",
@@ -118,8 +119,8 @@ class Travel {
     return spans_message(message, timeline_, other_world(), history_, story_ ? &*story_ : nullptr);
   }
 
-  /// Handles {"do":"what-if"}, after which everything may act, and {"do":"what-if","off":true}, the way back
-  /// to the moment at which that began.
+  /// Handles {"do":"what-if"}, which allows all commands, and {"do":"what-if","off":true}, which returns to
+  /// the moment at which it began.
   Json what_if(const Json& message) {
     require_keys(message, {"do", "off"});
     const bool is_off = message.contains("off") && message["off"] == true;
@@ -219,13 +220,14 @@ class Travel {
 
   std::optional<SimTime>& altered_at() { return daemon_.observers().altered_at; }
 
-  /// Returns a world of the same bench, on which stretches are played again while the daemon's stands.
+  /// Returns a second world of the same bench, for replaying stretches while the daemon's world stays where
+  /// it is.
   world::World& other_world() {
     if (!other_) other_ = std::make_unique<world::World>(setup_.bench, setup_.options, nullptr);
     return *other_;
   }
 
-  /// No breakpoint stops the world on its way.
+  /// Moves to a time. No breakpoint stops the world on the way.
   void go_to(SimTime time) {
     world::Debugger& debugger = daemon_.observers().debugger;
     debugger.sleep();
@@ -248,7 +250,7 @@ class Travel {
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // all others must stand before it, because it calls collect()
+  world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls that
   RecordingStops stops_{daemon_, timeline_, [this](SimTime time) { go_to(time); }};
 };
 

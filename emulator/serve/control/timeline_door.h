@@ -1,4 +1,5 @@
-// The control socket of a recording: all messages, and those of a recording (docs/control.md).
+// The control socket of a recording. It accepts messages that only read, those that move through the
+// recording, and after `what-if` all messages (docs/control.md).
 #pragma once
 
 #include <string>
@@ -23,8 +24,8 @@ struct TimelineSetup {
   SimTime at_first{0};
 };
 /// Answers the messages for a daemon whose world is of the recording's bench and whose clock is stopped. It
-/// plays the recording once, as soon as the daemon runs, and moves to `at_first`. What it returns must be
-/// called, and destroyed, on the daemon's thread or when that has ended.
+/// plays the recording once, as soon as the daemon runs, and moves to `at_first`. The handler must be called
+/// and destroyed on the daemon's thread, or after that thread has ended.
 ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup setup);
 
 /// Makes a door with that handler. `path` is as for control_door().

@@ -241,7 +241,7 @@ Json set_message(Daemon& daemon, const Json& message) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const std::string& name = wanted[i].name;
     const world::RegisterName place = world::find_register(world.known(), name);
-    // Two bits or halves of one register would each be checked without the other.
+    // Two bits or halves of one register would be checked separately.
     for (const world::RegisterName& other : places) {
       if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
         throw MessageError(name + ": its register appears twice; expected it once");

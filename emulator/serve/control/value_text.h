@@ -1,4 +1,4 @@
-// Makes the output of `ctl get` and `ctl eval` from the reply.
+// Makes the output of `ctl get` and `ctl eval` from their replies.
 #pragma once
 
 #include <string>

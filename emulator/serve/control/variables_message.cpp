@@ -1,4 +1,4 @@
-// The values that a debugger shows: those that a program names, of axes, of terminals.
+// Returns the values that a debugger shows: of the names in a program, of axes, of terminals.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -31,9 +31,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxWords = 1'000;  // of a program, that are looked up
+constexpr std::size_t kMaxWords = 1'000;  // words of a program that are looked up
 
-/// Returns the register that a program writes as the parameter "VAR32", or the word as it is.
+/// Returns the register that a program calls by a parameter such as "VAR32", or the word as it is.
 std::string register_of(const Device& device, const std::string& word) {
   const std::int64_t number = word.starts_with("VAR") ? parse_integer(word.substr(3)).value_or(-1) : -1;
   for (const ParameterRow& row : device.model().parameters) {
@@ -88,7 +88,7 @@ Json values_of_program(const Daemon& /*daemon*/, const Device& device) {
   return values;
 }
 
-/// Returns the names behind the words that are not names themselves.
+/// Returns the full names of words that programs spell differently.
 Json spelled_otherwise(const Device& device) {
   Json names = Json::object();
   if (device.register_bank() == nullptr) return names;

@@ -1,5 +1,5 @@
-// The control messages that are not about registers, each with its reply. If one throws (MessageError or
-// NameError), nothing has changed.
+// The basic control messages; debug_messages.h and look_messages.h have the others. Each returns its reply.
+// If one throws (MessageError or NameError), nothing has changed.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ inline constexpr std::string_view kControlProtocol = "1.2";
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
 
 ReplyTask status_message(Daemon& daemon, Json message);
-/// {"do":"identify"}: identifies the daemon.
+/// {"do":"identify"}: the daemon's process and version, and its lines.
 Json identify_message(Daemon& daemon, const Json& message);
 /// {"do":"frames","since":17}: frames on the lines from number 17 on; {"do":"frames","last":10}: the last
 /// ten.
@@ -60,7 +60,7 @@ void restore_message(Daemon& daemon, const Json& message, const ControlServer::R
 /// {"do":"pause"}, {"do":"resume"}
 Json pause_message(Daemon& daemon, const Json& message);
 Json resume_message(Daemon& daemon, const Json& message);
-/// {"do":"advance","by":"250ms"}. The reply follows when simulated time has got there.
+/// {"do":"advance","by":"250ms"}. The reply follows when simulated time has advanced that far.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply follows at the end of the
 /// first tick at which it is true, or when the time has passed; "reached" says which.

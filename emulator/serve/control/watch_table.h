@@ -16,8 +16,8 @@ std::vector<std::string> watch_table(const std::string& status, const std::strin
 /// Returns the message that asks for the values of these names, and for the time.
 std::string get_message(const std::vector<std::string>& names);
 
-/// Returns the display of `ctl watch NAME...`: a line for each name with its value, or the reason why it has
-/// none now.
+/// Returns the display of `ctl watch NAME...`: a line for each name with its value, or with the reason why it
+/// has none now.
 std::vector<std::string> watch_values(const std::string& reply);
 
 /// Returns the error in a reply that refuses, or an empty text. Throws ControlError if it is not a reply.

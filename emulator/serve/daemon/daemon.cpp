@@ -46,12 +46,12 @@ namespace {
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
 // Bytes are stamped with the world's time, so catching up for them may take longer.
 constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
-// A host that reads more slowly than time passes is left alone this long before the next look at it.
+// A host that reads more slowly than time passes gets this long before it is checked again.
 constexpr WallTime kReadingTime = std::chrono::milliseconds(1);
-// A trace looks at every tick, so a long quiet span takes long to skip. It is skipped in pieces of this
+// A trace samples every tick, so a long quiet span takes long to skip. It is skipped in pieces of this
 // length.
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
-// The first step of simulated time before they look at the clock again.
+// The first step of simulated time between two looks at the wall clock.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
 // The log keeps some seconds of a busy line for observers.
@@ -198,7 +198,7 @@ void Daemon::judge_stall(WallTime now) {
   }
 }
 
-/// If the debugger has stopped the world, holds the clock there.
+/// Holds the clock if the debugger has stopped the world. Returns true if so.
 bool Daemon::is_held() {
   if (!observers_.debugger.take_stop()) return false;
   if (advance_done_) advance_target_ = world_.now();
@@ -208,8 +208,8 @@ bool Daemon::is_held() {
   return true;
 }
 
-/// Advances the world to `target`, or until that moment. Steps grow, so that quiet spans pass quickly.
-/// Returns true if the debugger has stopped it.
+/// Advances the world to `target`, or until the wall clock reaches `until`. Steps grow, so that quiet spans
+/// pass quickly. Returns true if the debugger has stopped it.
 bool Daemon::work_towards(SimTime target, WallTime until) {
   for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
     if (is_held()) return true;
@@ -225,8 +225,8 @@ void Daemon::pause() {
   if (advance_done_) advance_target_ = world_.now();  // ends the advance here, with a reply
   judge_stall(wall_now());
   pacer_.pause(wall_now());
-  catch_up();                                 // to the moment at which the clock stopped,
-  pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
+  catch_up();                                 // to the moment at which the clock stopped
+  pacer_.moved_to(world_.now(), wall_now());  // the world may not have come that far
   behind_since_.reset();
 }
 
@@ -374,7 +374,7 @@ void Daemon::run() {
     memories_->poll(now);
     if (recording_) recording_->look();
   }
-  // A recording or a trace of a quiet bench ends now too, not at its last event.
+  // The recording or trace of a quiet bench must end now, not at its last event.
   if (!advance_done_) catch_up();
 }
 

@@ -33,9 +33,9 @@ namespace understudy::emulator::serve {
 
 struct DaemonOptions {
   Speed speed;
-  bool is_host_simulated = false;  // its host lives in simulated time: doors are served on demand
+  bool is_host_simulated = false;  // its host runs in simulated time: doors are served on demand
   bool strict_framing = false;
-  std::optional<SimTime> patience{};  // with half a frame; if empty, as the speed requires
+  std::optional<SimTime> patience{};  // for the rest of a frame; empty: depends on the speed
   bool enforce_settings = true;
   DoorMaker door{};        // empty: it accepts no control messages
   std::string bench_path;  // the bench's file; empty if there is none
@@ -51,8 +51,8 @@ struct DaemonOptions {
 
 class Daemon {
  public:
-  /// Opens everything. Throws an error with the reason (SettingError, PortError, ControlError,
-  /// CaptureError).
+  /// Opens everything. Throws an error with the reason: SettingError, PortError, ControlError, CaptureError
+  /// or GrowingFileError.
   Daemon(const world::Bench& bench, const DaemonOptions& options,
          std::function<void(const std::string&)> log);
   ~Daemon();
@@ -71,7 +71,7 @@ class Daemon {
   void do_aside(std::function<std::function<void()>()> work);
   /// Returns true if run() has ended.
   bool is_over();
-  /// The event loop, on which other parts can wait.
+  /// Returns the event loop, on which other parts can wait.
   EventLoop& loop() { return loop_; }
 
   world::World& world() { return world_; }
@@ -82,9 +82,9 @@ class Daemon {
   /// Returns the path of its door, or an empty text if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
-  /// The last frames on the lines.
+  /// Returns the last frames on the lines.
   const world::FrameLog& frames() const { return frames_; }
-  /// Data for observers.
+  /// Returns the data for observers.
   Observers& observers() { return observers_; }
   const Observers& observers() const { return observers_; }
 
@@ -93,7 +93,7 @@ class Daemon {
   /// Returns false while an advance is in progress.
   bool resume();
   /// Sets how simulated time follows the wall clock from now on. Returns false while an advance is in
-  /// progress. How long an incomplete frame is waited for still depends on the initial speed.
+  /// progress. The patience with an incomplete frame still depends on the initial speed.
   bool set_speed(const Speed& speed);
   bool is_advancing() const { return advance_done_ != nullptr; }
   /// Advances simulated time by `duration`, or to the end of the first tick at which `is_there` is true
@@ -106,23 +106,23 @@ class Daemon {
     world_.advance_to(time);
     pacer_.moved_to(world_.now(), wall_now());
   }
-  /// Records that a thread of a host in simulated time has waited since then.
+  /// Records that a thread of a host in simulated time has waited since `since`.
   void record_wait(std::size_t thread, SimTime since, const std::string& text);
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
   /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.
   void catch_up_for_bytes();
 
-  /// The hash of the world's bench, for snapshots.
+  /// Returns the hash of the world's bench, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
-  /// The other files that it reads and writes.
+  /// Returns all files that it uses, with its ports and its control socket.
   FileClaims files() const;
   /// Returns why the world cannot be put into another state now, or an empty text.
   std::string_view why_no_restore() const;
   /// Puts the world into another state. Simulated time continues from there, and the lines have the hosts
   /// that are there now. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
-  /// Replaces the frames and events before the present state that observers are shown.
+  /// Replaces the earlier frames and events that observers see.
   void tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
 
  private:
@@ -171,8 +171,8 @@ class Daemon {
   bool is_over_ = false;  // under the same mutex
   std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
   bool stopping_ = false;
-  std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
-  std::optional<WallTime> behind_since_;  // since when it has been catching up; nothing: it is up to date
+  std::optional<WallTime> planned_;       // when the loop planned to wake; judged once
+  std::optional<WallTime> behind_since_;  // when it began to catch up; nothing: it is up to date
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_there_;  // may be none

@@ -1,4 +1,4 @@
-// A daemon's connections to the outside: pseudo-terminals, who opens them, and TCP addresses.
+// A daemon's connections to the outside: pseudo-terminals, their hosts, and TCP addresses.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -57,8 +57,8 @@ void Daemon::watch_presence() {
   });
 }
 
-/// Opens all doors before the log names any, because one may fail. On demand nobody listens, so that any port
-/// is free.
+/// Opens all doors before the log names any, because one may fail. On demand nobody listens, so any port
+/// number is free.
 void Daemon::make_doors(const world::Bench& bench, TcpDoor::Service service) {
   constexpr int kFirstFree = 49'152;
   const auto is_taken = [&](int number) {

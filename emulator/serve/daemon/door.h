@@ -16,8 +16,8 @@ class Door {
   virtual const std::string& path() const = 0;
 };
 
-/// Makes a door that lives as long as the daemon and is served by its event loop. Returns null if it failed,
-/// with the reason in `log`.
+/// Makes a door that lives as long as the daemon and is served by its event loop. If it cannot be made,
+/// returns null with the reason in `log`, or throws ControlError.
 using DoorMaker =
     std::function<std::unique_ptr<Door>(Daemon& daemon, const std::function<void(const std::string&)>& log)>;
 

@@ -23,7 +23,7 @@ class MissingStations {
   void look(const pty::CapturedPacket& packet);
 
  private:
-  static constexpr std::size_t kMaxTold = 8;  // of a line
+  static constexpr std::size_t kMaxTold = 8;  // for each line
 
   bool is_new(std::size_t line, std::uint8_t address);
 

@@ -58,7 +58,7 @@ void make_folder(const std::string& folder) {
 /// Reads a memory and reports all errors in it.
 void read_memory(world::DeviceSetup& device, world::Diagnostics& diagnostics) {
   bool is_asked = diagnostics.attempt([&] {
-    // Until there is a file, the bench may give the content of the memory.
+    // Until the file exists, the bench may set the content of the memory.
     if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
   });
   while (is_asked) {

@@ -30,16 +30,16 @@ class NvKeeper {
 
   /// Passes changes to the helper thread, at most once in NvWriter::kCoalesce.
   void poll(WallTime now);
-  /// Returns when look() must be called again, if there are changes to pass on or results to collect.
+  /// Returns when poll() must be called again, if there are changes to pass on or results to collect.
   std::optional<WallTime> next_poll() const;
-  /// The world has another state: the files must be written again, whatever the revisions of its memories.
+  /// Called after a restore: all files must be written again, whatever the revisions of the memories.
   void world_restored();
 
  private:
   struct File {
     std::size_t device = 0;
     std::string path;
-    std::optional<std::uint64_t> written{};  // the memory's revision, if the file is of this memory
+    std::optional<std::uint64_t> written{};  // the revision in the file; nothing: it must be written
   };
   void claim(const world::DeviceSetup& device);
   bool is_behind(const File& file) const;

@@ -27,12 +27,12 @@ struct Observers {
       : events(world, frames), names(world), debugger(world, events) {}
 
   world::EventLog events;
-  std::uint64_t restores =
-      0;  // how often the world was put into another state, which makes earlier reports invalid
-  /// Of a recording: the moment at which it was altered to see what would happen; nothing: it is not.
+  /// The number of restores of the world. Each makes earlier reports invalid.
+  std::uint64_t restores = 0;
+  /// The moment of a recording at which `what-if` began; nothing: the recording is not altered.
   std::optional<SimTime> altered_at;
   world::LookedNames names;
-  /// Which lines of programs have run since a moment; null: nobody counts them.
+  /// Counts which lines of programs have run since `counted_since`; null: nobody asked for it.
   std::unique_ptr<world::ProgramCoverage> coverage;
   SimTime counted_since{0};
   void count_lines(world::World& world) {

@@ -1,4 +1,4 @@
-// Something beside the host that lives in simulated time too, such as a scenario: time moves only while both
+// Something that runs in simulated time beside the host, such as a scenario. Time advances only while both
 // wait.
 #pragma once
 
@@ -11,10 +11,10 @@ namespace understudy::emulator::serve {
 class Companion {
  public:
   virtual ~Companion() = default;
-  /// The host sleeps and time stands at `now`: if the companion's wait is over, it acts on the world until it
-  /// waits again.
+  /// Called while the host sleeps and time stands at `now`. If the companion's wait is over, it acts on the
+  /// world until it waits again.
   virtual void act(SimTime now) = 0;
-  /// Returns when its wait ends at the latest, or nothing if time means nothing to it.
+  /// Returns the latest end of its wait, or nothing if it does not wait for a time.
   virtual std::optional<SimTime> next_act() const = 0;
 };
 

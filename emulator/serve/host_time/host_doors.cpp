@@ -98,7 +98,7 @@ HostDoors::~HostDoors() {
 void HostDoors::attend() {
   for (std::size_t i = 0; i < entrances_.size(); ++i) {
     TcpDoor& door = *daemon_.doors()[i];
-    door.attend();  // who has left makes room
+    door.attend();  // clients that have left make room
     while (true) {
       Descriptor client(
           accept4(entrances_[i].listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));

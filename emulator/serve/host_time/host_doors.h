@@ -29,7 +29,7 @@ class HostDoors {
   void attend();
   /// Ends the waits of threads whose door has sent something. Returns true if there was one.
   bool tell_news(HostWaits& waits);
-  /// Returns when the time of a door is up, such as a gateway's for an answer, or nothing.
+  /// Returns the next timeout of a door, such as a gateway's for an answer, or nothing.
   std::optional<SimTime> due() const;
   /// Returns true if a thread waits for a door of the port.
   bool is_waited_for(const Port& port, const HostWaits& waits) const;
@@ -38,7 +38,7 @@ class HostDoors {
   struct Entrance {
     std::string path;
     Descriptor listening;
-    std::uint64_t news = 0;  // when the host was last notified
+    std::uint64_t news = 0;  // TcpDoor::news() when the host was last notified
   };
   Daemon& daemon_;
   std::vector<Entrance> entrances_;  // of the daemon's doors

@@ -19,7 +19,7 @@ class HostPage {
   HostPage& operator=(const HostPage&) = delete;
 
   void set_now(SimTime now);
-  /// Wakes the threads that look at their word because they wait for each other.
+  /// Wakes the threads that wait on this thread's word (a futex).
   void wake(int thread);
   void set_line(std::size_t line, int terminal);
   /// `address` is empty for this machine itself.

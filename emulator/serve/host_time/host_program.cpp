@@ -40,7 +40,7 @@ std::string head_of(const std::string& file) {
   return head;
 }
 
-/// The program after "#!", or an empty text.
+/// Returns the program after "#!", or an empty text.
 std::string interpreter_of(const std::string& head) {
   if (!head.starts_with("#!")) return {};
   std::istringstream line(head.substr(2, head.find('\n') - 2));
@@ -55,7 +55,7 @@ bool is_dynamic(const std::string& head) {
   std::memcpy(&header, head.data(), sizeof header);
   for (std::size_t i = 0; i < header.e_phnum; ++i) {
     const std::size_t at = header.e_phoff + i * header.e_phentsize;
-    if (at + sizeof(Elf64_Phdr) > head.size()) return true;  // not to be seen from here
+    if (at + sizeof(Elf64_Phdr) > head.size()) return true;  // beyond the part that was read
     Elf64_Phdr part;
     std::memcpy(&part, head.data() + at, sizeof part);
     if (part.p_type == PT_INTERP) return true;

@@ -1,4 +1,4 @@
-// Whether a command can be started, and can load the library that puts hosts into simulated time.
+// Checks whether a command can be started, and can load the library that puts hosts into simulated time.
 #pragma once
 
 #include <string>

@@ -33,19 +33,19 @@ std::string_view read_small(const std::string& path, std::array<char, 512>& buff
   return size > 0 ? std::string_view(buffer.data(), static_cast<std::size_t>(size)) : std::string_view();
 }
 
-/// The letter after the name, which is in parentheses and may have any characters.
+/// Returns the letter after the name, which is in parentheses and may have any characters.
 char state_in(std::string_view stat) {
   const std::size_t end = stat.rfind(')');
   return end == std::string_view::npos || end + 2 >= stat.size() ? 'X' : stat[end + 2];
 }
 
-/// The third number of schedstat.
+/// Returns the third number of schedstat.
 std::uint64_t runs_in(std::string_view schedstat) {
   const std::size_t space = schedstat.rfind(' ');
   return space == std::string_view::npos ? 0 : std::strtoull(schedstat.data() + space, nullptr, 10);
 }
 
-/// Asleep until another thread, or something outside, wakes it; or ended.
+/// Returns true if a thread sleeps until another thread or something outside wakes it, or has ended.
 bool is_asleep(char state) { return state == 'S' || state == 'Z' || state == 'X'; }
 
 template <class Act>
@@ -95,7 +95,7 @@ bool HostTasks::is_alive(int process) const {
   return state != 'Z' && state != 'X' && (flags & kExiting) == 0;
 }
 
-/// Its folder of threads has a link more for each of them.
+/// The folder of threads has two links, and one more for each thread.
 bool HostTasks::is_one_thread() const {
   if (processes_.size() != 1) return false;
   struct stat status {};

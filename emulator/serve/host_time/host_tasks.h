@@ -35,7 +35,7 @@ class HostTasks {
   /// to wait.
   bool are_all_asleep(const std::set<int>& waiting) const;
 
-  /// A thread that the kernel runs, in words: "thread 2 of my_host (1234)".
+  /// Describes a thread that the kernel runs: "thread 2 of my_host (1234)".
   std::optional<std::string> running_one() const;
 
  private:

@@ -42,7 +42,7 @@ namespace {
 // A host of several threads that is not asleep is checked again after this time, then less and less often.
 constexpr WallTime kFirstLook = std::chrono::microseconds(20);
 constexpr WallTime kRarestLook = std::chrono::milliseconds(1);
-// Time moves for this long before others have their turn: the control socket, signals.
+// Time advances for this long before the control socket and signals have their turn.
 constexpr WallTime kSlice = std::chrono::milliseconds(5);
 constexpr WallTime kWatch = std::chrono::milliseconds(500);
 // A thread that has not waited for this many watches is reported.
@@ -167,7 +167,7 @@ void HostTime::drop(int number) {
   if (!has_others && tasks_.is_alive(process)) silent_.insert(process);
 }
 
-/// A program that is over at once may have greeted, and its end may be noticed first.
+/// Reads all pending messages: the end of a short-lived program may be noticed before its greeting.
 void HostTime::hear_all() {
   listener_->accept_all();
   std::vector<int> numbers;
@@ -252,13 +252,13 @@ bool HostTime::has_unread_messages() const {
   return poll(entries.data(), entries.size(), 0) != 0;
 }
 
-/// Takes what the host has written, and learns who has opened and closed the ports.
+/// Takes what the host has written, and notices which ports it has opened and closed.
 void HostTime::take_from_host() {
   for (const auto& port : daemon_.ports()) port->attend();
   doors_.attend();
 }
 
-/// Gives the host what the lines have for it, and ends the waits for that. Returns true if one has ended.
+/// Gives the host the lines' output, and ends the waits for it. Returns true if one has ended.
 bool HostTime::give_to_host() {
   const SimTime now = daemon_.world().now();
   page_.set_now(now);
@@ -291,7 +291,8 @@ bool HostTime::expire_timers() {
   return !expired.empty();
 }
 
-/// Returns how far time may go before a program must be asked, or nothing if it must not go on.
+/// Returns how far time may advance before the host or the companion must act, or nothing if it must not
+/// advance.
 std::optional<SimTime> HostTime::next_stop() const {
   const world::World& world = daemon_.world();
   const SimTime now = world.now();
@@ -310,7 +311,7 @@ std::optional<SimTime> HostTime::next_stop() const {
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
   }
   if (stop) return stop;
-  return world.next_due();  // they wait without end, and only a device could change that
+  return world.next_due();  // all wait without end, and only a device could change that
 }
 
 bool HostTime::may_time_go() const {
@@ -327,7 +328,7 @@ void HostTime::consider() {
     if (companion_ != nullptr) companion_->act(daemon_.world().now());  // before the host, in every run
     const bool goes_on = give_to_host();
     if (!may_time_go()) return;
-    // No message tells if the thread that goes on waits next for one that waits already.
+    // A thread that continues may next wait for one that waits already, and no message would report that.
     if (goes_on) return look_again();
     if (expire_timers()) return look_again();
     for (const auto& port : daemon_.ports()) {
@@ -376,7 +377,7 @@ std::size_t HostTime::line_of(int terminal) const {
   return static_cast<std::size_t>(found - lines_.begin());
 }
 
-/// Reports once that a thread does not wait, and once that all wait for what is outside.
+/// Reports once that a thread does not wait, and once that all wait for something outside the bench.
 void HostTime::watch_over() {
   idle_looks_ = std::exchange(has_moved_, false) ? 0 : idle_looks_ + 1;
   if (idle_looks_ < kLooksBeforeTelling || is_host_over_) return;

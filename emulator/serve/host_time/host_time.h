@@ -1,7 +1,7 @@
 // Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library answers its clocks
 // and waits, and asks here. Simulated time stops while any thread of the host can continue; when all wait, it
 // advances to whatever comes first: the end of a wait, or data on a line that a thread waits for.
-// docs/host-time.md describes the order in which bytes and time move.
+// docs/host-time.md describes the order in which bytes and time advance.
 #pragma once
 
 #include <chrono>
@@ -40,18 +40,18 @@ class HostTime {
   HostTime(const HostTime&) = delete;
   HostTime& operator=(const HostTime&) = delete;
 
-  /// What the host's environment needs. Throws NoTtyShim.
+  /// Returns the variables that the host's environment needs. Throws NoTtyShim.
   std::vector<std::pair<std::string, std::string>> environment() const;
-  /// From now on time goes on only while the companion waits too. It must outlive this object, or be removed
+  /// From now on time advances only while the companion waits too. It must outlive this object, or be removed
   /// (null).
   void accompany(Companion* companion);
-  /// A signal is to end the host: threads that wait may go on, and processes may end before they have
-  /// greeted.
+  /// Must be called when a signal is about to end the host: waiting threads may wake, and processes may end
+  /// before they have greeted.
   void host_is_to_end() { must_look_ = is_host_to_end_ = true; }
-  /// The host has ended: takes the bytes that it wrote last. From now on the companion alone decides how far
-  /// time goes.
+  /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the companion
+  /// alone decides how far time advances.
   void host_ended();
-  /// Returns true if the host's first process has loaded the library, whatever program it has become.
+  /// Returns true if the host's first process has loaded the library, even if it is another program by now.
   bool was_greeted() const { return was_greeted_; }
 
  private:

@@ -20,12 +20,12 @@ class HostTimers {
   struct Expired {
     int process = -1;
     int target = 0;         // the thread that gets the signal; 0: any
-    int signal_number = 0;  // 0: it was counted in a descriptor
+    int signal_number = 0;  // 0: the timer counts in a descriptor
     std::int64_t value = 0;
     bool operator==(const Expired&) const = default;
   };
 
-  /// Sets the timer that the message names, or removes it. `counter` is none for a signal.
+  /// Sets the timer that the message names, or removes it. `counter` is empty if the timer sends a signal.
   void set(const host_time::Message& message, Descriptor counter);
   /// Forgets the timers of a process.
   void process_ended(int process);

@@ -72,7 +72,7 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
       continue;
     }
     const Open& last = found->second;
-    // A reply is waited for until it is there: its first bytes do not end the wait.
+    // The wait for a reply lasts until the reply is complete: its first bytes do not end it.
     const bool is_same_reply =
         last.kind == Kind::reply && (open.kind == Kind::data || open.kind == Kind::other);
     const bool is_same =

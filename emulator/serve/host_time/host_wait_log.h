@@ -1,5 +1,5 @@
-// Tells what the threads of a host wait for, and how long, so that recordings show it: "waits for a reply,
-// 512 ms". Waits that follow each other without a pause, as for each byte of a reply, are told as one.
+// Reports what the threads of a host wait for, and how long, for recordings: "waits for a reply, 512 ms".
+// Waits that follow each other without a pause, as for each byte of a reply, are reported as one.
 #pragma once
 
 #include <cstddef>
@@ -38,11 +38,11 @@ class HostWaitLog {
   HostWaitLog(std::function<std::size_t(int)> line_of, std::function<void(const HostWait&)> tell)
       : line_of_(std::move(line_of)), tell_(std::move(tell)) {}
 
-  /// All threads wait, and time is about to go on.
+  /// Must be called when all threads wait and time is about to advance.
   void begin(const HostWaits& waits, const Lines& lines, SimTime now);
-  /// It has gone on.
+  /// Must be called when time has advanced.
   void end(SimTime now);
-  /// Tells what is not told yet.
+  /// Reports the waits that are still open.
   void finish(const Lines& lines);
 
  private:
@@ -57,7 +57,7 @@ class HostWaitLog {
     SimTime begin{0};
     SimTime end{0};
   };
-  /// When a line answered last.
+  /// The byte counts at the last answer of a line.
   struct Answer {
     std::uint64_t bytes_out = 0;
     std::uint64_t bytes_in = 0;

@@ -15,8 +15,8 @@
 
 namespace understudy::emulator::serve {
 
-/// A thread that the host has not connected is not known; one that waits without telling is `running` here,
-/// and HostTasks sees whether the kernel runs it.
+/// A thread is `unknown` until it greets the bench. One that waits without a message is `running` here;
+/// HostTasks sees whether the kernel runs it.
 enum class HostState : std::uint8_t { unknown, running, waiting, gone };
 enum class HostEvent : std::uint8_t {
   hello,   // it greets the bench
@@ -82,7 +82,7 @@ constexpr HostStep host_step(HostState state, HostEvent event) {
 
 class HostWaits {
  public:
-  /// A thread, by a number that its connection has.
+  /// A thread; the number of its connection identifies it.
   struct Thread {
     HostState state = HostState::unknown;
     int process = -1;
@@ -99,12 +99,12 @@ class HostWaits {
   void remove(int number) { threads_.erase(number); }
   /// Handles a message of a thread. Messages that are not events of the table change nothing here.
   void heard(int number, const host_time::Message& message);
-  /// Simulated time is now `now`: ends the waits whose end has come. Returns true if there were any.
+  /// Ends the waits whose end has come at simulated time `now`. Returns true if there were any.
   bool time_is(SimTime now);
-  /// Data have arrived on the line whose pseudo-terminal has this number. Returns true if a thread waited for
-  /// it.
+  /// Must be called when data have arrived on the line whose pseudo-terminal has this number. Returns true if
+  /// a thread waited for them.
   bool line_has_news(int terminal);
-  /// All that was written to the line has left the wire.
+  /// Must be called when all bytes written to the line have left the wire.
   bool line_is_drained(int terminal);
   void process_ended(int process);
 
@@ -112,11 +112,11 @@ class HostWaits {
   bool is_any_waiting() const;
   /// Returns true if a thread waits for a time or for a line.
   bool is_any_for_bench() const;
-  /// Returns true if a thread waits for what is not simulated.
+  /// Returns true if a thread waits for something outside the bench.
   bool is_any_outside() const;
   /// Returns when the first wait ends, or nothing.
   std::optional<SimTime> next_end() const;
-  /// Returns true if a thread waits for the line; for its news, or for it to be drained.
+  /// Returns true if a thread waits for data on the line, or for the line to be drained.
   bool is_line_waited_for(int terminal) const;
   const std::map<int, Thread>& threads() const { return threads_; }
 

@@ -57,7 +57,7 @@ std::vector<std::string> environment_with(const std::vector<std::pair<std::strin
 Child::Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& command,
              std::function<void()> over)
     : loop_(loop), signals_(signals), over_(std::move(over)), parent_(getpid()) {
-  // Processes that the command leaves behind become our children, so that they are reaped anywhere.
+  // Processes that the command leaves behind become our children, so they are reaped in any environment.
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   if (command.output < 0) terminal_ = open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal_ >= 0 && tcgetpgrp(terminal_) != getpgrp()) {

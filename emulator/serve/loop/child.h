@@ -24,7 +24,7 @@ struct ChildError : std::runtime_error {
 struct ChildCommand {
   std::vector<std::string> words;                                // the program and its arguments
   std::vector<std::pair<std::string, std::string>> environment;  // in addition to our own, or replacing them
-  /// A descriptor for what it prints; it then has no input and no terminal. -1: it has ours.
+  /// A descriptor for its output; the command then has no input and no terminal. -1: it has ours.
   int output = -1;
 };
 
@@ -49,7 +49,7 @@ class Child {
   /// Sends a signal to the group. Processes that still exist after kGrace are killed.
   void end_with(int signal_number);
 
-  /// The exit code of the command, or 128 + n if signal n ended it.
+  /// Returns the exit code of the command, or 128 + n if signal n ended it.
   int exit_code() const { return exit_code_; }
   /// Returns true if it was asked to end, or ended by a signal.
   bool was_ended() const { return was_asked_ || by_signal_; }
@@ -68,7 +68,7 @@ class Child {
   const ParentSignals& signals_;
   std::function<void()> over_;
   pid_t parent_ = -1;
-  pid_t pid_ = -1;  // and the number of its group
+  pid_t pid_ = -1;  // also the number of its group
   int terminal_ = -1;
   int timer_ = -1;
   WallTime deadline_{0};  // when the group will be killed; 0: it was not asked to end

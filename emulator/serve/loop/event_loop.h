@@ -53,7 +53,7 @@ class EventLoop {
 
  private:
   struct Watch {
-    int epoll = -1;  // that it is in
+    int epoll = -1;  // the epoll that it is in
     std::uint32_t interest = 0;
     std::uint32_t told = 0;                                     // the interest that the kernel knows of
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
@@ -74,8 +74,8 @@ class EventLoop {
   bool are_pieces_next_ = false;
   WallTime slice_end_ = WallTime::max();  // for rank `later`; unlimited at other times
   bool puts_off_ = false;                 // rank `later` waits for something that is due soon
-  bool has_put_off_ = false;              // since it was last called,
-  WallTime put_off_until_{0};             // for something due then
+  bool has_put_off_ = false;              // it has waited since it was last called
+  WallTime put_off_until_{0};             // when that something is due
 };
 
 }  // namespace understudy::emulator::serve

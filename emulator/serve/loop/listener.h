@@ -1,6 +1,6 @@
 // A socket on which clients arrive. When the process has no descriptors left, clients wait without busy
-// looping: the socket is not checked again before a client has gone, or a moment has passed, because other
-// parts may close descriptors.
+// looping: the socket is checked again when a client has gone, or after a moment, because other parts may
+// close descriptors.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ class Listener {
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
-  /// A descriptor was closed: tries again.
+  /// Tries again, because a descriptor was closed.
   void try_again();
   /// Admits all clients that wait now.
   void accept_all();

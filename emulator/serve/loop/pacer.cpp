@@ -70,8 +70,8 @@ std::size_t bucket_of(WallTime time) {
 
 }  // namespace
 
-/// Returns a percentile. To sort all times would take as long as the devices may wait, so only the bucket of
-/// the percentile is searched.
+/// Returns a percentile. The devices wait meanwhile, so it does not sort all times, but only the bucket of
+/// the percentile.
 WallTime Lateness::percentile(int percent) const {
   const std::size_t kept = std::min<std::size_t>(count_, recent_.size());
   if (kept == 0) return WallTime{0};

@@ -14,7 +14,7 @@ namespace understudy::emulator::serve {
 
 struct Speed {
   enum class Kind : std::uint8_t {
-    factor,  // simulated seconds a second; 1 is real time
+    factor,  // simulated seconds per second; 1 is real time
     free,    // as fast as possible, up to kFreest
     manual,  // only on request
   } kind = Kind::factor;
@@ -23,7 +23,7 @@ struct Speed {
   /// Virtual time is bounded to this factor, so that a host's actions take some simulated time, but not
   /// years.
   static constexpr double kFreest = 10'000;
-  /// Returns the most simulated seconds a second; 0 for `manual`.
+  /// Returns the most simulated seconds per second; 0 for `manual`.
   double rate() const;
 };
 
@@ -69,7 +69,7 @@ class Pacer {
   bool paused() const { return paused_; }
   /// Returns true if the clock is stopped: paused, or manual.
   bool standing() const { return paused_ || speed_.kind == Speed::Kind::manual; }
-  /// Simulated time was moved by hand, or ran ahead (virtual time): it continues from there.
+  /// Continues from `time`, because simulated time was moved by hand or ran ahead (virtual time).
   void moved_to(SimTime time, WallTime wall);
 
   const Speed& speed() const { return speed_; }

@@ -32,8 +32,8 @@ class ModbusTcp final : public TcpSpeech {
   [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
   void hear_line(std::span<const std::uint8_t> bytes) override;
   std::optional<std::chrono::milliseconds> patience() const override;
-  /// The time for the reply has passed: tells the client that the station does not answer, except for a
-  /// broadcast, or if the settings forbid it.
+  /// Must be called when the time for the reply has passed. The client learns that the station does not
+  /// answer, except for a broadcast, or if the settings forbid it.
   void give_up() override;
   bool is_idle() const override;
   void client_gone() override;

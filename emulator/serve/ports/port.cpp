@@ -35,7 +35,7 @@ namespace {
 // The kernel reports a host's close a moment before it takes effect. After this time it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
-// If the kernel does not report who opens and closes a terminal, this is how often it is checked.
+// The interval of checks if the kernel does not report who opens and closes a terminal.
 constexpr WallTime kUnwatchedLook = std::chrono::milliseconds(50);
 
 // A lost terminal is tried again after this time.

@@ -22,9 +22,9 @@ class Port {
  public:
   /// The link to its pseudo-terminal; nothing: it has none, only guests.
   using Link = std::optional<std::string>;
-  /// Ports that are served together share a `presence` watch; whoever serves them calls follow_hosts() when
-  /// it has collected something. `catch_up` brings the world to the present moment; `log` receives messages
-  /// for the user. Throws pty::PortError.
+  /// Ports that are served together share a `presence` watch; when it has collected something, follow_hosts()
+  /// must be called for each. `catch_up` brings the world to the present moment; `log` receives messages for
+  /// the user. Throws pty::PortError.
   Port(EventLoop& loop, world::World& world, std::size_t line_number, const Link& link,
        std::shared_ptr<pty::PresenceWatch> presence, std::function<void()> catch_up,
        std::function<void(const std::string&)> log);
@@ -35,9 +35,9 @@ class Port {
   /// From now on the host's bytes are taken, and its comings and goings noticed, only by attend(): a host in
   /// simulated time is served at the moment at which it waits.
   void serve_on_demand();
-  /// Takes what the host has written, as far as there is room, and gives it what the line has for it.
+  /// Takes what the host has written, as far as there is room, and gives it the line's output.
   void attend();
-  /// A host seems to have gone, but the kernel has not released the line yet.
+  /// Returns true if a host seems to have gone, but the kernel has not released the line yet.
   bool is_in_doubt() const { return terminal_ && terminal_->is_in_doubt(); }
 
   /// Passes on the bytes that the wire has delivered, and takes more bytes if the line has room.
@@ -56,8 +56,8 @@ class Port {
   /// again yet.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
-  /// The world has another state: its line gets the host that is there now, and the old line's unsent bytes
-  /// are dropped.
+  /// Must be called after a restore: the line gets the host that is there now, and the old line's unsent
+  /// bytes are dropped.
   void world_restored();
 
   /// A host that does not use the pseudo-terminal. It passes its bytes to hear().
@@ -66,23 +66,23 @@ class Port {
     virtual ~Guest() = default;
     /// Receives the line's next bytes. Returns how many it took.
     virtual std::size_t take(std::span<const std::uint8_t> bytes) = 0;
-    /// The line may have room again.
+    /// Called when the line may have room again.
     virtual void follow() = 0;
     /// Applies a fault to the next reply of the line.
     virtual void spoil(const world::Fault& fault) = 0;
-    /// The port is unplugged: the guest leaves.
+    /// Called when the port is unplugged: the guest leaves.
     virtual void hang_up() = 0;
   };
   /// Returns false if the line has a host. While a guest is there, hosts that open the pseudo-terminal are
   /// ignored.
   bool admit(Guest& guest);
-  /// Its last bytes are still served.
+  /// The guest leaves. Its last bytes are still served.
   void leave(std::span<const std::uint8_t> last);
-  /// Takes at most room() bytes.
+  /// Takes bytes from the guest, at most room().
   void hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
-  /// The guest flushes bytes that are not on the wire yet.
+  /// Must be called when the guest flushes bytes that are not on the wire yet.
   void take_back();
-  /// The guest discards bytes that it has not taken yet.
+  /// Must be called when the guest discards bytes that it has not taken yet.
   void throw_away();
   std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
   bool is_unplugged() const { return line().is_unplugged(); }
@@ -138,7 +138,7 @@ class Port {
   bool is_watching_ = false;               // the terminal's descriptor
   bool is_on_demand_ = false;              // the terminal's descriptor is not watched
   bool is_pulled_out_ = false;             // by a fault
-  bool has_told_ = false;                  // why it cannot be plugged in again
+  bool has_told_ = false;                  // the log has said why it cannot be plugged in again
   struct stat access_ {};                  // of the previous terminal
   WallTime next_recovery_{0};              // when to try again to open a lost terminal; 0: it is not lost
   bool is_listening_ = true;               // the line had room when last something was handed over

@@ -7,10 +7,10 @@
 
 namespace understudy::emulator::serve {
 
-/// The beginning of its path.
+/// The beginning of the paths of private folders.
 inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
 
-/// How long files that failed runs left in such folders are kept.
+/// Files that failed runs left in such folders are removed after this time.
 inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 
 /// Removes our folders with that beginning in which nothing has changed for this long, and whose owner has
@@ -18,7 +18,7 @@ inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 void remove_left_overs(const std::string& beginning = kPrivateFolders,
                        std::chrono::seconds kept = kLeftOversKept);
 
-/// A private folder below /tmp, made when it is first asked for, and removed at the end if it is empty.
+/// A private folder below /tmp. It is made on first use, and removed at the end if it is empty.
 class PrivateFolder {
  public:
   PrivateFolder() = default;

@@ -1,4 +1,4 @@
-// Passes a serial line's bytes over TCP unchanged, in both directions.
+// Passes a serial line's bytes over TCP unchanged in both directions.
 #pragma once
 
 #include <algorithm>

@@ -158,8 +158,8 @@ void Rfc2217::set_stop_bits(Value value) {
   answer(4, static_cast<std::uint8_t>(settings_.stop_bits));
 }
 
-/// Handles five controls; each has a code that asks and some that set. Only a break reaches the line: it has
-/// no modem lines, and flow control hardly matters for so little output.
+/// Handles five controls; each has a code that asks and some that set. Only a break reaches the line: a port
+/// has no modem lines, and flow control hardly matters for so little output.
 void Rfc2217::control(Value value) {
   const std::uint8_t wish = value[0];
   struct Range {
@@ -176,7 +176,7 @@ void Rfc2217::control(Value value) {
     if (wish != range.asks) this->*range.state = wish;
     return answer(5, this->*range.state);
   }
-  answer(5, flow_);  // flow control by lines that do not exist
+  answer(5, flow_);  // flow control by modem lines, which do not exist
 }
 
 void Rfc2217::tell_modem_state() { answer(7, kModemReady); }

@@ -41,7 +41,7 @@ void notice_dead_peers(int socket) {
 }
 
 /// Acknowledges what was read at once. A host that writes a frame in pieces, with Nagle's algorithm, sends
-/// the second when the first is acknowledged. The kernel waits 40 ms for that unless it is told after each
+/// the second when the first is acknowledged. The kernel delays that by 40 ms unless this is set after each
 /// reading.
 void acknowledge_at_once(int socket) { set_option(socket, IPPROTO_TCP, TCP_QUICKACK, 1); }
 

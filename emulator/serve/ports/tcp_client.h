@@ -32,31 +32,31 @@ class TcpClient {
 
   enum class Heard : std::uint8_t {
     nothing,          // for now, or because the client has sent everything
-    what_it_speaks,   //
-    something_else,   // it will be released
+    what_it_speaks,   // bytes of its protocol
+    something_else,   // bytes outside its protocol; it will be released
     that_it_is_gone,  // nothing can be sent any more
   };
   /// Reads some of the bytes it has sent.
   Heard read();
   /// Returns false if it has closed its sending half, or is ahead of the line: then nothing is read.
   bool is_read() const { return !has_said_all_ && speech_->has_room(); }
-  /// It has closed its sending half. It still gets the answers to its requests.
+  /// Returns true if it has closed its sending half. It still gets the answers to its requests.
   bool has_said_all() const { return has_said_all_; }
 
   /// Sends as much as the network accepts. Reading shows whether the client has gone.
   void send_out();
-  /// How many bytes it was sent in all.
+  /// Returns how many bytes were sent to it in all.
   std::uint64_t sent() const { return sent_; }
   bool has_unsent() const { return !unsent_.empty(); }
 
   // Faults. Bytes given at once are an answer if the protocol `has_messages`, otherwise a part of one.
   void spoil(const Spoiling& spoiling) { spoiling_ = spoiling; }
   const Spoiling& spoiling() const { return spoiling_; }
-  /// The rest of an answer is to come that much later. Returned once.
+  /// Returns, once, how much later the rest of an answer is sent.
   std::optional<std::chrono::nanoseconds> take_pause() { return std::exchange(pause_, {}); }
   bool has_rest() const { return !rest_.empty(); }
   void send_rest();
-  /// Its connection ends as soon as unsent bytes are sent.
+  /// Returns true if its connection ends as soon as unsent bytes are sent.
   bool hangs_up() const { return hangs_up_; }
 
   /// Closes the socket. Its requests are still executed.

@@ -183,8 +183,8 @@ std::uint64_t TcpDoor::news() const {
   return news;
 }
 
-/// Disconnects a client. What it has sent is still served; in Modbus TCP, that is one request, because each
-/// waits for the one before.
+/// Disconnects a client. The line still serves what it has sent; in Modbus TCP, that is one request, because
+/// each waits for the one before.
 void TcpDoor::let_go(TcpClient& client) {
   loop_.unwatch(client.socket());
   if (!is_gateway()) return leave(take_rest(client));

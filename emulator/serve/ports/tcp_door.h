@@ -30,10 +30,9 @@ class TcpDoor final : private Port::Guest {
   /// A door on demand serves a host in simulated time: nobody listens at the address, admit() is given the
   /// clients, their bytes are taken only by attend(), and its times are simulated.
   enum class Service : std::uint8_t { at_once, on_demand };
-  /// The port must outlive it, and is given the address. Throws pty::PortError.
+  /// Adds the address to the port, which must outlive the door. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
           std::function<void(const std::string&)> log, Service service = Service::at_once);
-  /// After this, clients are not notified any more that they have gone.
   ~TcpDoor() override;
   TcpDoor(const TcpDoor&) = delete;
   TcpDoor& operator=(const TcpDoor&) = delete;
@@ -43,11 +42,11 @@ class TcpDoor final : private Port::Guest {
 
   const world::TcpAddress& address() const { return address_; }
   const Port& port() const { return port_; }
-  /// Takes what the clients have sent, and gives them what there is for them.
+  /// Takes what the clients have sent, and sends them what waits for them.
   void attend();
   /// Returns when attend() has something to do although nobody sends, or nothing.
   std::optional<SimTime> due() const { return due_; }
-  /// Changes when a client was sent something or disconnected.
+  /// Returns a number that changes when something was sent to a client, or a client disconnected.
   std::uint64_t news() const;
 
  private:
@@ -87,7 +86,7 @@ class TcpDoor final : private Port::Guest {
   std::vector<std::unique_ptr<TcpClient>> clients_;
   std::size_t turn_ = 0;     // the client whose request is next
   Descriptor next_;          // a client that waits until a finished one has its replies
-  bool is_serving_ = false;  // the line speaks while it is spoken to
+  bool is_serving_ = false;  // serve_line() runs; the line may send meanwhile
   std::vector<std::unique_ptr<Listener>> listeners_;
 };
 

@@ -26,7 +26,7 @@ class TcpSpeech {
   /// Returns the host's settings for the bytes taken last, or nothing if the client cannot tell them.
   virtual std::optional<pty::HostSettings> settings() const { return std::nullopt; }
   /// Return true, once, if the client flushes bytes that are not on the wire yet, or discards bytes that it
-  /// has not received yet. Asked after each taking for the line.
+  /// has not received yet. Called after each take_for_line().
   virtual bool takes_back() { return false; }
   virtual bool throws_away() { return false; }
 
@@ -39,7 +39,7 @@ class TcpSpeech {
   /// nothing if none waits.
   virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
   virtual void give_up() {}
-  /// For a protocol that puts its requests on the line one after another: returns true if none waits.
+  /// Returns true if no request waits, for a protocol that puts its requests on the line one after another.
   virtual bool is_idle() const { return true; }
   /// The client no longer receives answers. The next waiting request is served.
   virtual void client_gone() {}
