@@ -1,4 +1,4 @@
-// Words the end of a list of mistakes in a program, which is cut at kMaxMistakes.
+// Formats the end of a list of mistakes in a program, which is cut at kMaxMistakes.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,7 @@ inline Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
   return write_request(bank, table, first, words).refusal;
 }
 
-/// Returns the present value of a register (or of half of one), signed or unsigned as its type.
+/// Returns the present value of a register (or of half of one), signed or unsigned according to its type.
 Value read_value(const RegisterBank& bank, const Place& place);
 Value read_value(const RegisterBank& bank, const NamedPlace& place);
 /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
@@ -55,12 +55,12 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Checks a write as if it came from the wire, and makes its words. Other writes before it do not make the
-/// words wrong (except a write that changes the order of words), but the device may refuse them by then,
-/// because it is busy or fails (RegisterBank::admits). A bit is written through its present register.
+/// Checks a write as if it came from the wire, and makes its words. The words stay right if other writes come
+/// first (except one that changes the order of words), but the device may refuse them then, because it is
+/// busy or fails (RegisterBank::admits). A bit is written through its present register.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
-/// Like a write of the device itself: the device is not asked whether it admits it.
+/// Writes a value as the device itself does, without asking the device whether it admits the write.
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value);
 
 }  // namespace understudy::emulator

@@ -20,7 +20,7 @@ struct RegisterRequest {
   std::uint16_t first = 0;
   std::size_t count = 0;
   std::span<const std::uint16_t>
-      words{};             // the words to write, or one bit a word in tables of bits; empty: a read
+      words{};             // the words to write, or one bit per word in tables of bits; empty: a read
   bool is_single = false;  // by a function that writes one register or bit
   bool is_write() const { return !words.empty(); }
 };
@@ -53,8 +53,8 @@ class RegisterBank {
   /// Returns true if a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
-  /// Returns whether the device takes a request that is good so far; it may be busy, or fail. Asked before
-  /// anything is stored, for requests from outside but not for the device's own writes.
+  /// Returns whether the device takes a request that has passed all checks so far; it may be busy, or fail.
+  /// Asked before anything is stored, for requests from outside but not for the device's own writes.
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
