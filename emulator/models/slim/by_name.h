@@ -16,7 +16,8 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Answers queries by name. Conditions and traces ask the same at every tick: their words are read once.
+/// Answers queries by name. It parses each name once, because conditions and traces ask the same at every
+/// tick.
 class QueriesByName {
  public:
   std::optional<double> value(const State& state, const Setup& setup, const lang::Machine& machine,

@@ -1,4 +1,4 @@
-// Parameters and axis letters while the controller runs, and what is kept of its numbers and program.
+// Sets parameters and axis letters while the controller runs, and saves its numbers and program.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What a SLIM is made from, besides its state: its device, which has time, inputs and a log, and the options
-// that its bench has chosen. All parts of the controller are functions on a State and a Setup:
+// What a SLIM needs besides its state: its device, which has time, inputs and a log, and the options that its
+// bench has chosen. All parts of the controller are functions on a State and a Setup:
 //
 //   setup.h             choices, terminals, time
 //   error_log.h         ?ERR and ?ERC

@@ -18,7 +18,7 @@ struct Output {
     pwm,    // on for the first `duty_percent` of each period, counted from `since`
   };
   Mode mode = Mode::level;
-  bool on = false;  // the level in mode level; in the other modes that before `since`
+  bool on = false;  // the level in mode level; in the other modes, the level before `since`
   Tick since = 0;
   Tick width = 0;  // of a single pulse
   double frequency_hz = 0;

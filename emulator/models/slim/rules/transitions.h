@@ -37,7 +37,7 @@ enum class Event : std::uint8_t {
 };
 inline constexpr std::size_t kEvents = 6;
 
-/// Where the command comes from.
+/// The source of a command.
 enum class From : std::uint8_t { host, program, event_routine };
 inline constexpr std::size_t kSources = 3;
 
