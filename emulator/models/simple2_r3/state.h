@@ -72,7 +72,7 @@ struct KeptCommand {
 /// The members that a tick needs come first and, up to the beginning of `eeprom`, on one cache line (a test
 /// checks this).
 struct alignas(64) State {
-  bool touched = true;               // registers or inputs may have changed since motion looked at them
+  bool touched = true;               // registers or inputs may have changed since motion last read them
   bool unlocked = true;              // PROG_UNLOCK
   std::uint8_t switches = 0;         // bit n: DIP n + 1, as at power-up
   std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
