@@ -1,6 +1,6 @@
-// RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. It is made of parts: each has
-// its own state, and knows those above it in this list. What a part ends, it returns. Macros and the FIFO
-// reach the parts below them only through lang::Machine, which the module is.
+// RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. Each of its parts has its own
+// state, and knows the parts above it in this list. A part returns what it has ended. Macros and the FIFO
+// reach the parts below them only through lang::Machine, which the module implements.
 //
 //   a command ──> command_queue.h, or at once ──> commands.h: what it does to the parts
 //   a tick: the inputs ──> motion_step.h, with its edges (edges.h) ──> macros ──> the FIFO
@@ -82,7 +82,7 @@ class Module final : public Part, private lang::Machine {
   void load_program(std::string_view text);
   void power_up();
   void power_down();
-  /// RESET_CARD and LOAD_INITIAL.
+  /// Execute RESET_CARD and LOAD_INITIAL.
   void reset_card();
   void load_initial();
   /// Continues from a restored state.

@@ -28,7 +28,8 @@ constexpr std::uint32_t kModuleId = 0x44;
 
 std::size_t axis_number(Cell cell) { return static_cast<std::size_t>(cell.axis); }
 Value bit_of_word(std::uint32_t word, int number) { return word >> number & 1U; }
-/// U's signals are printed at 380 (arguments from 16 on), and the pattern of the others gives 280.
+/// Returns false for an address of U's signals that a choice leaves out: 380 as printed (arguments from 16
+/// on), or 280 by the pattern of the other axes.
 bool is_served(const Module& it, Cell cell) {
   if (cell.argument >= 16) return !it.chose(option("raw_signals_of_u", "at_280"));
   return cell.argument < 8 || !it.chose(option("raw_signals_of_u", "at_380"));

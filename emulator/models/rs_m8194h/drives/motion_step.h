@@ -1,4 +1,4 @@
-// RS-M8194H: a tick of the motion chip, and many at once: the motors, then what their events bring about.
+// RS-M8194H: a tick of the motion chip, or many at once: the motors move, then their events take effect.
 #pragma once
 
 #include <cstdint>

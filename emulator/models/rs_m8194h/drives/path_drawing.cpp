@@ -117,7 +117,7 @@ class Pen {
     return speed_range(max_v, chip_.machine_options().speed, highest);
   }
 
-  /// The place of a coordinate that a command gives, in pulses from where the run began.
+  /// Returns the place of a coordinate that a command gives, in pulses from where the run began.
   double place(std::size_t coordinate, double value) const {
     const double here = begin_[static_cast<Eigen::Index>(coordinate)];
     if (!row_.absolute) return here + value;

@@ -1,4 +1,4 @@
-// RS-M8194H: the FIFO: commands in their order, as many as a tick has room for.
+// RS-M8194H: the FIFO. It executes commands in their order, as many as a tick has room for.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,4 @@
-// RS-M8194H: macros: their download, their store, and those that run (8, 9). What their lines do is the
-// machine's.
+// RS-M8194H: macros: their download, storage and execution (8, 9). lang::Machine executes their lines.
 #pragma once
 
 #include <array>
@@ -99,7 +98,7 @@ class Programs final : public Part {
   void set_watch(ProgramWatch* watch) { acts_on_.set_watch(watch); }
   /// Ends a restored execution that no run of these macros can have reached.
   void check_restored();
-  /// Returns true if the memory's macros are compiled; forgets what was compiled.
+  /// Return true if the memory's macros are compiled, and discard the compiled ones.
   bool is_compiled() const { return compiled_revision_ == memory_.state().blocks.revision(); }
   void forget_compiled() { compiled_revision_ = UINT64_MAX; }
 
