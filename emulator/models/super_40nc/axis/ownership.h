@@ -1,6 +1,5 @@
-// Which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0 ends
-// any motion, and what stops programs; the rest is ours (5.7 of the specification). The motion that moves an
-// axis keeps it.
+// Decides which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0
+// ends any motion, and what stops programs; the rest is our choice. The motion that moves an axis keeps it.
 #pragma once
 
 #include <array>

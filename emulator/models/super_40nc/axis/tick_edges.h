@@ -43,7 +43,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
     Counted since{};  // since the counters were counted last
     std::int64_t number = 0;
   };
-  /// A comparator, as it asks in this tick.
+  /// The question that a comparator asks in this tick.
   struct Question {
     int axis = 0;
     std::size_t which = 0;
@@ -52,7 +52,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
     std::int64_t set = 0;
   };
 
-  /// What the last next_moment() has found: a comparator, or a pin.
+  /// The result of the last next_moment(): a comparator, or a pin.
   struct Found {
     int axis = 0;
     std::optional<std::size_t> comparator{};

@@ -36,7 +36,7 @@ struct ErrorReport {
   std::int32_t step = 0;
   Area area = Area::plc;  // area of the step program's line; plc: a line of the PLC, or no line
   std::int32_t other_step = 0;
-  Tick tick = -1;  // of several errors in one tick the first one stays
+  Tick tick = -1;  // the first of several errors in one tick stays
 
   bool operator==(const ErrorReport&) const = default;
 };

@@ -1,4 +1,4 @@
-// The options of the languages that the choices of a device make.
+// Returns the options of the languages that follow from the choices of a device.
 #pragma once
 
 #include "interpreter/super_40nc/options.h"

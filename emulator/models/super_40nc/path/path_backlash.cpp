@@ -1,5 +1,5 @@
-// Every axis that reverses, or every axis if it slips (D9x57 = 2), first goes its X1 pulses at X22, all at
-// once; the path begins when the last is done. Within an arc nothing is corrected, as on the chip, unless
+// Every axis that reverses, or every axis if it slips (D9x57 = 2), first sends its X1 pulses at X22, all axes
+// at once; the path begins when the last is done. Within an arc nothing is corrected, as on the chip, unless
 // that is chosen. (Manual, X1., X22.)
 #include "emulator/models/super_40nc/path/path_backlash.h"
 
@@ -97,8 +97,8 @@ void PathBacklash::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisC
   if (axes_.path.slowing_for == motion::Cause::none) axes_.path.run.resume(tick);
 }
 
-/// If that is chosen, an axis that reverses on its path goes X1 at X22 in addition. If it reverses again
-/// before the end, it goes back what has come so far.
+/// If that is chosen, an axis that reverses on its path sends X1 at X22 in addition. If it reverses again
+/// before the end, it takes back what it has sent so far.
 void PathBacklash::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                                      std::array<std::int64_t, kAxisCount>& sent) {
   const Settings settings = registers();

@@ -1,6 +1,6 @@
-// Whether a PLC that has settled needs to scan. A scan that has changed nothing is the same again until
-// something that it reads changes. Writes by hosts and step programs are noted; other values are checked in
-// each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
+// Decides whether a PLC that has settled needs to scan. A scan that has changed nothing would do the same
+// again until something that it reads changes. Writes by hosts and step programs are noted; other values are
+// checked in each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
 #pragma once
 
 #include <vector>
