@@ -79,7 +79,7 @@ class Device {
   virtual const Axes* axes() const { return nullptr; }
 
   // --- lines -----------------------------------------------------------------------------------
-  /// Returns the settings of one of its ports: those of its model, at the speed in its own settings.
+  /// Returns the settings of one of its ports: the model's, at the speed in the device's own settings.
   virtual pty::LineSettings line_settings(std::size_t port) const;
   /// Returns true if its ports keep their own speed, whatever the bench sets for their lines. On a line at
   /// another speed the device receives nothing.
@@ -126,7 +126,8 @@ class Device {
   /// Reads a state and puts it into effect at once. If it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
-  /// Returns true if it equals another device of the same model bit for bit: both would save the same.
+  /// Returns true if it equals another device of the same model bit for bit, so both would save the same
+  /// bytes.
   bool same_state(const Device& other) const;
   /// Returns the first field in which two saved states of devices with the same settings differ:
   /// "axes[0].motor.travel_pulses: 12 against 13". Empty if they are equal. Throws StateError for other

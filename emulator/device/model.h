@@ -80,7 +80,7 @@ struct TerminalRow {
     digital_in,     // 1: conducting
     digital_out,    // 1: conducting
     analog_in,      // millivolts
-    analog_number,  // an analog input that the maker counts in no unit
+    analog_number,  // an analog input that the maker counts without a unit
     dip_switch,     // on the housing: 1 is ON
     counted_in,     // a hand wheel, pulses or encoder phases: the total count so far, modulo 2^32
     analog_out,     // millivolts
@@ -185,7 +185,7 @@ struct RtuRules {
   std::string_view server_id{};                // for function 17
 };
 
-/// The settings that one device of a model is made from.
+/// The settings from which one device of a model is made.
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default

@@ -29,7 +29,7 @@ struct ProgramLocation {
 
 class UserProgram {
  public:
-  /// Loads the program as if it was written over the wire. If it throws ProgramError, the program is
+  /// Loads the program as if it were written over the wire. If it throws ProgramError, the program is
   /// unchanged; the device's registers may still show the attempt.
   virtual void load_program(std::string_view text) = 0;
   /// Returns the program as text that load_program() accepts.

@@ -76,7 +76,7 @@ class Eeprom {
   std::uint64_t revision_ = 0;
   std::vector<std::uint32_t> kept_;  // by slot
   std::vector<Slot> slots_;
-  std::vector<Job> jobs_;                 // the first is being done
+  std::vector<Job> jobs_;                 // the first is in progress
   std::vector<std::uint32_t> rewriting_;  // by slot, during an erasure; otherwise empty
 };
 

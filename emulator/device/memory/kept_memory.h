@@ -39,8 +39,8 @@ class KeptMemory {
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// Returns a function that writes the present content, except text_blocks(), into an image that has model
-  /// and firmware already. The function refers to nothing in the device.
+  /// Returns a function that writes the present content, except text_blocks(), into an image that already has
+  /// model and firmware. The function refers to nothing in the device.
   virtual std::function<void(NvImage&)> memory_writer() const = 0;
   /// Reads an image while the power is off. Entries that the image does not name get the factory's value.
   /// Throws NvError for an image that the memory cannot hold; then nothing has changed.

@@ -21,7 +21,7 @@ namespace understudy::emulator {
 namespace {
 
 using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;  // slow to look up keys in: for writing only
+using OrderedJson = nlohmann::ordered_json;  // only for writing, because it looks up keys slowly
 
 constexpr const char* kKind = "nv-image";
 constexpr int kFormat = 1;
@@ -40,7 +40,7 @@ std::string text_of(const Json& object, const char* key) {
 
 std::string line_text(std::size_t line) { return line == 0 ? "" : "line " + std::to_string(line) + ": "; }
 
-/// Returns the line of a place in the text, given as the parser counts bytes.
+/// Returns the line of a byte in the text, counted as the parser counts bytes.
 std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));

@@ -36,7 +36,7 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
 struct Change {
   Place place;
   std::uint32_t bits = 0;
-  bool low = false;  // the request brings this word
+  bool low = false;  // the request has this word
   bool high = false;
 };
 
@@ -59,8 +59,8 @@ void bring_into_range(Change& change) {
   }
 }
 
-// A Modbus request brings at most 123 words or 1,968 bits. Programs, scenarios and the control socket write
-// at most two words.
+// A Modbus request has at most 123 words or 1,968 bits. Programs, scenarios and the control socket write at
+// most two words.
 constexpr std::size_t kManyWords = 128;
 constexpr std::size_t kMaxWords = 2000;
 
@@ -356,8 +356,7 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
 }
 
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
-  // The result is the same as that of looking up its words, but faster: programs write like this all the
-  // time.
+  // This has the same result as looking up its words, but is faster: programs write like this all the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;

@@ -40,8 +40,8 @@ Value read_value(const RegisterBank& bank, const NamedPlace& place);
 Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done);
 /// Returns the number that a place's value stands for.
 double number_of(const NamedPlace& place, Value value);
-/// Returns the value for a number: its bits if the place holds a real. Nothing if the number is a fraction
-/// and the place holds whole numbers, or if it exceeds single precision.
+/// Returns the value for a number: its bits if the place holds a real. Returns nothing if the number is a
+/// fraction and the place holds whole numbers, or if it exceeds single precision.
 std::optional<Value> value_of_number(const NamedPlace& place, double number);
 
 /// Returns why a place cannot be written, whatever the value: "cannot be written; it is read-only".

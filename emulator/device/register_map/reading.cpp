@@ -55,7 +55,7 @@ void put_pair(std::span<std::uint16_t> words, std::uint32_t bits, bool low_first
   words[low_first ? 1 : 0] = static_cast<std::uint16_t>(bits >> 16);
 }
 
-/// Returns true if the place is the first word of a 32-bit register and the request brings both words.
+/// Returns true if the place is the first word of a 32-bit register and the request covers both words.
 bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
   return place.part != Place::Part::whole && !is_second_word(place, low_first) && words_left >= 2;
 }

@@ -58,7 +58,7 @@ struct Objection {
 struct RefusedRequest {
   std::uint8_t function = 0;
   std::uint16_t first = 0;  // 0 if the request has no address, or is too short
-  std::size_t count = 0;    // the same applies
+  std::size_t count = 0;    // 0 in the same cases
   int exception = 0;        // the exception code in the answer
   Objection objection{};    // why
 };

@@ -66,12 +66,12 @@ class RegisterBank {
   /// Returns true if a message can begin after its window's first word, because the device accepts such a
   /// part.
   virtual bool takes_parts() const { return false; }
-  /// Asked for each register of a good write in ascending order, before anything is stored. If it returns
+  /// Asked for each register of a valid write in ascending order, before anything is stored. If it returns
   /// true, the device uses the value in its own way: it is not stored and has no effect.
   virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }
-  /// The station has answered a read request. Registers that can be read only once are cleared now.
+  /// Called when the station has answered a read request. Clears registers that can be read only once.
   virtual void read_answered(const RegisterRequest& /*request*/) {}
-  /// The station has answered a request with an exception.
+  /// Called when the station has answered a request with an exception.
   virtual void exception_answered(const RefusedRequest& /*request*/) {}
 
   /// Called for each register of the image that a request has written, after its effect.

@@ -79,7 +79,7 @@ class RegisterMap {
   /// device runs). The place is empty if this firmware has nothing there.
   Place at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const;
 
-  /// Returns the sources by address, up to the last bit of a table of bits; none for other tables.
+  /// Returns the sources of bits by address, up to the last bit of the table; none for tables of words.
   std::span<const BitSource> bit_sources(Table table) const {
     return tables_[static_cast<std::size_t>(table)].bits;
   }

@@ -33,7 +33,7 @@ class RegisterNames {
   /// Calls `act` for every name, in the order of the rows.
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
   /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
-  /// all names; it is for models of a user's file, and for tests of our own rows.
+  /// all names, so it is only for models of a user's file, and for tests of our own rows.
   void require_distinct() const;
 
   /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".

@@ -75,7 +75,7 @@ struct Cell {
   bool high_half = true;  // in a write: the high word is included (always true for 16-bit registers)
 };
 
-/// When the value of a reader may change without a write. A program that waits for a value is evaluated
+/// Says when the value of a reader may change without a write. A program that waits for a value is evaluated
 /// again only in these ticks.
 enum class Varies : std::uint8_t {
   in_ticks,      // in ticks that are run in full, or by outside events

@@ -1,5 +1,5 @@
-// The interface of a device with a text protocol: it receives whole lines, and its replies are taken from it
-// as text. It does not know the bytes on the wire, a descriptor, or when its text is sent.
+// The interface of a device with a text protocol: it receives whole lines, and gives its replies as text. It
+// knows nothing of the bytes on the wire, of descriptors, or of when its text is sent.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class TextProtocol {
   virtual void hear_line(std::string_view line) = 0;
   /// Receives a line that was too long.
   virtual void hear_overlong() = 0;
-  /// Receives ESC without a line end. The unfinished line is forgotten.
+  /// Receives ESC without a line end. The unfinished line is discarded.
   virtual void hear_escape() {}
 
   /// Takes a command that bypasses the line, and returns its answer without sending anything. The answer is

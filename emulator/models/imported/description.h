@@ -224,7 +224,7 @@ struct Line {
   bool obeys_broadcasts = true;
 };
 
-/// Returns Modbus's silence: 3.5 characters, and 1.75 ms above 19200 baud.
+/// Returns the silence of the Modbus standard: 3.5 characters, but 1.75 ms above 19200 baud.
 inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
   if (settings.baud > 19200) return std::chrono::microseconds(1750);
   return settings.duration_of(7) / 2;

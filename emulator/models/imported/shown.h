@@ -1,4 +1,4 @@
-// Finds the registers that show other state than their written values.
+// Finds the registers that show something other than their written values.
 #pragma once
 
 #include <cstddef>

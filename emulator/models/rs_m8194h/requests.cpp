@@ -79,7 +79,7 @@ bool is_own(Table table, std::size_t address) {
                      [&](const Addresses& own) { return own.has(table, address); });
 }
 
-/// Returns true if a counter or a variable begins there, each of which has two words.
+/// Returns true if a counter or a variable, which has two words, begins there.
 bool begins_in(const Addresses& pairs, Table table, std::size_t address) {
   return pairs.has(table, address) && (address - pairs.first) % 2 == 0;
 }

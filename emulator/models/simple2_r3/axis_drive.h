@@ -153,7 +153,7 @@ double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revol
 
 /// Returns true in velocity mode if the axis itself generates pulses.
 bool runs_velocity(const AxisState& axis);
-/// Returns the speed that velocity mode will reach: the target, limited by limits and pulse rate.
+/// Returns the speed that velocity mode will reach: the target, restricted by limits and pulse rate.
 std::int64_t final_urpm(const AxisState& axis, const DriveSettings& settings);
 
 /// Returns the axis's moving bit of STATUS (4 or 5).

@@ -18,7 +18,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// What stops an axis. An instruction and SVOFF stop it forcibly.
+/// The ways to stop an axis. An instruction and SVOFF stop it forcibly.
 enum class Stopping : std::uint8_t { forcibly, by_register };
 
 class AxisReactions : public AxisView {

@@ -191,6 +191,6 @@ bool Slim::output(int terminal) const {
   return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
 }
 
-void Slim::set_encoder(int, std::int64_t) {}  // its loop is closed inside; see the model's gaps
+void Slim::set_encoder(int, std::int64_t) {}  // the servo closes its loop itself; see the model's gaps
 
 }  // namespace understudy::emulator::models::slim

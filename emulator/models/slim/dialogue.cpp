@@ -71,7 +71,7 @@ Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang:
   return error;
 }
 
-/// Executes a command, sends its result, and returns it.
+/// Executes a command, sends its result, and returns its error.
 Error hear_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {

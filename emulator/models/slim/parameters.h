@@ -108,8 +108,8 @@ constexpr Parameters factory_parameters() {
   return all;
 }
 
-/// Returns the value as the parameter stores it: a real is rounded to what 32 bits hold. Returns nothing if
-/// it is out of range.
+/// Returns the value as the parameter stores it: a real is rounded to 32 bits. Returns nothing if it is out
+/// of range.
 std::optional<double> fitted(const ParameterDefinition& row, double value);
 
 /// The limit of TM, which is set like a parameter.

@@ -23,7 +23,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// The numbers of the parameters that define the user unit: so many pulses are so many user units.
+/// The numbers of the parameters that define the user unit: `pulses` pulses are `units` user units.
 struct UserUnit {
   std::size_t pulses = parameter("PN45");
   std::size_t units = parameter("PN46");

@@ -1,4 +1,4 @@
-// The program of a SLIM: its text, and where it is.
+// The program of a SLIM: its text and its position.
 #pragma once
 
 #include <cstdint>

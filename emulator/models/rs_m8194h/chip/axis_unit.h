@@ -65,7 +65,7 @@ inline constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Ev
                                                                       motion::Event::constant_started,
                                                                       motion::Event::ended};
 
-/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives.cpp).
+/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives/ends.cpp).
 std::uint16_t error_of(motion::Cause cause);
 
 /// The activity of an axis.
@@ -131,7 +131,7 @@ struct AxisUnit {
   bool locked = false;       // locked by STOP_*
   bool path_locked = false;  // locked by VSTOP_*
   bool held = false;         // held by DRV_HOLD
-  Drive held_drive{};        // waits for DRV_START
+  Drive held_drive{};        // waits for DRV_START, or for its axis to stop
   Drive paused_drive{};      // continues after a trigger's pause
   std::int64_t paused_to_pulses = 0;  // travel at which that drive ends, if it does
   FilteredPins pins{};

@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The most interrupts that wait, if they are counted.
+/// The largest number of interrupts that can wait, if they are counted.
 inline constexpr std::size_t kMaxMarks = 256;
 
 /// An interrupt that waits for its ISR.

@@ -49,7 +49,7 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   return edges;
 }
 
-/// Spreads the edges of an input evenly over the tick, between those of the other input.
+/// Spreads the edges of an input evenly over the tick, interleaved with those of the other input.
 void External::watch(std::size_t axis, Tick tick) {
   AxisUnit& unit = chip_.unit(axis);
   const std::array<std::uint32_t, 2> edges{edges_of(axis, 0), edges_of(axis, 1)};

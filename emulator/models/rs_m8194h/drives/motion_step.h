@@ -34,7 +34,7 @@ class MotionStep final : public Part {
 
   /// Returns true if no axis moves, and none has anything to report.
   bool rests() const;
-  /// Returns the last tick before which only positions change, at most `last`; `done` if there is none.
+  /// Returns the last tick up to which only positions change, at most `last`; `done` if there is none.
   Tick quiet_until(Tick done, Tick last, const ClearTravel& ahead) const;
   void fast_forward_to(Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses);
 

@@ -141,7 +141,7 @@ class Pen {
     add(motion::arc_by_centre(from, centre, to, turn, options));
   }
 
-  /// Draws a rectangle once round from the point where it begins (7.4.1).
+  /// Draws a rectangle once around, from the point where it begins (7.4.1).
   PathSpeed rectangle() {
     const lang::Command& command = path_.command;
     const bool is_clockwise = command.values[4] == 1;

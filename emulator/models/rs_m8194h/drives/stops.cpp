@@ -19,8 +19,8 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Takes an axis off its path, which the others follow. It stops, or slows down by its own ramp from its
-/// present speed.
+/// Takes an axis off its path; the other axes continue. The axis stops, or slows down by its own ramp from
+/// its present speed.
 void Stops::leave_path(std::size_t axis, Halt halt) {
   const double speed_pps = chip_.paths().together.speed_pps(axis, now());
   for (std::int8_t& mine : chip_.paths().together.axis_of) {

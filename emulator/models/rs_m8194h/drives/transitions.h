@@ -15,7 +15,7 @@ namespace lang = interpreter::rs_m8194h;
 
 // --- starting: the rows are checked in order, and the first that applies decides ---------------------------
 
-/// What can prevent a drive, other than a motion of its axis.
+/// The obstacles that can prevent a drive, besides a motion of its axis.
 enum class Obstacle : std::uint8_t {
   emergency_state,
   lock,

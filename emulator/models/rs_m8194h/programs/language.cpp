@@ -71,7 +71,7 @@ class Instructions {
                      .meaning = row.meaning});
   }
 
-  // Rows point into both, which do not move what they hold.
+  // Rows point into both; a deque does not move its elements.
   std::deque<std::string> texts_;
   std::deque<std::vector<OperandRow>> operands_;
   std::vector<InstructionRow> rows_;

@@ -117,7 +117,7 @@ class Programs final : public Part {
   Status& status_;
   Interrupts& interrupts_;
   lang::Machine& acts_on_;
-  // Not state: compiled from the text blocks, again whenever these have changed.
+  // Not state: compiled from the text blocks whenever these have changed.
   mutable lang::MacroStore macros_;
   mutable lang::TriggerTable triggers_{};
   mutable std::uint64_t compiled_revision_ = UINT64_MAX;

@@ -23,7 +23,7 @@ void require_coordinate(double units) {
   require_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
 }
 
-// This also applies to an acceleration; each has its own unit.
+// Used for accelerations, too; each has its own unit.
 void require_speed(double value) {
   require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is beyond its range");
 }

@@ -18,7 +18,7 @@ const ModuleSettings& path_settings(const ChainState& chain, const Job& job);
 /// Returns true if the job's speed is PR4 rather than PR3.
 bool goes_by_line_speed(const ChainOptions& options, const Job& job);
 double path_speed(const ChainOptions& options, const Job& job, const ModuleSettings& settings);
-/// Returns true if the path stays within the countable range of its modules. An arc's whole circle must.
+/// Returns true if its modules can count all positions of the path; for an arc, of its whole circle.
 bool within_reach(const ChainState& chain, const Job& job, const motion::Path& path);
 bool is_refused_as_empty(const ChainOptions& options, const motion::Path& path);
 

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-// Also for an acceleration; each has its own unit.
+// Used for accelerations, too; each has its own unit.
 bool plannable(double value) { return value >= kMinSpeed && value <= kMaxSpeed; }
 
 }  // namespace

@@ -34,7 +34,7 @@ class ChainSettings {
   ChainState& chain_;
 };
 
-/// Applies what has changed a module's speed, and starts what has waited for a speed.
+/// Applies a change of a module's speed, and starts what has waited for a speed.
 void refresh_speed(ChainState& chain, int module);
 
 }  // namespace understudy::emulator::models::slim

@@ -57,7 +57,7 @@ double Module::units_of(std::int64_t pulses) const {
 }
 
 bool Module::reaches(double units) const {
-  // The path's own bound, and the pulses'.
+  // The limits of the path and of the pulses.
   constexpr double kFarthest_units = 1e12;
   return std::abs(units) <= kFarthest_units &&
          std::abs(units) * settings.scale.pulses_per_unit() <= kFarthest_pulses;

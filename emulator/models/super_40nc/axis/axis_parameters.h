@@ -1,4 +1,4 @@
-// How parameters and counters act on an axis when they are written.
+// Applies parameters and counters to an axis when they are written.
 #pragma once
 
 #include <cstdint>

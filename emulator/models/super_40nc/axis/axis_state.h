@@ -83,7 +83,7 @@ struct AxisState {
   std::int64_t target_lu = 0;
 
   WheelSource wheel = WheelSource::none;
-  std::int32_t wheel_lu = 0;     // length for one count, during an MPG line
+  std::int32_t wheel_lu = 0;     // length per count, during an MPG line
   std::int32_t wheel_edges = 0;  // edges that do not make up a count yet
 
   bool operator==(const AxisState&) const = default;

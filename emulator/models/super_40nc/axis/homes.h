@@ -16,7 +16,7 @@ class Homes : protected Chips {
 
   void start_home(int axis_number, int order = 0);
   void start_zero(int axis_number, int order = 0);
-  /// Called when a homing has ended. `code` is the reason of a failure; none: it was abandoned.
+  /// Called when a homing has ended. `code` is the reason for a failure; none: it was abandoned.
   void home_ended(int axis_number, bool found, Code code);
   /// Called when the zero return of an axis has ended before its target.
   void zero_failed(int axis_number);

@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// What holds an axis.
+/// The holder of an axis.
 enum class Activity : std::uint8_t {
   nobody,
   jog,
@@ -21,7 +21,7 @@ enum class Activity : std::uint8_t {
 };
 inline constexpr std::size_t kActivities = 8;
 
-/// What requests an axis.
+/// A request for an axis.
 enum class Request : std::uint8_t {
   jog,
   home_or_zero,

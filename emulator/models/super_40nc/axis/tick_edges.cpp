@@ -117,7 +117,7 @@ bool TickEdges::may_be_answered(const Question& of, const Look& from, const Look
 std::int64_t TickEdges::speed(int axis_number, double at_s) const {
   const motion::Axis& motor = chip(axis_number);
   const bool has_profile = motor.drive.drive == motion::Drive::running && !is_on_path(axis_number);
-  if (!has_profile) return chip_speed(axis_number);  // of the tick
+  if (!has_profile) return chip_speed(axis_number);  // the speed of the whole tick
   const double speed_pps = std::abs(motor.drive.sample(instant(at_s)).speed_u_s);
   return std::llround(speed_pps / axis(axis_number).step_pps);
 }

@@ -28,7 +28,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
       : Chips(chips), inputs_(inputs), counters_(counters), pins_(pins) {}
 
   void begin_tick(Tick tick, bool wheel_turns);
-  /// Returns the mask of the axes with comparators or pins that the axes themselves do not know.
+  /// Returns the mask of the axes with comparators or pins that the axes themselves do not evaluate.
   std::uint32_t watched() const { return watched_; }
 
   void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;

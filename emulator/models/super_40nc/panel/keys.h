@@ -31,7 +31,7 @@ struct Key {
 };
 
 // Keys that the code needs by name.
-inline constexpr int kFirstJogKey = 8560;  // the older jog keys come before
+inline constexpr int kFirstJogKey = 8560;  // the older jog keys have lower numbers
 inline constexpr int kOriginKey = 8514;    // the older name of the key that sets zero
 
 inline constexpr int kMainLockDigits = 6;

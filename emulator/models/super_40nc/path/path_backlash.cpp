@@ -33,7 +33,7 @@ std::int64_t backlash_before(const motion::Axis& motor, int direction) {
   return direction > 0 ? all - taken : taken;
 }
 
-/// Returns how many of `pulses` have come after `ticks`.
+/// Returns how many of `pulses` have been sent after `ticks`.
 std::int64_t come_by(std::int64_t pulses, double speed_pps, Tick ticks) {
   constexpr double kRounding = 1e-9;
   const double come = speed_pps * static_cast<double>(ticks) / motion::kTicksPerSecond + kRounding;
@@ -59,7 +59,7 @@ void PathBacklash::begin_path_backlash(const motion::Path& path) {
     const std::int64_t untaken = backlash_before(motor, direction);
     if (untaken == 0) continue;
     axis(number).path_backlash = untaken * direction;
-    // Record how much has come, in case it is stopped.
+    // Record how much has been sent, in case it is stopped.
     motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - untaken : untaken;
     motor.last_direction = static_cast<std::int8_t>(direction);
   }

@@ -85,7 +85,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
   most.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
-  double longest = 0;  // pulses of an axis for a LU of the path
+  double longest = 0;  // the most pulses of an axis per LU of the path
   const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;

@@ -65,7 +65,7 @@ std::vector<ProgramLocation> Programs::program_locations() const {
     if (is_of_error && !place.why.empty() && !language::leaves_program_running(ground_.state().error.code)) {
       place.state = ProgramLocation::State::failed;
     }
-    // The line is where it is, or what stopped it.
+    // The line is the present one, or the one that stopped the program.
     const int at =
         is_of_error ? ground_.state().error.step - language::base_of(row.area, options_) : step.step;
     const auto listed = [&](int number) {

@@ -54,7 +54,7 @@ class Programs : protected Chips, public Watched {
   /// D8096.
   void load_program(std::string_view text);
   void make_programs_ready();
-  /// Makes the programs of a restored state ready, if they are others.
+  /// Makes the programs of a restored state ready, if they differ.
   void restored();
   /// Changes the path file (D9001).
   void change_file(std::int32_t number);
