@@ -1,5 +1,5 @@
 // The Modbus side of a device apart from its registers: the addresses it responds to, whether it answers
-// refusals, and its notice of receive errors. This is a facet: Device::modbus() is null if a device uses
+// refusals, and notification of receive errors. This is a facet: Device::modbus() is null if a device uses
 // another protocol.
 #pragma once
 

@@ -16,7 +16,7 @@ inline constexpr Protocol kTextLines{"text"};
 
 /// The rules for receiving at this moment. The caller asks for them at each character.
 struct TextRules {
-  bool echo = false;               // each received character is sent back, and BS and DEL edit
+  bool echo = false;               // each received character is sent back, and BS and DEL edit the line
   std::size_t longest_line = 127;  // in characters; the device is only told that there was a longer line
   bool line_feed_ends = true;      // an LF alone ends a line; false: LFs are ignored
   bool has_flow_control = false;   // XOFF from the host holds replies back, XON releases them

@@ -125,7 +125,7 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
 /// Returns 0 for a move that is being stopped, and for homing.
 std::int64_t remaining_pulses(const AxisState& axis);
 
-/// Keeps the running move's target after a change of the coordinate, which puts it `pulses` further away.
+/// Keeps the running move's target coordinate, after the coordinate has grown by `pulses`.
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now);
 
 /// The settings by which pulses follow an encoder.

@@ -45,7 +45,7 @@ class AxisCommands : public AxisReactions {
   void leave_home() {
     if (chose(option("home_bit", "any_motion"))) axis().homed = false;
   }
-  /// Returns true if a command with that outcome leaves its register unchanged.
+  /// Returns true if the register does not keep the value of a command with that outcome.
   bool is_forgotten(Outcome outcome) const {
     return outcome != Outcome::kept && chose(option("dropped_value", "forgotten"));
   }

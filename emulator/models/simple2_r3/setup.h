@@ -13,7 +13,7 @@
 //   power.h             power-up, power-down, factory reset, erasure
 //   effects.h           what registers read and do
 //
-// Each may know those above it. device.h joins them to a device.
+// Each may use the ones above it. device.h combines them into a device.
 #pragma once
 
 #include <cstddef>

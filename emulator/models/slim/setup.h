@@ -14,7 +14,7 @@
 //   by_name.h           queries and assignments that bypass the line
 //   dialogue.h          what happens to a line
 //
-// Each may know those above it. device.h joins them to a device.
+// Each may use the ones above it. device.h combines them into a device.
 #pragma once
 
 #include <cstddef>

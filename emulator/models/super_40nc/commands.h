@@ -39,7 +39,7 @@ class Commands : protected Chips {
 
   /// Executes the scan's step of contacts, if anything was written since the last one.
   void look_at_contacts();
-  /// Returns true if axes have errors that are cleared at the next tick, if that is chosen.
+  /// Returns true if axes have errors that, by choice, the next scan clears.
   bool has_errors_for_a_scan() const;
 
  private:

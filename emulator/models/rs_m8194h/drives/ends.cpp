@@ -98,7 +98,7 @@ void Edges::note_end_of_path(std::size_t axis) {
     motor.cause = motion::Cause::stopped;
 }
 
-/// Notes the cause of an end in the error code. Returns the events that count as such.
+/// Records the cause of an end in the error code. Returns the events that count under the chosen options.
 motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
   const motion::Axis& motor = chip_.motor(axis);
   AxisUnit& unit = chip_.unit(axis);

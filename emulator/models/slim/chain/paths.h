@@ -32,7 +32,7 @@ void extend_group(ChainState& chain, Group& group);
 
 /// Drops the commands whose paths the group has completed. It has just been stepped.
 void drop_completed(ChainState& chain, Group& group);
-/// Releases the modules of a group that has ended, with what is left of its commands.
+/// Releases the modules of a group that has ended, and drops what is left of its commands.
 void release_group(ChainState& chain, Group& group, Tick begin_at);
 
 /// Stops the pulses of the module at once, and of those that share its path. The running command is dropped.

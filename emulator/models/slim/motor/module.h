@@ -68,7 +68,7 @@ struct Module {
   bool analog_speed = false;           // AVM
   bool starved = false;                // slowed down because AVM gives no speed
   std::int16_t analog = 0;             // 0 .. kFullAnalog
-  std::int32_t thrust = 0;             // number of FT while it pushes; otherwise 0
+  std::int32_t thrust = 0;             // FT's operand while it pushes; otherwise 0
   std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
   double place_units = 0;              // at rest: the commanded coordinate; travel is this, rounded to pulses
   std::int64_t sent_pulses = 0;        // of the last tick, as they are sent

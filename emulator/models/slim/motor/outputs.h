@@ -59,7 +59,7 @@ struct PositionTrigger {
   bool operator==(const PositionTrigger&) const = default;
 };
 
-/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, to last for whole ticks.
+/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, so they last whole ticks.
 void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

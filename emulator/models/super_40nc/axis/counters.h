@@ -50,8 +50,8 @@ class Counters : protected Chips {
   void set_encoder(int axis_number, std::int64_t counts);
   /// Returns true if nothing of the axis changes until something happens to it.
   bool is_quiet(int axis_number) const;
-  /// Returns true if every tick must be run: a clock drives COUNTER4, or COUNTER4 or the comparators 4 and 5
-  /// latch at the end of a tick.
+  /// Returns true if every tick must be run: a clock drives COUNTER4, or comparator 4 or 5 latches at the end
+  /// of a tick.
   bool acts_each_tick(int axis) const;
   /// Clears counters at the end of a home, after the counts of its last tick.
   void clear_counters(int axis_number);
