@@ -187,7 +187,7 @@ class Device {
 /// Loads a program. Throws ProgramError, also if the device takes no program.
 void load_program(Device& device, std::string_view text);
 
-/// Returns one line that explains why named_values() has no such value: "nothing of robot is called 'T9PE';
+/// Returns one line that explains why named_values() has no such value: "robot has no value called 'T9PE';
 /// ...".
 std::string why_no_value(const Device& device, std::string_view name);
 

@@ -312,7 +312,7 @@ Sheet ports(const Model& model) {
   return sheet;
 }
 
-/// Lists the kinds of text blocks that a device keeps. It makes a device, because only that knows them.
+/// Lists the kinds of text blocks that a device keeps. It makes a device, because only a device knows them.
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});

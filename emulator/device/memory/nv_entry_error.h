@@ -22,7 +22,7 @@ struct NvEntryError : NvError {
         diagnostic(std::move(what_is_wrong)) {}
   List list;
   std::string kind;        // for blocks
-  std::string name;        // for blocks; empty: all blocks of the kind
+  std::string name;        // of the entry; empty for blocks: all of the kind
   std::string diagnostic;  // for messages that already name the entry
 };
 

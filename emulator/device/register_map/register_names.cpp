@@ -93,8 +93,8 @@ std::string_view RegisterNames::text_of(const Pattern& pattern) const {
   return pattern.is_alias ? row.alias : row.name;
 }
 
-/// Returns the index that a name stands for, if its beginning has the pattern's length and hash. Returns
-/// nothing if the name does not match the pattern.
+/// Returns the index that a name stands for, or nothing if it does not match the pattern. `begins_with` is
+/// the length of the beginning with the pattern's hash.
 std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t begins_with,
                                            std::string_view name) const {
   const RegisterRow& row = rows_[pattern.row];

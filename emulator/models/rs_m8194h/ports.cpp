@@ -33,7 +33,8 @@ bool Ports::output(int terminal) const {
   const State& state = module_.state();
   if (terminal < kFirstOut) return state.units[static_cast<std::size_t>(terminal - kFirstServo)].basic.servo;
   if (terminal >= kFirstDi) return false;
-  // At rest the pin has the level opposite to its pulses: outEdge 0 is low, and low does not conduct.
+  // At rest the pin has the level opposite to its pulses: outEdge 0 gives low pulses, and low does not
+  // conduct.
   const OutSettings& out = state.units[static_cast<std::size_t>(terminal - kFirstOut)].out;
   return (out.level == 0) != (device_.now() < out.pulse_until);
 }

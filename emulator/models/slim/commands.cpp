@@ -66,7 +66,7 @@ constexpr ActionRow of_editor(Verb verb, Action typed) {
 constexpr std::array kCommandVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Queries are replaced by any other command, because a key may occur twice.
+  // Queries are replaced by a command, because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) verbs[count++] = row.is_query() ? Verb::home : row.verb;
   return verbs;
 }();

@@ -98,7 +98,7 @@ unsigned status_bits(const State& state, int module) {
 constexpr std::array kQueryVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Other commands are replaced by any query, because a key may occur twice.
+  // Other commands are replaced by a query, because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) {
     verbs[count++] = row.is_query() ? row.verb : Verb::query_parameter;
   }

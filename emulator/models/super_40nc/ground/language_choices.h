@@ -1,4 +1,4 @@
-// Returns the options of the languages that follow from the choices of a device.
+// The options of the languages, as the choices of a device set them.
 #pragma once
 
 #include "interpreter/super_40nc/options.h"

@@ -38,7 +38,7 @@ int line_of_step(std::string_view text, std::string_view area, const std::string
   return 0;
 }
 
-/// Returns why a program has stopped there, if D8094 tells.
+/// Returns why a program has stopped, if D8094 shows it.
 std::string why_of(const ErrorReport& error, language::Area area, bool is_idle) {
   const bool stops_all = error.code == Code::emergency_stop || error.code == Code::emergency_input;
   if (error.code == Code::none || (error.area != area && !(stops_all && is_idle))) return {};

@@ -1,4 +1,4 @@
-// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and their room.
+// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and their capacity.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,10 @@ class StoredPrograms : protected OnGround {
                                                            Area area) const;
   /// Stores the areas and files that a program has; an empty area is erased.
   void store(const interpreter::super_40nc::Program& program);
-  /// Returns true if a stored program has more lines than D9042 allows.
+  /// Returns true if a stored program is longer than the capacity of C.
   bool is_too_long(std::string_view kind, std::string_view name) const;
-  /// Stores the C program as the present file, and replaces it by the program of file `number`.
+  /// Stores the C program as the present file, and replaces it by the program of file `number`. A file that
+  /// is too long is reported and leaves C empty.
   void change_c(std::int32_t number);
   void flash_written(bool is_recipe);
 
@@ -47,7 +48,7 @@ class StoredPrograms : protected OnGround {
   void read_files_again();
   /// Computes D9042 and D9043 from D9045.
   void show_capacities();
-  /// Shows in D9036 to D9042 the stored lines, not the capacities, if that is chosen.
+  /// Shows in D9036 to D9042 the steps of the programs, not the capacities, if that is chosen.
   void show_line_counts();
 
  private:

@@ -32,7 +32,7 @@ struct UserTable {
   bool operator==(const UserTable&) const = default;
 };
 
-/// A table as a program of C. It has no END, so it stops with code 1, at a line that cannot run.
+/// A table as a program of C. At a line that cannot run it ends without END, so it stops with code 1.
 struct TableProgram {
   interpreter::super_40nc::AreaProgram program;
   std::vector<int> table_lines;  // table line of each line of the program
