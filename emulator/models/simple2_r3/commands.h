@@ -33,7 +33,7 @@ class AxisCommands : public AxisReactions {
   void speed_changed();
   void preset_coordinate(std::int32_t pulses);
   void set_encoder(std::int64_t counts) { count_encoder(axis(), counts, encoder_reversed()); }
-  /// Show in DirectmRPM and DirectPWM a command that was not a write to them.
+  /// Show in DirectmRPM or DirectPWM a command that did not come by a write to it.
   void show_velocity(std::int32_t milli_rpm);
   void show_pwm(std::uint8_t percent);
 

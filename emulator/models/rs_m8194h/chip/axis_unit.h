@@ -182,7 +182,7 @@ void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
 /// Arms the motor's limits and comparators. Call it again whenever a counter or one of them is set. `asked`
-/// are the events that have a consumer.
+/// has the events that something uses.
 void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
 /// Returns EP as a function of the travel, by the axis's settings, for a machine with the given encoder line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);

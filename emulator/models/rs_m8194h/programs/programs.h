@@ -24,7 +24,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The value for "no download". It has a name because each download has one.
+/// The value for "no download". It has a macro's name only because each download has one.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
 /// Inputs 115 to 119: the macro, the command, the line and the error.

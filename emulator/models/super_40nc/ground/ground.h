@@ -102,7 +102,7 @@ class Ground {
   bool keeps(const RegisterRow& row) const;
   std::uint32_t factory_bits(const RegisterRow& row) const;
   Eeprom factory_memory() const;
-  /// Loads the image from the memory, as it is at power-up.
+  /// Loads the image from the memory, as at power-up.
   void load_image();
   void take_parameters();
   void take_power_up_parameters();
