@@ -16,15 +16,16 @@ class Axes {
  public:
   /// Returns true if this device has the axis. A chain may have fewer axes than its model lists.
   virtual bool has_axis(int /*axis*/) const { return true; }
-  /// Returns the pulses that left the device in this tick, in the motor's direction (after every reversal).
+  /// Returns the pulses that left the device in this tick, in the motor's direction, with every reversal
+  /// applied.
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
-  /// Returns the planned speed in pulses per second: a real number, while the pulses of a tick are whole.
+  /// Returns the planned speed in pulses per second. It is a real number; the pulses of a tick are whole.
   virtual double speed_pps(int axis) const = 0;
-  /// Returns the pulses until the end of the current move or path, in the motor's direction. 0 at rest, and
-  /// if the end is unknown (a move at constant speed, a search for home, following).
+  /// Returns the pulses until the end of the current move or path, in the motor's direction. Returns 0 at
+  /// rest, and if the end is unknown (a move at constant speed, a search for home, following).
   virtual std::int64_t pulses_to_come(int /*axis*/) const { return 0; }
-  /// Returns whether the device has switched the axis's servo on, whether or not an output shows it. Nothing
-  /// if the device has no such state.
+  /// Returns whether the device has switched the axis's servo on, whether or not an output shows it. Returns
+  /// nothing if the device has no such state.
   virtual std::optional<bool> servo_on(int /*axis*/) const { return std::nullopt; }
   /// Returns the manual's name of the pulse format in use, or an empty text if there is only one format.
   virtual std::string_view pulse_format() const { return {}; }
@@ -34,13 +35,13 @@ class Axes {
   /// Returns the duty in percent of an axis in PWM mode, 0 in all other modes, or nothing if the axis has no
   /// such mode.
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
-  /// Tells the device that the axis has an encoder with that count. Called when the world is made, before
-  /// anything moves.
+  /// Tells the device that the axis has an encoder, which is at `counts`. Called when the world is made,
+  /// before anything moves.
   virtual void connect_encoder(int /*axis*/, std::int64_t /*counts*/) {}
   /// Sets the absolute count of the axis's encoder, from the plant.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
 
-  // --- edges between ticks: of a device that asks for them. Others see levels, once a tick ---------------
+  // --- edges between ticks, for devices that ask for them; others see levels once a tick -----------------
   /// Returns true if the device detects the switches of its machines at the exact pulse. The answer never
   /// changes.
   virtual bool meets_edges() const { return false; }

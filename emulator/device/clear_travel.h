@@ -1,4 +1,4 @@
-// Gives a device what it needs from the machines on its axes to make up many ticks in one step
+// Gives a device what it needs from the machines on its axes to skip many ticks in one step
 // (Device::fast_forward_to()): how far each axis can move before anything but positions changes, and what its
 // encoder will count.
 #pragma once

@@ -1,5 +1,5 @@
-// Commands that a host writes to a window of registers, as text. Each such window has an object, which its
-// model's `window` refers to. People read and write by name what hosts send as numbers.
+// Converts between text and the commands that a host writes to a window of registers. Hosts send numbers;
+// people read and write names. Each window has one object, to which its model's `window` points.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ struct Model;
 /// The settings of a device that decide how a message is encoded.
 struct WindowForm {
   Firmware firmware = 0;
-  bool low_word_first = false;                 // at this moment, from the device
-  std::span<const std::uint8_t> choices = {};  // options by the model's rows; none: the first of each
+  bool low_word_first = false;                 // taken from the device's present state
+  std::span<const std::uint8_t> choices = {};  // chosen options, by row; empty: the first of each
 };
 
 class CommandWindow {
  public:
-  /// Returns the name of the window's first register in its row; it is a holding register.
+  /// Returns the name of the window's first register, as in its row. It is a holding register.
   virtual std::string_view register_name() const = 0;
-  /// Returns the word in the areas of an instruction (InstructionRow) that hosts may send.
+  /// Returns the word that marks the instructions that hosts may send (InstructionRow::areas).
   virtual std::string_view area() const = 0;
   /// Returns an example for messages: "MOVE X 1000".
   virtual std::string_view example() const = 0;
@@ -45,10 +45,10 @@ class CommandWindow {
 
 /// The words that a host writes in one request.
 struct WindowMessage {
-  std::uint16_t first = 0;  // of the holding registers
+  std::uint16_t first = 0;  // address of the first holding register
   std::vector<std::uint16_t> words;
 };
-/// Both throw ProgramError, also for a model without such a window.
+/// Makes the words of a command. Both throw ProgramError, also for a model without a window.
 WindowMessage window_message(const Model& model, std::string_view text, const WindowForm& form);
 WindowMessage window_message(const Device& device, std::string_view text);
 WindowForm window_form(const Device& device);

@@ -79,9 +79,9 @@ class Device {
   virtual const Axes* axes() const { return nullptr; }
 
   // --- lines -----------------------------------------------------------------------------------
-  /// Returns the settings of one of its ports: those of its model, at the speed in its own settings.
+  /// Returns the settings of one of its ports: the model's, at the speed in the device's own settings.
   virtual pty::LineSettings line_settings(std::size_t port) const;
-  /// Returns true if its ports have their own speed whatever the bench sets for their lines. On a line at
+  /// Returns true if its ports keep their own speed, whatever the bench sets for their lines. On a line at
   /// another speed the device receives nothing.
   virtual bool keeps_its_speed() const { return false; }
   /// Returns the station number in its memory or settings, or nothing if its model has none.
@@ -92,9 +92,9 @@ class Device {
   bool powered() const { return powered_; }
   void switch_power(bool on);
 
-  // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
-  // Where a device has nothing to do in a phase, nothing is done. (Not here: the compiler would guess at each
-  // call that it is the empty one.)
+  // --- time: the phases of a tick, in this order; devices interact only between ticks ------------------
+  // By default a phase does nothing. The empty functions are not defined here, because the compiler would
+  // then guess at each call that the empty one is meant.
   virtual void sample_inputs(Tick tick);
   virtual void run_interpreters(Tick tick);
   virtual void step_motion(Tick tick);
@@ -102,8 +102,8 @@ class Device {
   /// Returns the first tick after `done` at which anything may change without an outside event, or kNever.
   /// The ticks before it may be skipped: the state is the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
-  /// Returns the first tick after `done` that must be run in full, at most `most` + 1. In the ticks before
-  /// it only positions change, as far as `ahead` leaves each axis room; fast_forward_to() can make them up in
+  /// Returns the first tick after `done` that must be run in full, at most `most` + 1. In the ticks before it
+  /// only positions change, within the room that `ahead` leaves each axis; fast_forward_to() can skip them in
   /// one step.
   virtual Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
   /// Advances the device to the end of `tick`, which is after `done` and before next_event_tick(). The state
@@ -119,16 +119,17 @@ class Device {
   std::vector<std::byte> save_state() const;
   /// Like the above, but shared texts are added to `shared`, and the bytes hold only their digests.
   std::vector<std::byte> save_state(std::vector<SharedText>& shared) const;
-  /// Reads a state that save_state() of a device with the same settings has returned. Calling the result puts
-  /// the state into effect. Throws StateError for other bytes.
+  /// Reads a state saved by a device with the same settings. Calling the result puts the state into effect.
+  /// Throws StateError for other bytes.
   std::function<void()> read_state(std::span<const std::byte> bytes);
   std::function<void()> read_state(StateReader reader);
   /// Reads a state and puts it into effect at once. If it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
-  /// Returns true if it equals another device of the same model bit for bit: both would save the same.
+  /// Returns true if it equals another device of the same model bit for bit, so both would save the same
+  /// bytes.
   bool same_state(const Device& other) const;
-  /// Returns the first field in which two saved states of equally made devices differ:
+  /// Returns the first field in which two saved states of devices with the same settings differ:
   /// "axes[0].motor.travel_pulses: 12 against 13". Empty if they are equal. Throws StateError for other
   /// bytes.
   std::string state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const;
@@ -183,13 +184,13 @@ class Device {
   std::vector<std::int32_t> inputs_;
   DeviceSettings settings_;
   std::function<void(const std::string&)> log_;
-  mutable std::set<std::string, std::less<>> mentioned_;  // of the log, not of the model
+  mutable std::set<std::string, std::less<>> mentioned_;  // part of the log, not of the state
 };
 
-/// Throws ProgramError, also if the device takes no program.
+/// Loads a program. Throws ProgramError, also if the device takes no program.
 void load_program(Device& device, std::string_view text);
 
-/// Returns one line that explains why named_values() has no such value: "nothing of robot is called 'T9PE';
+/// Returns one line that explains why named_values() has no such value: "robot has no value called 'T9PE';
 /// ...".
 std::string why_no_value(const Device& device, std::string_view name);
 

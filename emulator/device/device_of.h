@@ -1,6 +1,5 @@
-// The base of a device class `Itself`, apart from its facets. A question for a facet returns the device if it
-// derives from that facet, and null if it does not. (If a facet is a member of the device instead, the
-// device overrides the question.)
+// The base of a device class `Itself`. Each function that asks for a facet returns the device if it derives
+// from that facet, and null otherwise. A device that has a facet as a member overrides that facet's function.
 #pragma once
 
 #include <type_traits>

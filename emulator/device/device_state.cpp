@@ -1,4 +1,4 @@
-// Reads and writes the part of a device's state that all models share: its inputs, its power, its time.
+// Reads and writes the part of a device's state that all models share: its inputs, its power and its time.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,7 +42,7 @@ namespace {
 
 using Common = CopiedFields<Device>;
 
-/// Reads the state that all models share and checks that it is that of a device of this model.
+/// Reads the state that all models share, and checks that it belongs to a device of this model.
 void read_common(const Model& model, StateReader& reader, Common& common) {
   std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);

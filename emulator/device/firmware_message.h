@@ -1,4 +1,4 @@
-// Words the message about a firmware version that a model does not have.
+// Formats the message about a firmware version that a model does not have.
 #pragma once
 
 #include <string>

@@ -40,11 +40,11 @@ struct MachineEdges {
     std::int64_t first = INT64_MIN;
     std::int64_t last = INT64_MAX;
     bool mirrored = false;     // the device counts against the motor's direction
-    bool reversed = false;     // its counts fall where the motor's pulses rise
-    std::int64_t surplus = 0;  // counts too many
+    bool reversed = false;     // its counts fall as the motor's pulses rise
+    std::int64_t surplus = 0;  // extra counts
     bool operator==(const Encoder&) const = default;
 
-    /// Converts to a line of another type with the same members.
+    /// Converts to another linear function with the same members.
     template <class Line>
     Line as() const {
       Line line;

@@ -1,4 +1,4 @@
-// Words the end of a list of mistakes in a program, which is cut at kMaxMistakes.
+// Formats the end of a list of mistakes in a program, which is cut at kMaxMistakes.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ inline std::vector<ProgramMistake> with_word_of_more(std::vector<ProgramMistake>
   return mistakes;
 }
 
-/// Returns " (and 3 more)" for a message that quotes only one mistake. A full list may not have all of them.
+/// Returns " (and 3 more)" for a message that quotes only one mistake. A full list may lack some.
 inline std::string and_more(const std::vector<ProgramMistake>& mistakes) {
   if (mistakes.size() < 2) return "";
   const std::string at_least = mistakes.size() >= kMaxMistakes ? "at least " : "";

@@ -147,7 +147,7 @@ std::string why_no_firmware(const Model& model, const std::string& version) {
 
 namespace {
 
-/// Returns why a choice is refused, with the command that lists all if the message does not.
+/// Returns why a choice is refused. Adds the command that lists all choices if the message does not.
 std::string why_no_choice(const std::string& why) {
   const bool has_all = why.find("expected one such as") == std::string::npos;
   return has_all ? why : why + " (`understudy describe` lists them)";
@@ -213,8 +213,8 @@ std::string shortest_text(double number) {
   return error == std::errc{} ? std::string(text.data(), end) : std::string();
 }
 
-/// Writes a register. `told` is the value as it was given; `value_for` returns nothing if the register cannot
-/// hold it.
+/// Writes a register. `told` is the value as the user gave it; `value_for` returns nothing if the register
+/// cannot hold it.
 void set_register(Device& device, const std::string& name, const std::string& told,
                   const std::function<std::optional<Value>(const NamedPlace&)>& value_for) {
   RegisterBank* const bank = device.register_bank();
@@ -260,8 +260,8 @@ void set_registers(Device& device, const DeviceSettings& settings) {
   }
 }
 
-/// Writes the station number that the settings give to the register that keeps it. Without one in the
-/// settings, the number in the memory stays.
+/// Writes the station number from the settings to the register that stores it. If the settings have none, the
+/// number in the memory stays.
 void set_station_number(Device& device) {
   const auto& numbers = device.model().line.station_numbers;
   if (!numbers || numbers->kept_in.empty() || !device.settings().address) return;
@@ -283,7 +283,7 @@ void load_memory(Device& device, const NvImage& image) {
   device.memory()->load_nv(image);
 }
 
-/// Checks that the device has a facet for all that its model's tables list.
+/// Checks that the device has the facets that its model's tables need.
 void require_facets(const Device& device) {
   const Model& model = whole(device.model());
   const auto require = [&](bool is_there, std::string_view what) {

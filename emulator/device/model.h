@@ -26,8 +26,8 @@ class CommandWindow;
 class Device;
 class ProgramLanguage;
 
-/// A row of a model's parameter numbers: `count` numbers from `first` on stand for the registers called
-/// `register_name`, from its first one on.
+/// A row of a model's parameter numbers: the `count` numbers from `first` on stand for the registers called
+/// `register_name`, beginning with its first one.
 struct ParameterRow {
   int first = 0;
   int count = 1;
@@ -68,10 +68,10 @@ struct ProofRow {
 
 /// A row of a model's table of text commands.
 struct CommandRow {
-  std::string_view command;  // the word that it is known by: "MA"
+  std::string_view command;  // the word that identifies it: "MA"
   std::string_view syntax;   // "MA x"
   std::string_view meaning;
-  std::string_view where{};  // it may be given
+  std::string_view where{};  // where it may be used
 };
 
 /// A connection of the device with the outside, as its manual names it.
@@ -80,14 +80,14 @@ struct TerminalRow {
     digital_in,     // 1: conducting
     digital_out,    // 1: conducting
     analog_in,      // millivolts
-    analog_number,  // an analog input that the maker counts in no unit
+    analog_number,  // an analog input that the maker counts without a unit
     dip_switch,     // on the housing: 1 is ON
     counted_in,     // a hand wheel, pulses or encoder phases: the total count so far, modulo 2^32
     analog_out,     // millivolts
     pulse_out,      // digital; its pulses may be shorter than a tick, and are counted
   } kind;
   std::string_view name;
-  std::int32_t lowest = 0;  // levels that it can be given
+  std::int32_t lowest = 0;  // the range of its levels
   std::int32_t highest = 1;
 };
 
@@ -122,14 +122,14 @@ struct AxisRow {
   int upper_limit_input = -1;  // numbers of terminals
   int lower_limit_input = -1;
   int home_input = -1;
-  int alarm_input = -1;  // and of its drive
+  int alarm_input = -1;  // from its drive, like ready_input
   int ready_input = -1;
   int servo_output = -1;
   int alarm_clear_output = -1;
   int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
   int near_home_input = -1;
   int mark_input = -1;
-  int index_input = -1;  // of the encoder
+  int index_input = -1;  // the index pulse of the encoder
 };
 
 /// A protocol on a line. Each protocol has one object, in addition to the facet that speaks it (modbus/,
@@ -149,7 +149,7 @@ struct StationNumbers {
 /// A serial port, which connects a device to a line.
 struct PortRow {
   enum class Kind : std::uint8_t {
-    rs232,  // from one to one: the device is alone on that line
+    rs232,  // point to point: the device is alone on that line
     rs485,
   } kind = Kind::rs485;
   std::string_view name;       // letters, digits, _ and -, as in a bench
@@ -185,7 +185,7 @@ struct RtuRules {
   std::string_view server_id{};                // for function 17
 };
 
-/// The settings that one device of a model is made from.
+/// The settings from which one device of a model is made.
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default
@@ -247,12 +247,12 @@ class ModelFiles {
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
   /// Parses a text that is complete in itself. `name` stands for the file in messages.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
-  /// Returns what its files leave open, and how that was read.
+  /// Returns remarks on what its files leave open, and on how that was interpreted.
   virtual std::vector<FileError::Diagnostic> remarks_on(const Model& model) const = 0;
 };
 
-/// A model in a list of names. Its tables are made on first use, because that takes longer than most commands
-/// do.
+/// A model in a list of names. Its tables are made on first use, because that takes longer than most
+/// commands.
 class ListedModel {
  public:
   constexpr ListedModel(std::string_view name, const Model& (*make)()) : name_(name), make_(make) {}

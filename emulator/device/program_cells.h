@@ -16,7 +16,7 @@ struct DeviceSettings;
 struct CellForm {
   std::string_view row;  // for people: "CMD DATA1 DATA2 JMP"
   std::size_t fewest = 1;
-  std::size_t most = 1;  // cells of a row
+  std::size_t most = 1;  // cells per row
   std::int64_t lowest = 0;
   std::int64_t highest = 255;
   std::size_t most_rows = 256;
@@ -24,10 +24,10 @@ struct CellForm {
 
 struct CellRow {
   std::vector<std::int64_t> cells;
-  int line = 0;  // of the text that it was read from; 0: from none
+  int line = 0;  // in the text that it was read from; 0: none
 };
 
-/// A facet of a language: null if its programs have no such form.
+/// A facet of a language. It is null if the language's programs have no such form.
 class ProgramCells {
  public:
   virtual CellForm cell_form() const = 0;

@@ -1,6 +1,6 @@
-// The language of user programs for the devices of a model, as text. Each language has an object, which the
-// model's `language` refers to. A device loads a text and returns it (user_program.h); this class has the
-// functions that need no device.
+// The language in which users write programs for the devices of a model. Each language has one object, to
+// which the model's `language` points. A device loads a text and returns it (user_program.h); this class has
+// the functions that need no device.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct InstructionRow {
   std::string_view meaning{};
 };
 
-/// The host's request that starts or stops a program, for buttons of observers.
+/// A request that a host sends to start or stop a program, for buttons of user interfaces.
 struct ProgramControl {
   enum class By : std::uint8_t {
     registers,  // "M8596=0 M8596=1": one write after the other
@@ -61,13 +61,13 @@ class ProgramLanguage {
   /// Returns the names of the operand cells, if every instruction has the same fixed cells; each row then
   /// has one OperandRow for each cell. Returns none if instructions have operands of their own.
   virtual std::span<const std::string_view> operand_cells() const { return {}; }
-  /// Returns all mistakes in a text, in their order, as loading it into a device made of `settings` would
-  /// report them. The settings are checked already and name a firmware.
+  /// Returns all mistakes in a text, in its order, as loading it into a device made from `settings` would
+  /// report them. The settings have been checked and name a firmware.
   virtual std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const = 0;
   /// Returns places in a text that loads but probably does not mean what it says, such as a label defined
   /// twice.
   virtual std::vector<ProgramMistake> warnings(std::string_view, const DeviceSettings&) const { return {}; }
-  /// Returns the parts of a text that loads, for observers of the program; of one that does not, none.
+  /// Returns the parts of a text, for observers of the program. Returns none if the text does not load.
   virtual std::vector<ProgramPart> parts(std::string_view, const DeviceSettings&) const { return {}; }
   /// Returns true if each part is a program that runs alongside the others; false if parts call each other.
   virtual bool parts_run_at_once() const { return false; }

@@ -1,8 +1,8 @@
 // The base of a device whose whole state is one value. It defines once how the state is saved, compared and
 // restored. `State` has its fields (base/state/fields.h).
 //
-// What is declared here is defined in stateful_device_bytes.h. Only the source that lists the fields includes
-// that, and instantiates it for its device:
+// stateful_device_bytes.h defines the members that are declared here. Only the source that lists the fields
+// includes it, and instantiates this class for its device:
 //
 //   template class understudy::emulator::StatefulDevice<Gate, GateState>;
 #pragma once
@@ -26,8 +26,8 @@ class StatefulDevice : public DeviceOf<Itself> {
   const State& settled() const { return state_; }
 
  protected:
-  /// Throws StateError for a state that no device made like this one can be in, and completes one with what
-  /// does not stand in its bytes.
+  /// Throws StateError for a state that a device with these settings cannot be in. Fills in members that the
+  /// bytes do not contain.
   virtual void check_restored(State& restored) const = 0;
   /// Puts a checked state into effect. A device that stores more than its state adjusts that here.
   virtual void take_over(const State& restored) { state_ = restored; }

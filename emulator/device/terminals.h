@@ -17,9 +17,9 @@ class Terminals {
   virtual bool has_terminal(int /*terminal*/) const { return true; }
   /// Returns true if the output conducts.
   virtual bool output(int terminal) const = 0;
-  /// Returns true if an output may change in ticks that Device::fast_forward_to makes up, because it depends
-  /// on the position of an axis. If a wire leads from it, those ticks are run in full, so that the wire
-  /// changes in the right tick.
+  /// Returns true if an output may change in ticks that Device::fast_forward_to() skips, because it depends
+  /// on the position of an axis. If a wire leads from it, those ticks are run in full, so the wire changes in
+  /// the right tick.
   virtual bool output_moves(int terminal) const = 0;
   /// Returns `count` digital outputs from `first` on, at most 32, with the first in bit 0. A device with
   /// hundreds of outputs has these words ready.

@@ -21,23 +21,23 @@ struct ProgramLocation {
   State state = State::stopped;
   int line = 0;                    // in program_text(), from 1; 0: unknown
   std::string text;                // the program's text at that line
-  std::string waits_for;           // of one that waits: "input 3 is ON", "a delay"
+  std::string waits_for;           // if waiting: "input 3 is ON", "a delay"
   std::string why;                 // why it has stopped or failed, or what went wrong, if known
-  std::optional<SimTime> until{};  // for one that waits for a time: when the wait ends
+  std::optional<SimTime> until{};  // if waiting for a time: when the wait ends
   std::vector<int> callers{};      // the lines at which its callers continue, the innermost first
 };
 
 class UserProgram {
  public:
-  /// Loads the program as if it was written over the wire. If it throws ProgramError, the program is
+  /// Loads the program as if it were written over the wire. If it throws ProgramError, the program is
   /// unchanged; the device's registers may still show the attempt.
   virtual void load_program(std::string_view text) = 0;
   /// Returns the program as text that load_program() accepts.
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
-  /// Observers are not part of the state. Each is notified of everything from the next lines on; before lines
-  /// run, it gets a mark of the program.
+  /// Adds an observer, which is not part of the state. It is notified of all lines from the next ones on;
+  /// before that it receives the program's mark (ProgramWatch::look()).
   void add_watch(ProgramWatch& watch) {
     watches_.add(watch);
     watch_program(watches_.watch());

@@ -39,7 +39,7 @@ std::string hex2(unsigned number) {
   return text.data();
 }
 
-/// Writes an opcode with as many digits as the maker's manual does.
+/// Formats an opcode with as many digits as the maker's manual does.
 std::string opcode_text(int opcode) {
   return opcode > 0xFF ? hex4(static_cast<unsigned>(opcode)) : hex2(static_cast<unsigned>(opcode));
 }
@@ -73,8 +73,8 @@ std::string section_for_people(const Model& model, std::string_view section) {
 
 std::string width_of(const RegisterRow& row) { return std::to_string(emulator::width_of(row.type)); }
 
-/// Returns the number that many manuals and tools have for a register: 40001 is holding register 0, and
-/// 410001 is holding register 10000.
+/// Returns the number that many manuals and tools use for a register: 40001 is holding register 0, and 410001
+/// is holding register 10000.
 std::string modicon_number(Table table, int address) {
   constexpr int kMaxOfFiveDigits = 9998;
   const int digits = address > kMaxOfFiveDigits ? 6 : 5;
@@ -162,7 +162,7 @@ std::string number_of(const ParameterRow& row, int index) {
   return std::string(row.letter) + std::to_string(row.first + (row.of_each_axis ? 0 : index));
 }
 
-/// Lists the parameters. The table of registers holds the other facts of those that are registers.
+/// Lists the parameters. If they are registers, the table of registers has the other facts about them.
 Sheet parameters(const Model& model) {
   const bool has_named = !model.named_parameters.empty();
   const bool has_meanings = std::any_of(model.parameters.begin(), model.parameters.end(),
@@ -312,7 +312,7 @@ Sheet ports(const Model& model) {
   return sheet;
 }
 
-/// Lists the kinds of text blocks that a device keeps. It makes a device, because only that knows them.
+/// Lists the kinds of text blocks that a device keeps. It makes a device, because only a device knows them.
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});

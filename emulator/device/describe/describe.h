@@ -16,7 +16,7 @@ namespace understudy::emulator {
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format);
 
 /// Returns the path of the file with the scenario that distinguishes the options of a choice,
-/// "docs/fidelity/proofs/MODEL/NAME.yaml". Returns an empty text if the choice has only one option.
+/// "docs/fidelity/proofs/MODEL/NAME.yaml". Empty if the choice has only one option, or no file covers it.
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row);
 
 }  // namespace understudy::emulator

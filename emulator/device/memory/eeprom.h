@@ -24,9 +24,9 @@ class Eeprom {
   Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
          std::span<const bool> at_once = {});
 
-  /// Notes that a register was written after tick `now`; `bits` is its content. A value that is stored
-  /// already is not written again, and one that waits keeps its place. With `even_if_same` a stored value is
-  /// written again.
+  /// Queues a register that was written after tick `now`; `bits` is its content. A value that is already
+  /// stored is not written again (unless `even_if_same`), and a register that already waits keeps its place
+  /// in the queue. A battery or an FRAM stores the value at once.
   void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same = false);
   /// Starts writing the whole image as it is now, in place of all waiting writes, as an erasure does.
   void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
@@ -76,7 +76,7 @@ class Eeprom {
   std::uint64_t revision_ = 0;
   std::vector<std::uint32_t> kept_;  // by slot
   std::vector<Slot> slots_;
-  std::vector<Job> jobs_;                 // the first is being done
+  std::vector<Job> jobs_;                 // the first is in progress
   std::vector<std::uint32_t> rewriting_;  // by slot, during an erasure; otherwise empty
 };
 

@@ -15,8 +15,8 @@ namespace understudy::emulator {
 
 class KeptMemory {
  public:
-  /// Convert to and from the form in files. load_nv() requires that the power is off. Throws NvError for an
-  /// image that the device cannot hold.
+  /// Convert to and from the form in files. load_nv() requires that the power is off, and throws NvError for
+  /// an image that the device cannot hold.
   NvImage nv_image() const { return kept_now()(); }
   void load_nv(const NvImage& image);
   /// Takes the memory's content at this moment. The result can make the image later, in another thread, even
@@ -24,7 +24,8 @@ class KeptMemory {
   /// takes time.
   LateImage kept_now() const;
 
-  /// Returns the named texts in the memory, or null for most devices. Images include them automatically.
+  /// Returns the named texts in the memory; null for most devices, which have none. Images include them
+  /// automatically.
   virtual TextBlocks* text_blocks() { return nullptr; }
   virtual const TextBlocks* text_blocks() const { return nullptr; }
 
@@ -34,15 +35,15 @@ class KeptMemory {
   virtual void settle_memory() = 0;
 
  protected:
-  /// Takes the model and the firmware for its images.
+  /// The images name this model and firmware.
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// Returns a function that writes the present content, except text_blocks(), into an image that has model
-  /// and firmware already. The function refers to nothing in the device.
+  /// Returns a function that writes the present content, except text_blocks(), into an image that already has
+  /// model and firmware. The function refers to nothing in the device.
   virtual std::function<void(NvImage&)> memory_writer() const = 0;
   /// Reads an image while the power is off. Entries that the image does not name get the factory's value.
-  /// Throws NvError if it cannot hold the image; then nothing has changed.
+  /// Throws NvError for an image that the memory cannot hold; then nothing has changed.
   virtual void read_memory(const NvImage& image) = 0;
 
  private:

@@ -21,9 +21,9 @@ struct NvEntryError : NvError {
         name(std::move(name_of_it)),
         diagnostic(std::move(what_is_wrong)) {}
   List list;
-  std::string kind;        // of blocks
-  std::string name;        // of blocks: none where all of their kind are meant
-  std::string diagnostic;  // for messages that name the entry already
+  std::string kind;        // for blocks
+  std::string name;        // of the entry; empty for blocks: all of the kind
+  std::string diagnostic;  // for messages that already name the entry
 };
 
 /// Makes the error for a refused value: "registers: " or "reals: ", then the reason.

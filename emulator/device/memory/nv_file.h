@@ -60,7 +60,7 @@ class NvWriter {
   bool is_busy_ = false;
   bool is_hurried_ = false;  // flush() waits: write without delay
   bool is_finishing_ = false;
-  std::map<std::string, bool> has_failed_;  // of the helper thread
+  std::map<std::string, bool> has_failed_;  // only the helper thread uses it
   std::thread thread_;                      // declared last: it uses all the others
 };
 

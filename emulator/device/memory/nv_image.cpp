@@ -1,4 +1,4 @@
-// Reads and writes the JSON of NV images. No other file knows it.
+// Reads and writes the JSON of NV images. No other file knows that format.
 #include "emulator/device/memory/nv_image.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace understudy::emulator {
 namespace {
 
 using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;  // slow to look up keys in: for writing only
+using OrderedJson = nlohmann::ordered_json;  // only for writing, because it looks up keys slowly
 
 constexpr const char* kKind = "nv-image";
 constexpr int kFormat = 1;
@@ -40,13 +40,13 @@ std::string text_of(const Json& object, const char* key) {
 
 std::string line_text(std::size_t line) { return line == 0 ? "" : "line " + std::to_string(line) + ": "; }
 
-/// Returns the line of a place in the text, given as the parser counts bytes.
+/// Returns the line of a byte in the text, counted as the parser counts bytes.
 std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// An iterator that reports the parser's position. When the parser has read a key, that is right after it.
+/// An iterator that reports the parser's position, which is right after a key when the parser has read it.
 struct JsonPlace {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -64,7 +64,7 @@ struct JsonPlace {
   bool operator!=(const JsonPlace& other) const { return at != other.at; }
 };
 
-/// Counts the lines up to places in the text; each place must come after the one before.
+/// Counts the lines up to places in the text. Places must be in ascending order.
 class LineCount {
  public:
   explicit LineCount(const std::string& text) : counted_to_(text.data()) {}
@@ -94,13 +94,13 @@ std::string text_of(const BlockPlace& place) {
 
 struct Parsed {
   Json file;
-  // The names in the order of the text, which `file` does not keep.
+  // The names in the order of the text, which `file` does not preserve.
   std::vector<std::string> registers{};
   std::vector<std::string> reals{};
   std::vector<BlockPlace> blocks{};  // kinds (without a name) and entries
 };
 
-/// Parses the text and refuses equal keys, of which nlohmann would silently keep the last.
+/// Parses the text. Refuses duplicate keys, because nlohmann would silently use the last one.
 Parsed parse_strictly(const std::string& text) {
   std::vector<std::set<std::string>> keys;
   std::string outermost;
@@ -159,8 +159,8 @@ void read_reals(const Json& reals, const std::vector<std::string>& names, NvImag
   }
 }
 
-/// Returns a line as text, or as a list of bytes if it is not UTF-8: JSON is UTF-8, and a display may use
-/// another encoding.
+/// Returns a line as text, or as a list of bytes if it is not UTF-8: JSON must be UTF-8, but a display may
+/// use another encoding.
 OrderedJson json_of_line(const std::string& line) {
   const std::string text = OrderedJson(line).dump(-1, ' ', false, OrderedJson::error_handler_t::ignore);
   if (OrderedJson::parse(text) == line) return line;

@@ -29,7 +29,7 @@ struct NvImage {
   std::vector<std::pair<std::string, double>> reals{};            // finite
   std::vector<std::string> program{};                             // its lines
   NamedBlocks blocks{};                                           // in UTF-8
-  BlockLines block_lines{};  // in the text that it was read from: for messages, not part of the content
+  BlockLines block_lines{};  // in the text that was parsed: for messages, not part of the content
 
   bool operator==(const NvImage& other) const;
 };
@@ -41,7 +41,7 @@ using LateImage = std::function<NvImage()>;
 /// 3: " in front if the line is known.
 struct NvError : std::runtime_error {
   explicit NvError(const std::string& diagnostic, std::size_t line_of_it = 0);
-  std::size_t line;  // in the file; 0: it is the whole
+  std::size_t line;  // in the file; 0: the error concerns the whole image
   /// Returns the message for an image in a file: "path:3: field: what is wrong; what was expected".
   std::string in_file(const std::string& path) const;
 };

@@ -34,8 +34,8 @@ bool may_hold(const MapPolicy& policy, const RegisterRow& row, Value value) {
          (is_32_bit(row.type) && policy.halves != MapPolicy::Halves::come_whole) || is_in_range(row, value);
 }
 
-/// Returns true if a register can have come to hold these bits: by a write, from the factory, or, if hosts
-/// cannot write it, from the device itself.
+/// Returns true if a register can hold these bits: from a write, from the factory, or, if hosts cannot write
+/// it, from the device itself.
 bool can_hold(const MapPolicy& policy, const RegisterRow& row, std::uint32_t bits) {
   const Value value = value_of(bits, row.type);
   const auto whole = static_cast<std::uint32_t>(value);

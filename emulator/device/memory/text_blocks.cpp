@@ -123,8 +123,8 @@ void TextBlocks::replace(const NamedBlocks& blocks) {
 void TextBlocks::check_restored(const TextBlocks& earlier) {
   kinds_ = earlier.kinds_;
   shared_.reset();
-  // Blocks that have not changed were checked before. To parse a megabyte of programs takes ten times as long
-  // as the rest.
+  // Only blocks that have changed are checked again, because parsing a megabyte of programs takes ten times
+  // as long as the rest.
   NamedBlocks fresh = all_;
   for (auto& [kind_name, entries] : fresh) {
     std::erase_if(entries, [&, of = kind_name](const auto& entry) {

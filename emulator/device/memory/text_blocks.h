@@ -19,7 +19,7 @@ namespace understudy::emulator {
 struct BlockKind {
   std::string_view name;    // "files": a key of the image
   std::size_t most = 0;     // entries
-  std::size_t longest = 0;  // bytes of one
+  std::size_t longest = 0;  // bytes per entry
   /// Returns why an entry cannot have that name, or an empty text if it can. Null: any name is allowed.
   std::string (*why_not_called)(const std::string& name) = nullptr;
   /// Returns what is wrong with a text, "line 3: ...", or an empty text. Null: any text is allowed.
@@ -55,7 +55,7 @@ class TextBlocks {
     return revision_ == other.revision_ && all_ == other.all_;
   }
 
-  // --- its state as bytes (StateOf<TextBlocks> below): of such a device ---------------------------
+  // --- its state as bytes (StateOf<TextBlocks> below) --------------------------------------------
   void check_restored(const TextBlocks& earlier);
 
  private:

@@ -1,5 +1,5 @@
 // The Modbus side of a device apart from its registers: the addresses it responds to, whether it answers
-// refusals, and its notice of receive errors. This is a facet: Device::modbus() is null if a device uses
+// refusals, and notification of receive errors. This is a facet: Device::modbus() is null if a device uses
 // another protocol.
 #pragma once
 
@@ -20,7 +20,7 @@ enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
 class ModbusStation {
  public:
   virtual Addressing addressing(std::uint8_t address) const = 0;
-  /// Returns true if the device has this function of its model.
+  /// Returns true if the device supports this function code of its model.
   virtual bool knows(std::uint8_t /*function*/) const { return true; }
   /// Returns the silence that ends a frame. `usual` is the model's.
   virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }

@@ -36,7 +36,7 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
 struct Change {
   Place place;
   std::uint32_t bits = 0;
-  bool low = false;  // true for the words that the request brings
+  bool low = false;  // the request has this word
   bool high = false;
 };
 
@@ -59,8 +59,8 @@ void bring_into_range(Change& change) {
   }
 }
 
-// A Modbus request brings at most 123 words or 1,968 bits. Programs, scenarios and the control socket write
-// at most two words.
+// A Modbus request has at most 123 words or 1,968 bits. Programs, scenarios and the control socket write at
+// most two words.
 constexpr std::size_t kManyWords = 128;
 constexpr std::size_t kMaxWords = 2000;
 
@@ -69,7 +69,7 @@ struct Changes {
   std::size_t count = 0;
 };
 
-/// Calls `act` with room for the changes of this many words. To clear room for the maximum would cost more
+/// Calls `act` with room for the changes of this many words. Clearing the maximum every time would cost more
 /// than the rest of a program's write.
 template <typename Act>
 auto with_room_for(std::size_t words, Act act) {
@@ -95,7 +95,7 @@ void extend_sign(Change& change) {
   change.high = true;
 }
 
-/// Checks the value that a request gives to a register. Brings it into range if the policy says so.
+/// Checks the value that a request gives to a register, and clamps it if the policy says so.
 Objection judge(Change& change, const MapPolicy& policy) {
   if (policy.halves == MapPolicy::Halves::low_gives_the_sign) extend_sign(change);
   // Half of a value cannot be checked.
@@ -108,7 +108,7 @@ Objection judge(Change& change, const MapPolicy& policy) {
   return {};
 }
 
-/// Collects the changes to all registers that the request can write, and checks its addresses.
+/// Collects the changes to all registers that the request may write, and checks its addresses.
 Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   const MapPolicy& policy = bank.map_policy();
   const bool low_first = bank.low_word_first();
@@ -146,8 +146,8 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
   return {};
 }
 
-/// Collects the changes and checks addresses first, then values. After a refusal, `changes` keeps only those
-/// that are made nevertheless.
+/// Collects the changes; checks addresses first, then values. After a refusal, `changes` keeps only those
+/// that are still to be made.
 Objection gather(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   Objection refused = gather_addresses(bank, request, changes);
   if (!refused) refused = admission(bank, request, Checked::addresses);
@@ -171,7 +171,7 @@ Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
   return place && place.row->message != nullptr ? place : Place{};
 }
 
-/// Passes on a whole message, or refuses it: all its words must be in the window.
+/// Passes on a whole message, or refuses it. All its words must be in the window.
 Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
   const RegisterRow& row = *window.row;
   const auto most = static_cast<std::size_t>(row.count - window.index);
@@ -250,7 +250,7 @@ std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, V
     if (value < 0 || value > most) return std::nullopt;
     const Value whole = read_value(bank, place);
     value = (whole & ~(most << named.bit)) | value << named.bit;
-    // The sign bit counts as a bit like the others.
+    // A write may set the sign bit like any other.
     if (!half) value = value_of(static_cast<std::uint32_t>(value), place.row->type);
   }
   // A value that does not fit the register's words cannot even be sent.
@@ -313,7 +313,7 @@ Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done) {
 
 double number_of(const NamedPlace& place, Value value) {
   if (!place.is_real()) return static_cast<double>(value);
-  // This returns 0.1 for the single nearest to it, so that the value reads as a person wrote it.
+  // This returns 0.1 for the single nearest to it, so the value reads as the user wrote it.
   const double real = static_cast<double>(real_of(value));
   return parse_real(value_text(value, Type::f32)).value_or(real);
 }
@@ -324,7 +324,7 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
     if (std::isinf(real) && !std::isinf(number)) return std::nullopt;
     return value_of_real(real);
   }
-  constexpr double kMax = 1e15;  // beyond it every number is whole, and none fits
+  constexpr double kMax = 1e15;  // beyond it every double is whole, and no register can hold it
   if (!(std::abs(number) <= kMax) || number != std::trunc(number)) return std::nullopt;
   return static_cast<Value>(number);
 }
@@ -356,7 +356,7 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
 }
 
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
-  // This has the same result as a lookup of its words, but is faster: programs write like this all the time.
+  // This has the same result as looking up its words, but is faster: programs write like this all the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;

@@ -32,7 +32,7 @@ inline Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
   return write_request(bank, table, first, words).refusal;
 }
 
-/// Returns the present value of a register (or of half of one), signed or unsigned as its type.
+/// Returns the present value of a register (or of half of one), signed or unsigned according to its type.
 Value read_value(const RegisterBank& bank, const Place& place);
 Value read_value(const RegisterBank& bank, const NamedPlace& place);
 /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
@@ -40,8 +40,8 @@ Value read_value(const RegisterBank& bank, const NamedPlace& place);
 Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done);
 /// Returns the number that a place's value stands for.
 double number_of(const NamedPlace& place, Value value);
-/// Returns the value for a number: its bits if the place holds a real. Nothing if the number is a fraction
-/// and the place holds whole numbers, or if it exceeds single precision.
+/// Returns the value for a number: its bits if the place holds a real. Returns nothing if the number is a
+/// fraction and the place holds whole numbers, or if it exceeds single precision.
 std::optional<Value> value_of_number(const NamedPlace& place, double number);
 
 /// Returns why a place cannot be written, whatever the value: "cannot be written; it is read-only".
@@ -55,12 +55,12 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Checks a write as if it came from the wire, and makes its words. Other writes before it do not make the
-/// words wrong (except a write that changes the order of words), but the device may refuse them by then,
-/// because it is busy or fails (RegisterBank::admits). A bit is written through its present register.
+/// Checks a write as if it came from the wire, and makes its words. The words stay right if other writes come
+/// first (except one that changes the order of words), but the device may refuse them then, because it is
+/// busy or fails (RegisterBank::admits). A bit is written through its present register.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
-/// Like a write of the device itself: the device is not asked whether it admits it.
+/// Writes a value as the device itself does, without asking the device whether it admits the write.
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value);
 
 }  // namespace understudy::emulator

@@ -45,7 +45,7 @@ inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {
   return {refusal, cause, static_cast<std::uint16_t>(address)};
 }
 
-/// Converts the device's own answer to a request, with its number for the reason.
+/// Converts the device's answer to a request into an objection, with the device's number for the reason.
 inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest& request) {
   const auto because = [&](Cause cause) {
     return Objection{answer.refusal, cause, request.first, answer.reason};
@@ -60,7 +60,7 @@ inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest&
   return {};
 }
 
-/// Asks the device whether it takes a request that is good so far.
+/// Asks the device whether it takes a request that has passed all checks so far.
 inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
   return objection_of(bank.admits(request, checked), request);
 }

@@ -55,7 +55,7 @@ void put_pair(std::span<std::uint16_t> words, std::uint32_t bits, bool low_first
   words[low_first ? 1 : 0] = static_cast<std::uint16_t>(bits >> 16);
 }
 
-/// Returns true if the place is the first word of a 32-bit register and the request brings both words.
+/// Returns true if the place is the first word of a 32-bit register and the request covers both words.
 bool is_whole_pair(const Place& place, bool low_first, std::size_t words_left) {
   return place.part != Place::Part::whole && !is_second_word(place, low_first) && words_left >= 2;
 }
@@ -66,7 +66,7 @@ void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::ui
   const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
   for (; i < bits.size() && at % 8 != 0; ++at) one();
   for (; i + 8 <= bits.size(); i += 8, at += 8) {
-    const std::uint32_t* const of = &bits[i];  // written out, because the compiler would not unroll it
+    const std::uint32_t* const of = &bits[i];  // unrolled by hand, because the compiler would not do it
     const std::uint32_t low = (of[0] & 1U) | (of[1] & 1U) << 1 | (of[2] & 1U) << 2 | (of[3] & 1U) << 3;
     const std::uint32_t high = (of[4] & 1U) | (of[5] & 1U) << 1 | (of[6] & 1U) << 2 | (of[7] & 1U) << 3;
     packed[at / 8] = static_cast<std::uint8_t>(low | high << 4);
@@ -106,7 +106,7 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       continue;
     }
     const std::size_t rest = stored_neighbours(place);
-    if (rest > 1) {  // the rest of its row follows
+    if (rest > 1) {  // the following registers of its row
       const std::size_t count = std::min(rest, words.size() - i);
       const auto stored = image.subspan(static_cast<std::size_t>(place.slot), count);
       std::transform(stored.begin(), stored.end(), words.begin() + static_cast<std::ptrdiff_t>(i),

@@ -1,4 +1,4 @@
-// Reasons why a request for registers was not executed: coarse ones that a protocol answers, and detailed
+// Reasons why a request for registers was not executed: coarse ones for the protocol's answer, and detailed
 // ones that a device may record.
 #pragma once
 
@@ -10,8 +10,8 @@ namespace understudy::emulator {
 /// The coarse reason. Each protocol translates it (Modbus: an exception code).
 enum class Refusal : std::uint8_t {
   none,
-  no_register,  // nothing at that address, or half a register if that is not allowed,
-                // or a write to what can only be read
+  no_register,  // nothing at that address, or half a register if that is not allowed, or a write to a
+                // read-only register
   bad_value,    // outside the register's range, or a message that the device does not take
   busy,         // the device cannot take it now
   failure,      // the device cannot do it
@@ -26,10 +26,9 @@ enum class Cause : std::uint8_t {
   read_only,
   write_only,
   cut_pair,     // half of a 32-bit register
-  cut_message,  // a write to a window that does not start at its first word, passes its end, or includes
-                // others
+  cut_message,  // a write to a window that does not start at its first word, or passes its end
   out_of_range,
-  bad_bit,      // a single bit that is given neither 0x0000 nor 0xFF00
+  bad_bit,      // a single bit written as neither 0x0000 nor 0xFF00
   bad_message,  // a window's reader refused it
   busy,
   failure,
@@ -41,7 +40,7 @@ struct DeviceAnswer {
       : refusal(given), reason(static_cast<std::uint16_t>(number)) {}
 
   Refusal refusal = Refusal::none;
-  std::uint16_t reason = 0;  // the device's own; 0: it has none
+  std::uint16_t reason = 0;  // the device's number; 0: it has none
 };
 
 /// A refusal with its cause and the address where it was found.
@@ -58,8 +57,8 @@ struct Objection {
 /// A request that was answered with an exception, as reported to the device.
 struct RefusedRequest {
   std::uint8_t function = 0;
-  std::uint16_t first = 0;  // address and count of the request; 0 if it has none, or is
-  std::size_t count = 0;    // too short to say so
+  std::uint16_t first = 0;  // 0 if the request has no address, or is too short
+  std::size_t count = 0;    // 0 in the same cases
   int exception = 0;        // the exception code in the answer
   Objection objection{};    // why
 };

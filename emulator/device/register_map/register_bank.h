@@ -20,7 +20,7 @@ struct RegisterRequest {
   std::uint16_t first = 0;
   std::size_t count = 0;
   std::span<const std::uint16_t>
-      words{};             // the words to write, or one bit a word in tables of bits; empty: a read
+      words{};             // the words to write, or one bit per word in tables of bits; empty: a read
   bool is_single = false;  // by a function that writes one register or bit
   bool is_write() const { return !words.empty(); }
 };
@@ -53,8 +53,8 @@ class RegisterBank {
   /// Returns true if a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
-  /// Returns whether the device takes a request that is good so far; it may be busy, or fail. Asked before
-  /// anything is stored, for requests from outside but not for the device's own writes.
+  /// Returns whether the device takes a request that has passed all checks so far; it may be busy, or fail.
+  /// Asked before anything is stored, for requests from outside but not for the device's own writes.
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
@@ -66,12 +66,12 @@ class RegisterBank {
   /// Returns true if a message can begin after its window's first word, because the device accepts such a
   /// part.
   virtual bool takes_parts() const { return false; }
-  /// Asked for each register of a good write in ascending order, before anything is stored. If it returns
+  /// Asked for each register of a valid write in ascending order, before anything is stored. If it returns
   /// true, the device uses the value in its own way: it is not stored and has no effect.
   virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }
-  /// The station has answered a read request. Registers that can be read only once are cleared now.
+  /// Called when the station has answered a read request. Clears registers that can be read only once.
   virtual void read_answered(const RegisterRequest& /*request*/) {}
-  /// The station has answered a request with an exception.
+  /// Called when the station has answered a request with an exception.
   virtual void exception_answered(const RefusedRequest& /*request*/) {}
 
   /// Called for each register of the image that a request has written, after its effect.

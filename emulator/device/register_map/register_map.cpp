@@ -107,7 +107,7 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
   }
 }
 
-/// Fills the table from the end, so that each entry knows how many like it follow.
+/// Fills the table from the end, so each entry knows how many equal ones follow.
 void RegisterMap::find_bit_sources(TableIndex& table) const {
   using How = BitSource::How;
   table.bits.resize(static_cast<std::size_t>(table.end));
@@ -182,8 +182,8 @@ std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Tab
   return address;
 }
 
-/// Returns the word at an address in the first table that has one, or an empty place. It follows the model's
-/// own order of words.
+/// Returns the word at an address in the first table that has one, or an empty place. It uses the model's own
+/// order of words.
 Place word_at(const RegisterMap& map, std::optional<Table> only, std::uint16_t address, Firmware firmware) {
   for (const auto& [name, table] : kTables) {
     if (only && *only != table) continue;
@@ -210,8 +210,7 @@ int bits_at(const Place& place) {
   return place.part == Place::Part::whole ? width : 16;
 }
 
-/// Returns the bits of a place that a number or a field's name stands for, or nothing if there are no such
-/// bits.
+/// Returns the bits of a place that a number or a field's name denotes, or nothing if there are no such bits.
 std::optional<NamedPlace> bits_called(const Place& place, std::string_view name) {
   if (place.row->type == Type::bit) return std::nullopt;
   int bit = -1;

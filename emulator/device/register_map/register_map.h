@@ -1,5 +1,5 @@
-// A model's rows in a form for fast use: found in O(1) by address, or by name, with a slot of the register
-// image for every quantity. It is made once for each model and shared by all its devices.
+// Indexes a model's rows: finds a register in O(1) by address, or by name, and gives every quantity a slot in
+// the register image. A map is made once for each model and shared by all its devices.
 #pragma once
 
 #include <array>
@@ -41,8 +41,8 @@ struct Place {
 /// A place, or bits of it: "STATUS.4", "STATUS.READY".
 struct NamedPlace {
   Place place;
-  int bit = -1;   // the lowest of them; -1: the whole
-  int width = 1;  // how many
+  int bit = -1;   // the lowest bit; -1: the whole
+  int width = 1;  // number of bits
 
   bool is_real() const { return bit < 0 && place.part == Place::Part::whole && place.row->type == Type::f32; }
 };
@@ -79,14 +79,14 @@ class RegisterMap {
   /// device runs). The place is empty if this firmware has nothing there.
   Place at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const;
 
-  /// Returns the sources by address, up to the last bit of a table of bits; none for other tables.
+  /// Returns the sources of bits by address, up to the last bit of the table; none for tables of words.
   std::span<const BitSource> bit_sources(Table table) const {
     return tables_[static_cast<std::size_t>(table)].bits;
   }
 
-  /// Returns slots by address: that of a 32-bit register that begins there and is plainly stored in the
-  /// image, for every firmware; otherwise Place::kNoSlot. It is computed once and may end before the table
-  /// does.
+  /// Returns slots by address: the slot of a 32-bit register that begins there, if every firmware has it and
+  /// its value is simply the one in the image; otherwise Place::kNoSlot. The list is computed once and may be
+  /// shorter than the table.
   std::span<const std::int32_t> stored_pairs(Table table) const {
     return tables_[static_cast<std::size_t>(table)].pairs;
   }

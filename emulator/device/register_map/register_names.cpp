@@ -43,7 +43,7 @@ std::optional<int> number_in(std::string_view text) {
   return number;
 }
 
-/// Returns which of the row's registers has this label between the pattern's ends.
+/// Returns the index of the row's register that has this label between the pattern's ends.
 std::optional<int> index_of_label(const RegisterRow& row, std::string_view label) {
   if (!row.labels.empty()) {
     const auto found = std::find(row.labels.begin(), row.labels.end(), label);
@@ -93,8 +93,8 @@ std::string_view RegisterNames::text_of(const Pattern& pattern) const {
   return pattern.is_alias ? row.alias : row.name;
 }
 
-/// Returns the index in a name whose beginning has the pattern's length and hash, or nothing if the name does
-/// not match the pattern.
+/// Returns the index that a name stands for, or nothing if it does not match the pattern. `begins_with` is
+/// the length of the beginning with the pattern's hash.
 std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t begins_with,
                                            std::string_view name) const {
   const RegisterRow& row = rows_[pattern.row];
@@ -150,7 +150,7 @@ void RegisterNames::for_each(
     for (int index = 0; index < row.count; ++index) {
       for (std::size_t i = first; i < end; ++i) {
         const std::string_view text = text_of(patterns_[i]);
-        // Only the first register has this name.
+        // Without "{}", only the first register has this name.
         if (index > 0 && text.find(kHole) == std::string_view::npos) continue;
         act({.row = number, .index = index, .part = patterns_[i].part},
             name_of(row, index, text) + std::string(half_of(row, patterns_[i].part)));

@@ -24,8 +24,8 @@ class RegisterNames {
   explicit RegisterNames(std::span<const RegisterRow> rows);
 
   struct Named {
-    std::size_t row = 0;  // its number
-    int index = 0;        // of the register in it
+    std::size_t row = 0;  // its index in the rows
+    int index = 0;        // of the register in the row
     RegisterPart part = RegisterPart::whole;
   };
   std::optional<Named> find(Table table, std::string_view name) const;
@@ -33,17 +33,17 @@ class RegisterNames {
   /// Calls `act` for every name, in the order of the rows.
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
   /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
-  /// all names; it is for models of a user's file, and for tests of our own rows.
+  /// all names, so it is only for models of a user's file, and for tests of our own rows.
   void require_distinct() const;
 
   /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
 
  private:
-  /// A pattern is sorted by the beginning of its names: the part before "{}", or the whole.
+  /// Patterns are hashed by the beginning of their names: the part before "{}", or the whole.
   struct Pattern {
     std::uint32_t hash = 0;
-    std::uint32_t next = 0;  // of those in the same bucket, counted from 1; 0: none
+    std::uint32_t next = 0;  // the next pattern in the same bucket, counted from 1; 0: none
     std::uint16_t row = 0;
     bool is_alias = false;
     RegisterPart part = RegisterPart::whole;
@@ -55,8 +55,8 @@ class RegisterNames {
 
   std::span<const RegisterRow> rows_;
   std::vector<Pattern> patterns_;
-  std::vector<std::uint32_t> buckets_;  // a power of two of them
-  std::size_t longest_ = 0;             // beginning
+  std::vector<std::uint32_t> buckets_;  // their number is a power of two
+  std::size_t longest_ = 0;             // length of the longest beginning
 };
 
 }  // namespace understudy::emulator

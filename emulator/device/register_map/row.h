@@ -75,11 +75,11 @@ struct Cell {
   bool high_half = true;  // in a write: the high word is included (always true for 16-bit registers)
 };
 
-/// When the value of a reader may change without a write. A program that waits for a value is evaluated
+/// Says when the value of a reader may change without a write. A program that waits for a value is evaluated
 /// again only in these ticks.
 enum class Varies : std::uint8_t {
   in_ticks,      // in ticks that are run in full, or by outside events
-  while_moving,  // with the pulses of an axis, so also in ticks that Device::fast_forward_to makes up
+  while_moving,  // with the pulses of an axis, so also in ticks that Device::fast_forward_to() skips
   with_time,     // by the clock alone, at the ticks that `changes_at` gives
 };
 
@@ -88,7 +88,8 @@ using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
 /// not depend on time now.
 using NextChange = Tick (*)(const RegisterBank& bank, Cell cell, Tick done);
-/// Does what a write does beyond storing. Effects run in ascending order, after the whole request is stored.
+/// Does whatever a write does beyond storing. Effects run in ascending order, after the whole request is
+/// stored.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Takes the words that one request has written to a window, or refuses them without changing anything.
 using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
@@ -130,7 +131,7 @@ struct Handler<function> {
 
 /// A named group of bits in a register: "STATUS.READY".
 struct BitField {
-  int bit = 0;  // the lowest of them
+  int bit = 0;  // the lowest bit
   std::string_view name;
   int width = 1;
   Reader reader = nullptr;  // their present value, if it is not simply the register's
@@ -168,15 +169,15 @@ struct RegisterRow {
   std::string_view unit;
   Value factory = 0;
   bool persistent = false;
-  bool needs_no_time = false;               // to be kept: a battery or an FRAM holds it, not an EEPROM
+  bool needs_no_time = false;               // a battery or an FRAM keeps it, not an EEPROM
   std::uint32_t stored_bits = 0xFFFF'FFFF;  // the bits of a written value that the register stores
 
-  int count = 1;   // a range of `count` registers, `stride` addresses apart,
-  int stride = 1;  // between numbers in names: first_number, first_number + stride, ...
+  int count = 1;   // a range of `count` registers,
+  int stride = 1;  // `stride` addresses apart; in names, first_number + index * number_step replaces "{}"
   int first_number = 0;
   int number_step = 1;
-  std::span<const std::string_view> labels{};  // or these, one each: the axes' names, for example
-  int first_axis = 0;                          // the axis of the first of them
+  std::span<const std::string_view> labels{};  // in names instead of numbers: the axes, for example
+  int first_axis = 0;                          // the axis of the first label
   std::string_view low_half = "_L";            // the manual's endings for the halves of a 32-bit register
   std::string_view high_half = "_H";
   bool swaps_words = false;  // its words have the other order than the model's
@@ -193,8 +194,8 @@ struct RegisterRow {
   bool is_view = false;  // shows other state: no slot in the image, not persistent; without a reader its
                          // value is `factory`
   std::span<const BitField> fields{};
-  Message message = nullptr;         // a window: takes what one request writes from its first word on,
-  int least_words = 1;               // this many words or more, as one message
+  Message message = nullptr;         // of a window: takes what one request writes from its first word on,
+  int least_words = 1;               // if it is at least this many words
   bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
   std::string_view not_implemented;  // if the register only stores and reads back: what is missing
 
@@ -236,7 +237,7 @@ struct RegisterRow {
     first_number = number_of_first;
     return *this;
   }
-  /// Like numbered(), with another step between numbers: D8100, D8200, ...
+  /// Sets another step between the numbers of times(): D8100, D8200, ...
   constexpr RegisterRow& numbered_by(int step) {
     number_step = step;
     return *this;
@@ -388,7 +389,7 @@ struct MapPolicy {
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
   /// What a request with one value out of range leaves written: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
-  /// Whether registers of one request take effect after all of them are stored, or one by one.
+  /// When the registers of one request take effect: after all of them are stored, or one by one.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
   /// The holding register that sets the order of words, if it can change; 1 is low word first. It is for our

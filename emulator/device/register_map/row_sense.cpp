@@ -24,8 +24,8 @@ struct Require {
   }
 };
 
-/// Returns true if find() can reach the name: "0x10" would be an address, "A.B" a bit, "input.A" a register
-/// of a table.
+/// Returns true if find() can reach the name. It would take "0x10" for an address, "A.B" for a bit, and
+/// "input.A" for a register of a table.
 bool is_name(std::string_view name) {
   return !name.empty() && name.find('.') == std::string_view::npos && (name[0] < '0' || name[0] > '9') &&
          !table_called(name);

@@ -1,4 +1,4 @@
-// The words of a register as they stand on the line: in the model's order, or in one of the register's own.
+// The words of a register as they appear on the line: in the model's order, or in the register's own.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ constexpr bool has_low_first(const RegisterRow& row, bool low_word_first) {
 constexpr std::uint16_t wire_word(const RegisterRow& row, std::uint16_t word) {
   return row.swaps_bytes ? static_cast<std::uint16_t>(word >> 8 | word << 8) : word;
 }
-/// Returns the two words of a 32-bit register, the first on the line first.
+/// Returns the two words of a 32-bit register in the order of the line.
 constexpr std::array<std::uint16_t, 2> wire_words(const RegisterRow& row, std::uint32_t bits,
                                                   bool low_word_first) {
   const std::uint16_t low = wire_word(row, static_cast<std::uint16_t>(bits));

@@ -1,5 +1,5 @@
-// The interface of a device with a text protocol: it receives whole lines, and its replies are taken from it
-// as text. It does not know the bytes on the wire, a descriptor, or when its text is sent.
+// The interface of a device with a text protocol: it receives whole lines, and gives its replies as text. It
+// knows nothing of the bytes on the wire, of descriptors, or of when its text is sent.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace understudy::emulator {
 /// The protocol of text lines.
 inline constexpr Protocol kTextLines{"text"};
 
-/// The rules for receiving at this moment. They are asked for each character.
+/// The rules for receiving at this moment. The caller asks for them at each character.
 struct TextRules {
-  bool echo = false;               // each received character is sent back, and BS and DEL edit
+  bool echo = false;               // each received character is sent back, and BS and DEL edit the line
   std::size_t longest_line = 127;  // in characters; the device is only told that there was a longer line
   bool line_feed_ends = true;      // an LF alone ends a line; false: LFs are ignored
   bool has_flow_control = false;   // XOFF from the host holds replies back, XON releases them
@@ -27,26 +27,26 @@ class TextProtocol {
  public:
   virtual TextRules text_rules() const { return {}; }
 
-  // --- what it hears, while it has power -------------------------------------------------------
+  // --- input, while it has power ---------------------------------------------------------------
   /// Receives a line without its line end. It may be empty, and may contain any byte except CR, LF and flow
   /// control. The reply is taken right afterwards; text that the device produces later is unsolicited.
   virtual void hear_line(std::string_view line) = 0;
   /// Receives a line that was too long.
   virtual void hear_overlong() = 0;
-  /// Receives ESC without a line end. The unfinished line is forgotten.
+  /// Receives ESC without a line end. The unfinished line is discarded.
   virtual void hear_escape() {}
 
   /// Takes a command that bypasses the line, and returns its answer without sending anything. The answer is
   /// busy if the device would not take a line as a command at this moment.
   virtual DeviceAnswer take_command(std::string_view /*line*/) { return Refusal::failure; }
 
-  /// Returns what a line of its own means that refuses something: "ERR 2": "a value or an index is out of
-  /// range"; or an empty text.
+  /// Returns what the device's reply means if it refuses something: "a value or an index is out of range" for
+  /// "ERR 2". Otherwise returns an empty text.
   virtual std::string_view meaning_of(std::string_view /*line*/) const { return {}; }
 
-  // --- what it says ------------------------------------------------------------------------------
+  // --- output ------------------------------------------------------------------------------------
   /// Returns true if there is text to send. Asked after anything that may produce text: a line, a tick, an
-  /// act from outside.
+  /// action from outside.
   virtual bool has_speech() const = 0;
   /// Returns all text to send, line ends included, and clears it. Sending starts when the text is taken, in
   /// the wire's time.

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::imported {
 namespace {
 
 constexpr double kSteepest_pps2 = 1e12;
-constexpr double kFarthest_pulses = 4e15;  // a double still resolves a quarter of a pulse here
+constexpr double kFarthest_pulses = 4e15;  // a double still resolves half a pulse here
 
 using enum Answer;
 

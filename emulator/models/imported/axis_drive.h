@@ -25,7 +25,7 @@ struct AxisState {
   std::int64_t encoder_counts = 0;
   double run_pps = 0;                // speed at which it runs forward or backward
   std::int8_t wanted_direction = 0;  // requested by hosts: +1 forward, -1 backward, 0 neither or both
-  // Another command has come since, so the axis runs again only on a new request.
+  // The request no longer counts: the axis runs again only on a new one.
   bool direction_is_spent = false;
   bool arrived = false;  // the last move has reached its target
   bool homed = false;
@@ -43,7 +43,7 @@ enum class Answer : std::uint8_t {
   halt,  // stops at once
 };
 Activity activity_of(const AxisState& axis);
-/// Returns the answer to a command that acts at one moment, and to the loss of `enable`.
+/// Returns the answer to a one-shot command, or to the loss of `enable`.
 Answer answer_to(Command command, Activity activity, WhileBusy while_busy);
 
 /// Returns the current value of a quantity, in counts.
@@ -69,8 +69,8 @@ class AxisNumbers {
   const CountsOf& counts_of_;
 };
 
-/// Executes a command that acts at one moment. `now` is the last completed tick. Throws motion::BadMotion
-/// for numbers that no motion can have, and then changes nothing.
+/// Executes a one-shot command. `now` is the last completed tick. Throws motion::BadMotion for numbers that
+/// no motion can have; then nothing changes.
 void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
 /// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.
 void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now);

@@ -38,7 +38,7 @@ struct ListedRegister {
   Table table = Table::holding;
   std::uint16_t address = 0;
   std::string name{};
-  std::string printed{};  // the name in the manual, if `name` cannot be that
+  std::string printed{};  // the manual's name, if it cannot serve as `name`
   Type type = Type::u16;
   WordOrder order{};
   Access access = Access::read_write;
@@ -105,7 +105,7 @@ enum class Command : std::uint8_t {
   backward,        // while it holds
 };
 inline constexpr std::size_t kCommands = 8;
-/// Returns true if a command applies as long as it holds, false if it acts at one moment.
+/// Returns true if a command applies as long as it holds, false for a one-shot command.
 constexpr bool is_level(Command command) {
   return command == Command::enable || command == Command::forward || command == Command::backward;
 }
@@ -179,7 +179,7 @@ struct AxisBinding {
   }
 };
 
-// --- what has no axis --------------------------------------------------------------------------------
+// --- what belongs to no axis -------------------------------------------------------------------------
 
 /// A register that follows another value, as a temperature follows its setpoint.
 struct Following {
@@ -224,7 +224,7 @@ struct Line {
   bool obeys_broadcasts = true;
 };
 
-/// Returns Modbus's silence: 3.5 characters, and 1.75 ms above 19200 baud.
+/// Returns the silence of the Modbus standard: 3.5 characters, but 1.75 ms above 19200 baud.
 inline pty::SimTime standard_silence(const pty::LineSettings& settings) {
   if (settings.baud > 19200) return std::chrono::microseconds(1750);
   return settings.duration_of(7) / 2;
@@ -234,7 +234,7 @@ struct Description {
   std::string name{};
   std::string title{};
   std::string text{};                            // the text of the whole controller (Model::description)
-  std::vector<FileError::Diagnostic> remarks{};  // what its files leave open, and how that was read
+  std::vector<FileError::Diagnostic> remarks{};  // what its files leave open, and how it was interpreted
   std::vector<Firmware> firmwares{100};          // ascending; the last is the default
   std::vector<ListedRegister> registers{};
   MapPolicy policy{.low_word_first = false};

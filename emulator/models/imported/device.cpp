@@ -104,7 +104,7 @@ Value ImportedDevice::value_of_view(std::size_t axis_number, View view, Type typ
     case View::position: {
       const std::int64_t counts = position_counts(axis, binding);
       if (type == Type::f32) return value_of_real(static_cast<float>(counts));
-      return value_of(static_cast<std::uint32_t>(counts), type);  // a full counter wraps
+      return value_of(static_cast<std::uint32_t>(counts), type);  // a counter wraps when it is full
     }
     case View::actual_speed: {
       const double counts = imported::speed_pps(axis, now()) / binding.pps_per_count;

@@ -5,14 +5,14 @@
 
 namespace understudy::emulator::models::imported {
 
-/// Returns the share of the distance to its goal that a first-order lag covers in a time: 1 - exp(-time /
-/// time_constant). It uses only + - * /, so the result has the same bits on every machine. The relative error
-/// is below 1e-14. The share is 1 for a time constant of 0.
+/// Returns the share of the distance to its goal that a first-order lag covers in the given time: 1 -
+/// exp(-time / time_constant). It uses only + - * /, so the result has the same bits on every machine. The
+/// relative error is below 1e-14. The share is 1 for a time constant of 0.
 double lag_fraction(double time_s, double time_constant_s);
 
-/// Returns the value at the end of one period. In it the value covers `share` of the distance to `goal`, and
-/// at most `most` if that is above 0. If the rest is below a thousand millionth of the goal (or of 1), the
-/// value takes the goal at once, because it would otherwise never reach it.
+/// Returns the value at the end of one period, in which it covers `share` of the distance to `goal`, but at
+/// most `most` if that is above 0. If the remaining distance is below a thousand millionth of the goal (or of
+/// 1), the value takes the goal at once, because it would otherwise never reach it.
 double approach(double value, double goal, double share, double most);
 
 }  // namespace understudy::emulator::models::imported

@@ -1,4 +1,4 @@
-// Makes a model of a description. It owns the tables that are constants in the other models.
+// Makes a model from a description. It owns the tables that are constants in the other models.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,13 @@ class ImportedModel {
  public:
   /// The description must be consistent (emulator/model_file/ checks this).
   explicit ImportedModel(Description description);
-  ImportedModel(const ImportedModel&) = delete;  // its tables are referred to
+  ImportedModel(const ImportedModel&) = delete;  // others refer to its tables
   ImportedModel& operator=(const ImportedModel&) = delete;
 
   const Model& model() const { return model_; }
   const Description& description() const { return description_; }
-  /// Return for each register of the list its slot in a device's image (Place::kNoSlot: none), its type, and
-  /// what it shows.
+  /// Return, for a register's number in the list, its slot in a device's image (Place::kNoSlot: none), its
+  /// type, and the state that it shows.
   int slot_of(std::size_t number) const { return slots_[number]; }
   Type type_of(std::size_t number) const { return description_.registers[number].type; }
   std::span<const ShownPart> shown(std::size_t number) const { return shown_[number]; }

@@ -1,4 +1,4 @@
-// Finds the registers that show other state than the values written to them.
+// Finds the registers that show something other than their written values.
 #pragma once
 
 #include <cstddef>

@@ -52,7 +52,7 @@ void ImportedDevice::update_environment(std::size_t axis_number) {
 void ImportedDevice::set_edges(int axis, const MachineEdges& edges) {
   const auto number = static_cast<std::size_t>(axis);
   edges_[number] = edges;
-  // A restored state has seen these inputs already, but not the changes since the last tick.
+  // A restored state has already seen these inputs, but not the changes since the last tick.
   if (is_restored_[number] == 0) update_environment(number);
   is_restored_[number] = 0;
 }
@@ -92,7 +92,7 @@ void ImportedDevice::renew_followed(Tick tick) {
     const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
     state_.followed[i] = approach(before, goal_of(following), shares_[i], most);
-    // The value may be a speed.
+    // An axis may use the value as a speed.
     if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;
   }
 }
@@ -120,8 +120,8 @@ bool ImportedDevice::is_quiet(const AxisState& axis) const {
          axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 
-/// Returns the next tick that renews a value which has not reached its goal, or may leave it. It ignores axes
-/// in motion.
+/// Returns the next tick that stores a value in the memory, or renews a following that has not reached its
+/// goal or may leave it. Axes that move need further ticks.
 Tick ImportedDevice::next_tick_of_values(Tick done) const {
   const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();

@@ -22,7 +22,7 @@ namespace {
 using lang::Command;
 using lang::Verb;
 
-/// The lowest axis of a mask: a read names one.
+/// Returns the lowest axis of a mask, because a read names only one.
 Cell cell_of_axes(const Command& command) {
   for (int a = 0; a < static_cast<int>(kAxes); ++a) {
     if (has(static_cast<AxisMask>(command.values[0]), static_cast<std::size_t>(a)))

@@ -52,7 +52,7 @@ constexpr std::string_view kStateRegisters[] = {
     "DRIVING_AXIS",     "LP_X",           "LP_Y",      "LP_Z",        "LP_U", "ERROR_STATE",
     "FREE_BUFFER_SIZE", "MP_Call_number", "RSM_STATE", "I8094H_STATE"};
 
-// The manual's numbers, and what they are about.
+// The manual's section numbers, and their subjects.
 constexpr SectionRow kSections[] = {
     {"3.18.1", "variables bVAR, bytes"},
     {"3.19.1", "machine data MD"},

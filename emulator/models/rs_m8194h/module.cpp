@@ -76,7 +76,8 @@ void Module::update_outputs(Tick tick) {
   state_.eeprom.step(tick, state_.image);
 }
 
-/// Returns true if nothing at all happens, except for FRnet and what waits to be stored.
+/// Returns true if nothing happens at all, except for FRnet, pulses at OUT_X and OUT_Y, and values that wait
+/// to be stored.
 bool Module::rests() const {
   if (status.changes() || state_.touched || !queue.is_empty() || state_.fifo.stop_wait != 0) return false;
   if (state_.steps_left != language_options().steps_a_tick || !state_.marks.empty()) return false;

@@ -1,6 +1,6 @@
-// RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. It is made of parts: each has
-// its own state, and knows those above it in this list. What a part ends, it returns. Macros and the FIFO
-// reach the parts below them only through lang::Machine, which the module is.
+// RS-M8194H: the i-8094H module, which has the FIFO, the chip and the macros. Each of its parts has its own
+// state, and may use the parts above it in this list. Macros and the FIFO reach the parts below them only
+// through lang::Machine, which the module implements.
 //
 //   a command ──> command_queue.h, or at once ──> commands.h: what it does to the parts
 //   a tick: the inputs ──> motion_step.h, with its edges (edges.h) ──> macros ──> the FIFO
@@ -82,14 +82,15 @@ class Module final : public Part, private lang::Machine {
   void load_program(std::string_view text);
   void power_up();
   void power_down();
-  /// RESET_CARD and LOAD_INITIAL.
+  /// Execute RESET_CARD and LOAD_INITIAL.
   void reset_card();
   void load_initial();
   /// Continues from a restored state.
   void take_over(const State& restored);
 
  private:
-  /// Resets everything that is not retentive to its power-up value.
+  /// Resets everything to its power-up value, except for the memory, the encoders' raw counts and the pulse
+  /// counts of OUT_X and OUT_Y.
   void blank();
   void blank_module();
   bool rests() const;

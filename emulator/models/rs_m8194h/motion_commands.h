@@ -155,7 +155,7 @@ Took initial(Module& it, const Command& command) {
   return Took::done;
 }
 
-/// LINE_SCAN (7.4.12): the next scan uses the setting up. The scan uses C+, so the soft limits end.
+/// LINE_SCAN (7.4.12): the next scan uses up the setting. The scan uses C+, so the soft limits end.
 inline Took line_scan(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);

@@ -1,5 +1,5 @@
-// RS-M8194H: its terminals and axes, for the bench: what the module drives, and what the bench's machine
-// reports to it.
+// RS-M8194H: its terminals and axes, for the bench: the outputs that the module drives, and what the bench's
+// machine reports to it.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class Ports final : public Terminals, public Axes {
   Ports(const Device& device, Module& module) : device_(device), module_(module) {}
 
   bool output(int terminal) const override;
-  bool output_moves(int /*terminal*/) const override { return false; }  // pulses have separate ticks
+  bool output_moves(int /*terminal*/) const override { return false; }  // outputs change only in full ticks
   std::uint32_t output_word(int first, int count) const override;
   std::int64_t output_pulses(int terminal) const override;
 

@@ -50,7 +50,7 @@ lang::Fault fault_of(Cause cause) {
   return lang::Fault::none;
 }
 
-/// The items of the RS-M8194H itself; all others need the module.
+/// The registers of the RS-M8194H itself; all others need the module.
 constexpr Addresses kOwn[] = {
     addresses_of(Table::input, "i-8094H Module ID", "InterpolationRdyFlag"),
     addresses_of(Table::input, "RS-M8194H state"),
@@ -79,12 +79,12 @@ bool is_own(Table table, std::size_t address) {
                      [&](const Addresses& own) { return own.has(table, address); });
 }
 
-/// Returns true if a counter or a variable begins there, each of which has two words.
+/// Returns true if a counter or a variable, which has two words, begins there.
 bool begins_in(const Addresses& pairs, Table table, std::size_t address) {
   return pairs.has(table, address) && (address - pairs.first) % 2 == 0;
 }
 
-/// Returns the commands that a good write of the tables becomes.
+/// Returns how many commands a valid write to the tables becomes.
 int commands_of(const RegisterRequest& request) {
   if (!request.is_write() || request.table != Table::holding || request.first >= kWindow) return 0;
   int commands = 0;
@@ -121,7 +121,7 @@ std::optional<lang::Command> line_at(Table table, std::size_t address, std::uint
   return std::nullopt;
 }
 
-/// Returns true if it gives a variable a value beyond the range of positions.
+/// Returns true if the request gives a variable a value beyond the range of positions.
 bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
   if (!request.is_write() || request.table != Table::holding) return false;
   for (std::size_t i = 0; i + 1 < request.count; i += 2) {

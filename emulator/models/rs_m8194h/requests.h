@@ -1,5 +1,5 @@
-// RS-M8194H: requests before and after the module has them: which are admitted, writes to the tables that
-// become lines of a macro or are one message by choice, and what is stored of an exception.
+// RS-M8194H: requests before and after the module handles them. Admits them, turns writes to the tables into
+// lines of a macro or, by choice, into one message, and records exceptions.
 #pragma once
 
 #include <cstddef>

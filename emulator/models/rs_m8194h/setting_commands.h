@@ -40,7 +40,7 @@ inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb ver
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
-/// By choice, soft limits use the comparators' registers: copies them there.
+/// Copies soft limits to the comparators' registers, if by choice they use these.
 inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;
@@ -48,8 +48,8 @@ inline void take_comparators(const Module& it, AxisUnit& unit) {
                   Compare{.value = basic.reverse_soft_limit, .source = basic.soft_limit_source}};
 }
 
-/// Applies a setting of section 3, whose axes are in the first parameter. Its row (memory.h) says what it
-/// changes.
+/// Applies a setting of section 3, whose axes are in the first parameter. Its row
+/// (programs/basic_settings.cpp) says what it changes.
 inline Took set_basic(Module& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {

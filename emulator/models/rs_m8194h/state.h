@@ -1,4 +1,4 @@
-// RS-M8194H: the whole state, as a value: those of the parts.
+// RS-M8194H: the whole state, as a value: the states of its parts.
 #pragma once
 
 #include <array>

@@ -28,7 +28,8 @@ constexpr std::uint32_t kModuleId = 0x44;
 
 std::size_t axis_number(Cell cell) { return static_cast<std::size_t>(cell.axis); }
 Value bit_of_word(std::uint32_t word, int number) { return word >> number & 1U; }
-/// U's signals are printed at 380 (arguments from 16 on), and the pattern of the others gives 280.
+/// Returns false for an address of U's signals that a choice leaves out: 380 as printed (arguments from 16
+/// on), or 280 by the pattern of the other axes.
 bool is_served(const Module& it, Cell cell) {
   if (cell.argument >= 16) return !it.chose(option("raw_signals_of_u", "at_280"));
   return cell.argument < 8 || !it.chose(option("raw_signals_of_u", "at_380"));
@@ -163,7 +164,7 @@ Value interpolation_ready(const Module& it, Cell) {
 Value driving_axes(const Module& it, Cell) { return it.chip.driving(); }
 Value rsm_state(const Module& it, Cell) { return static_cast<Value>(it.programs.state().rsm); }
 Value module_state(const Module& it, Cell) {
-  // The numbering of 4.16.2; states that are passed within a tick do not show.
+  // The numbering of 4.16.2. States that pass within a tick show only by choice.
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;

@@ -1,5 +1,5 @@
-// Many ticks of an axis in one step: its plan and the counting of velocity mode in closed form, and the
-// encoder's last 100 ticks as they would have been noted.
+// Runs many ticks of an axis in one step: computes its plan and the counting of velocity mode in closed form,
+// and records the encoder's last 100 ticks as single ticks would have done.
 #include <algorithm>
 #include <cstdint>
 
@@ -20,8 +20,8 @@ std::int64_t change_of_speed(const AxisState& axis, const DriveSettings& setting
   return left == 0 ? 0 : left < 0 ? -step : step;
 }
 
-/// Returns for how many ticks it does so without a change of the speed's sign. The step that arrives is not
-/// included.
+/// Returns for how many ticks the speed changes by that amount without a change of its sign. The step that
+/// arrives is not included.
 Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick most) {
   const std::int64_t change = change_of_speed(axis, settings);
   if (change == 0) return most;
@@ -33,7 +33,7 @@ Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick most)
   return std::min(most, steps / 2);
 }
 
-/// The phase, with all its pulses, after this many of those.
+/// Returns the phase after this many such ticks, whole pulses included.
 Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick ticks) {
   const Wide steps = Wide{2} * ticks;
   const Wide changes = steps * (settings.pulses_by_speed_before ? steps - 1 : steps + 1) / 2;
@@ -52,7 +52,7 @@ std::int64_t pulses_ahead(const AxisState& axis, const Crossing& crossing, Tick 
   return axis.motor.travel_ahead(tick) - axis.motor.travel_pulses;
 }
 
-/// The room of the machine, as travel.
+/// Returns the machine's room as a range of travel.
 motion::Axis::TravelRange range_of(const AxisState& axis, const Crossing& crossing) {
   const PulseRoom room = crossing.ahead->room(crossing.axis);
   const std::int64_t at = axis.motor.travel_pulses;
@@ -82,7 +82,7 @@ Tick quiet_in_velocity(const AxisState& axis, const Crossing& crossing, Tick mos
   return inside;
 }
 
-/// The encoder's count at the end of `tick`.
+/// Returns the encoder's count at the end of `tick`.
 std::int64_t counts_ahead(const AxisState& axis, const Crossing& crossing, Tick tick) {
   const std::int64_t commanded = pulses_ahead(axis, crossing, tick);
   if (commanded == 0 || !crossing.ahead->has_encoder(crossing.axis)) return axis.encoder_counts;
@@ -100,7 +100,7 @@ void remember_skip(AxisState& axis, const Crossing& crossing, Tick tick) {
     axis.encoder_history[ring_place(each)] = last == first ? last : counts_ahead(axis, crossing, each);
   }
   if (last == first) return;
-  // Counts have one direction: the first tick that has the last one.
+  // Counts change in one direction, so a binary search finds the first tick with the last count.
   Tick before = next;
   Tick since = tick;
   while (since - before > 1) {

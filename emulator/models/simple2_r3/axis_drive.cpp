@@ -22,7 +22,7 @@ __extension__ using Wide = __int128;
 
 int sign_of(std::int64_t value) { return value < 0 ? -1 : value > 0 ? +1 : 0; }
 
-/// Differences of counters that may wrap.
+/// Returns the difference of two counters, which may wrap.
 std::int64_t difference(std::int64_t later, std::int64_t earlier) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
 }
@@ -50,7 +50,7 @@ std::int64_t target_urpm(const AxisState& axis) {
   return limit_forbids(axis, sign_of(axis.target_urpm)) ? 0 : axis.target_urpm;
 }
 
-/// The pulses of one tick of velocity mode: two steps of 0.5 ms.
+/// Runs one tick of velocity mode, which is two steps of 0.5 ms, and returns its pulses.
 std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   const std::int64_t target = final_urpm(axis, settings);
   std::int64_t pulses = 0;
@@ -222,7 +222,7 @@ std::int64_t remaining_pulses(const AxisState& axis) {
 
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now) {
   motion::Axis& motor = axis.motor;
-  // Distances count from where the move began, in its direction.
+  // Distances count from where the move began, in the move's direction.
   motor.change_distance(motor.target_pulses - pulses * motor.drive.direction, false, now);
 }
 
@@ -251,7 +251,7 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
   const auto direction = static_cast<std::int8_t>(how.direction < 0 ? -1 : +1);
   motion::HomingProgram program{.speeds = {how.speed}};
   program.add(
-      {.direction = direction, .marks = true, .next = 2, .if_limit = 1});  // 2 is below the last: found
+      {.direction = direction, .marks = true, .next = 2, .if_limit = 1});  // there is no step 2: found
   program.add({.direction = static_cast<std::int8_t>(-direction), .marks = true});
   return program;
 }
@@ -294,7 +294,7 @@ Tick next_active_tick(const AxisState& axis, Tick done) {
   }
   const bool stands_in_velocity = runs_velocity(axis) && !is_moving(axis);
   if (motor.moving() && motor.task != motion::Task::hanging && !stands_in_velocity) return done + 1;
-  if (axis.mode == Mode::sync) return done + 1;  // takes the encoder's counts, whether it may follow or not
+  if (axis.mode == Mode::sync) return done + 1;  // takes the encoder's counts even if it may not follow
   if (done <= axis.encoder_changed + AxisState::kSpeedWindow) return done + 1;
   return kNever;
 }

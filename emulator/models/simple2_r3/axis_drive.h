@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// Aaxis_Mode, Baxis_Mode.
+/// The values of Aaxis_Mode and Baxis_Mode.
 enum class Mode : std::uint8_t { position = 0, velocity = 1, pwm = 2, sync = 3 };
 
 /// The command whose trigger register reads 1.
@@ -29,17 +29,17 @@ struct alignas(64) AxisState {
   Command command = Command::none;
   bool homed = false;
   bool has_own_speed = false;  // the running move was started with Speed, AccTime and DecTime of the axis
-  bool by_trigger = false;     // ... and by the trigger register itself
+  bool by_trigger = false;     // the trigger register itself started it
   bool cut_short = false;      // the last move or homing was cut short
   bool alarm_latched = false;  // used if a choice makes the alarm outlast its input
   std::uint8_t pwm_percent = 0;
   std::int32_t coordinate_pulses = 0;
-  // As found by the last velocity command, for the choice that uses it.
+  // The value at the last velocity command, for the choice that latches it.
   std::uint32_t velocity_step_urpm = 1;
   std::int64_t pulses_this_tick = 0;  // as they leave the device, after DIR_Polarity
   Tick alarm_clear_until = 0;         // first tick after the end of ACLR
   std::int64_t encoder_raw = 0;       // as the plant reports it
-  std::int64_t encoder_counts = 0;    // since power-up, each counted by the polarity of its time
+  std::int64_t encoder_counts = 0;    // since power-up, each counted with the polarity at that time
   // For ENCx_RPM: when the counts last changed.
   static constexpr Tick kSpeedWindow = 100;
   Tick encoder_changed = -kSpeedWindow;
@@ -47,7 +47,7 @@ struct alignas(64) AxisState {
 
   // The targets of velocity and PWM mode. A target waits while a limit or an alarm forbids it; a target that
   // does not wait is set to 0 (transitions.h).
-  std::int64_t target_urpm = 0;  // 1000 for each mRPM
+  std::int64_t target_urpm = 0;  // 1000 uRPM are 1 mRPM
   std::int64_t speed_urpm = 0;
   std::int64_t velocity_phase = 0;        // phase of the current pulse, in 1 / kVelocityPhase
   std::uint32_t velocity_resolution = 1;  // latched like velocity_step_urpm
@@ -63,7 +63,7 @@ struct alignas(64) AxisState {
 inline constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
 inline constexpr int kSyncPeriod = 5;                       // ticks: 200 Hz (appendix B)
 
-/// A velocity of 1 uRPM at 1 pulse a revolution makes one pulse in this many steps of 0.5 ms.
+/// A velocity of 1 uRPM at 1 pulse per revolution makes one pulse in this many steps of 0.5 ms.
 inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
 
 /// The register values that one axis tick depends on.
@@ -98,7 +98,7 @@ Phase phase_of(const AxisState& axis, Tick now);
 void run_velocity(AxisState& axis, std::int64_t target_mrpm);
 /// Runs at the wanted velocity, if nothing forbids it.
 void resume_velocity(AxisState& axis);
-/// Sends no pulses from now on; continues towards its target as soon as that is allowed.
+/// Sends no pulses from now on. The axis continues towards its target as soon as that is allowed.
 void halt_velocity(AxisState& axis);
 /// Follows an encoder that is at `counts`, from now on.
 void follow_encoder(AxisState& axis, const motion::Follower& by, std::int64_t counts);
@@ -125,7 +125,7 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
 /// Returns 0 for a move that is being stopped, and for homing.
 std::int64_t remaining_pulses(const AxisState& axis);
 
-/// Keeps the running move's target coordinate, which is `pulses` further away from now on.
+/// Keeps the running move's target coordinate, after the coordinate has grown by `pulses`.
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now);
 
 /// The settings by which pulses follow an encoder.
@@ -151,12 +151,12 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& mete
 /// Returns the speed in the commanded direction, at the end of tick `now`.
 double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution);
 
-/// Returns true in velocity mode while the axis moves by its own count.
+/// Returns true in velocity mode if the axis itself generates pulses.
 bool runs_velocity(const AxisState& axis);
-/// Returns the speed that velocity mode will reach: the target, limited by limits and pulse rate.
+/// Returns the speed that velocity mode will reach: the target, restricted by limits and pulse rate.
 std::int64_t final_urpm(const AxisState& axis, const DriveSettings& settings);
 
-/// Returns STATUS bits 4 and 5.
+/// Returns the axis's moving bit of STATUS (4 or 5).
 bool is_moving(const AxisState& axis);
 
 /// Returns the first tick after `done` at which the axis may change without a command.
@@ -174,7 +174,7 @@ struct Crossing {
   const ClearTravel* ahead = nullptr;
 };
 
-/// Returns the last tick, up to `most`, through which the axis only counts on, or crossing.done if the next
+/// Returns the last tick, up to `most`, through which the axis merely continues, or crossing.done if the next
 /// tick is not quiet.
 Tick quiet_until(const AxisState& axis, const Crossing& crossing, Tick most);
 /// Brings the axis to `tick`. Returns the pulses, in the commanded direction.

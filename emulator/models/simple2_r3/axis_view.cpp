@@ -50,7 +50,7 @@ Event AxisView::event_by_direction(int direction, Event towards, Event away) con
 
 motion::SpeedLaw AxisView::law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                                   std::uint32_t deceleration_10ms) const {
-  // Times of 0 count as 1 (appendix A): 10 ms, unless it is 1 of something smaller.
+  // Times of 0 count as 1 (appendix A), which is 10 ms unless a choice makes it shorter.
   const double least_s = chose(option("least_ramp", "1ms"))     ? 0.001
                          : chose(option("least_ramp", "500us")) ? 0.0005
                                                                 : 0.01;

@@ -1,4 +1,4 @@
-// One axis as its registers, signals and choices make it. Nothing is changed here.
+// A read-only view of one axis, with what its registers, signals and choices make of it.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ class AxisView {
   const AxisSlots& slots() const { return kAxisSlots[index()]; }
   bool alarm() const { return signals().alarm(number_); }
 
-  /// Returns the pulses per revolution, never 0, by which the caller divides. A host may write half of a
-  /// 32-bit register alone, so the register can hold anything.
+  /// Returns the pulses per revolution; never 0, because callers divide by it. The register can hold
+  /// anything, because a host may write half of it alone.
   std::uint32_t resolution() const;
   std::uint32_t velocity_step_urpm() const;
   /// Returns true if DIR_Polarity reverses the pulses.
@@ -50,9 +50,9 @@ class AxisView {
   bool chose(const Option& option) const { return setup_.chose(option); }
   Tick now() const { return setup_.now(); }
 
-  /// Returns true if SVOFF forbids anything.
+  /// Returns true if SVOFF has any effect.
   bool servo_matters() const;
-  /// Returns true if the servo is off, and that matters.
+  /// Returns true if the servo is off, and that has an effect.
   bool lacks_servo() const { return !state().motor.servo_on && servo_matters(); }
   /// Returns true if commands need Ready, and it is missing.
   bool lacks_ready() const;

@@ -74,7 +74,7 @@ void AxisCommands::start_move(Command command, const MoveParameters& move) {
                                     ? axis.motor.move_on(speed_pps, distance_pulses, law, now())
                                     : axis.motor.move(distance_pulses, law, setup().tick_before_motion());
   if (refused != motion::Cause::none) return;
-  // Its rest may be asked for.
+  // remaining_pulses() needs the whole distance.
   if (move.speed_rpm == 0) axis.motor.target_pulses = distance_pulses * direction;
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
@@ -226,7 +226,7 @@ void AxisCommands::switch_servo(bool on) {
 void AxisCommands::clear_alarm() {
   AxisState& axis = this->axis();
   if (signals().alarm_clear(number()) && chose(option("aclr_again", "ignored"))) return;
-  axis.alarm_latched = false;  // an input that is on says so again
+  axis.alarm_latched = false;  // an input that is still on sets it again
   axis.alarm_clear_until = now() + 1 + kAlarmClearTicks;
 }
 

@@ -1,6 +1,5 @@
 // Commands to an axis: moves, homing, modes, servo and STOP. Registers and program lines use them alike.
-// commands.cpp and transitions.h define for which reasons a command is dropped, and what it does to the
-// previous one.
+// commands.cpp and transitions.h define why a command is dropped, and what it does to the previous one.
 #pragma once
 
 #include <cstdint>
@@ -34,19 +33,19 @@ class AxisCommands : public AxisReactions {
   void speed_changed();
   void preset_coordinate(std::int32_t pulses);
   void set_encoder(std::int64_t counts) { count_encoder(axis(), counts, encoder_reversed()); }
-  /// Show a command in DirectmRPM and DirectPWM that was not a write to them.
+  /// Show in DirectmRPM or DirectPWM a command that did not come by a write to it.
   void show_velocity(std::int32_t milli_rpm);
   void show_pwm(std::uint8_t percent);
 
  private:
-  /// Returns true if a command begins; if not, does what happens instead.
+  /// Returns true if a command begins; otherwise does what its outcome requires.
   bool may_begin(Outcome outcome, const KeptCommand& what);
   void carry_out_kept();
-  /// A motion has begun.
+  /// Called when a motion has begun.
   void leave_home() {
     if (chose(option("home_bit", "any_motion"))) axis().homed = false;
   }
-  /// Returns true if a command with that outcome leaves its register unchanged.
+  /// Returns true if the register does not keep the value of a command with that outcome.
   bool is_forgotten(Outcome outcome) const {
     return outcome != Outcome::kept && chose(option("dropped_value", "forgotten"));
   }

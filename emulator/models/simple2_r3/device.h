@@ -91,7 +91,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // switched by commands, in separate ticks
+  }  // outputs switch by commands, in ticks that are run in full
   std::int64_t pulses_this_tick(int number) const override { return axis(number).state().pulses_this_tick; }
   double speed_pps(int number) const override { return axis(number).speed_pps(); }
   std::int64_t pulses_to_come(int number) const override { return axis(number).pulses_to_come(); }
@@ -115,7 +115,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void watch_program(ProgramWatch* watch) override { program_watch_ = watch; }
 
   std::span<const int> line_bauds() const { return Device::model().line.ports.front().bauds; }
-  /// Returns the next active tick, without regard to the axes.
+  /// Returns the next active tick, ignoring the axes.
   Tick next_tick_without_axes(Tick done) const;
 
   Setup setup_;

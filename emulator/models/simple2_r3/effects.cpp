@@ -48,12 +48,12 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
 
 bool is_unlocked(const Simple2R3& device) { return simple2_r3::is_unlocked(device.state(), device.setup()); }
 
-/// The program, while it is locked.
+/// Returns true if the program is locked, and writes to it are ignored.
 bool is_write_protected(const Simple2R3& device) {
   return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
-/// Shows a set in the axis's registers, by choice only.
+/// Copies a set to the axis's registers, by choice only.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;
@@ -80,7 +80,7 @@ MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
           .deceleration_10ms = image[slot("Parms_DecTime{}") + i]};
 }
 
-/// A target into a distance: 64 bits, because it may be twice as far as a coordinate reaches.
+/// Converts a target to a distance. It has 64 bits, because it may be twice as far as a coordinate reaches.
 MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move) {
   move.distance_pulses -= device.state().axes[static_cast<std::size_t>(axis)].coordinate_pulses;
   return move;
@@ -185,7 +185,7 @@ Value read_analog(const Simple2R3& device, Cell cell) {
   if (device.chose(option("analog_scaling", "line_through_zero"))) {
     return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
   }
-  // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
+  // The two points of the calibration define a line: 200 at 1 V, 2000 at 10 V.
   const Value at_1v = image[slot("ADC_1V_A") + i];
   const Value span = at_10v - at_1v;
   if (span == 0) return 0;
@@ -274,7 +274,8 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
-  // The note that it takes effect is next to the high word, so a lone low word only waits for it.
+  // The manual puts the note that it takes effect next to the high word, so a lone low word only waits for
+  // it.
   if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
   device.axis(cell.argument).run_velocity(milli_rpm);
 }

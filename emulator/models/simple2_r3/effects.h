@@ -34,9 +34,9 @@ Value read_timer(const Simple2R3& device, Cell cell);  // argument: 0 or 1
 Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done);
 Tick every_tick(const Simple2R3& device, Cell cell, Tick done);
 Value read_adc(const Simple2R3& device, Cell cell);     // argument: 0 or 1
-Value read_analog(const Simple2R3& device, Cell cell);  // argument: 0 or 1; 200 a volt
+Value read_analog(const Simple2R3& device, Cell cell);  // argument: 0 or 1; 200 per volt
 Value read_eeprom_busy(const Simple2R3& device, Cell);
-Value read_cell(const Simple2R3& device, Cell cell);  // as write_cell
+Value read_cell(const Simple2R3& device, Cell cell);  // argument and index as for write_cell
 Value read_unlocked(const Simple2R3& device, Cell);
 Value read_password(const Simple2R3& device, Cell);
 Value read_zero(const Simple2R3& device, Cell);  // for triggers that end at once

@@ -26,7 +26,7 @@ namespace lang = interpreter::simple2;
 
 constexpr std::array<std::string_view, 2> kOperandCells{"data1", "data2"};
 
-/// The rows, and what they refer to.
+/// The instruction rows, and the operands to which they refer.
 struct Instructions {
   std::array<std::array<OperandRow, kOperandCells.size()>, lang::kInstructions.size()> operands;
   std::array<InstructionRow, lang::kInstructions.size()> rows;

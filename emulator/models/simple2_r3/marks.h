@@ -3,7 +3,7 @@
 // this table alone; marks_test.cpp checks it in every cell. (stop_drive() clears for `leaves`, `ends` and
 // `begins` alike.)
 //
-// A position move or a homing that ends on its own takes its command along (step_drive()). Marks that are
+// A position move or a homing that ends on its own also clears its command (step_drive()). Marks that are
 // only read during a running command (has_own_speed, by_trigger), and how the last one ended (cut_short,
 // homed), are set again by the next one.
 #pragma once

@@ -1,4 +1,4 @@
-// The memory that a Simple2-R3 keeps without power, and the password that locks it.
+// The memory that a Simple2-R3 keeps without power, and the password that locks its program.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ class Memory {
  public:
   Memory(State& state, const Setup& setup) : state_(state), setup_(setup) {}
 
-  /// Saves a register that a host or a program has written. `was_saving`: whether the EEPROM was being
-  /// written when the request came; set by the first register of a request.
+  /// Saves a register that a host or a program has written. `was_saving` says whether the EEPROM was being
+  /// written when the request came; the first register of a request sets it.
   void save(const RegisterRow& row, std::size_t slot, std::optional<bool>& was_saving);
   /// Takes NEW_PWD as the password.
   void take_password();

@@ -21,10 +21,10 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Erase_ALL, Factory_Reset.
+/// Returns the duration of Erase_ALL and Factory_Reset.
 Tick rewrite_ticks(const Setup& setup) { return setup.chose(option("eeprom_erasure", "100ms")) ? 100 : 500; }
 
-/// Resets the state, except for the memory and the encoders' counts.
+/// Resets the state, except for the memory and the encoders' raw counts.
 void blank(State& state) {
   State blank;
   blank.eeprom = std::move(state.eeprom);

@@ -1,4 +1,4 @@
-// What happens to all of a Simple2-R3 at once: power-up, power-down, factory reset, erasure.
+// Changes a Simple2-R3 as a whole: power-up, power-down, factory reset, erasure.
 #pragma once
 
 #include "emulator/device/register_map/register_bank.h"

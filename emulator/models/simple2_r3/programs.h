@@ -1,4 +1,4 @@
-// The program of a Simple2-R3: its cells, and its run.
+// The program of a Simple2-R3: its cells and its execution.
 #pragma once
 
 #include <cstddef>

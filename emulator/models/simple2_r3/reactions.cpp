@@ -14,7 +14,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-/// Returns the event of a signal that has come on or gone, for the axis.
+/// Returns the event for the axis when a signal comes on or goes off.
 Event event_of(const AxisState& axis, motion::Signal signal, bool on) {
   if (signal == motion::Signal::alarm) return on ? Event::alarm : Event::alarm_gone;
   if (!on) return Event::limit_gone;
@@ -114,7 +114,7 @@ void AxisReactions::apply_signals(motion::Signals on) {
   axis.signals.steady = on;
   ++axis.signals.version;
   if (axis.mode == Mode::position) return;
-  // The signals act one after another: each one finds the axis as the previous one has left it.
+  // The signals act one after another; each finds the axis as the previous one has left it.
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
     if ((changed & motion::bit(signal)) == 0 || setup().ignores(signal)) continue;

@@ -18,7 +18,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// What stops an axis. An instruction and SVOFF stop it forcibly.
+/// The ways to stop an axis. An instruction and SVOFF stop it forcibly.
 enum class Stopping : std::uint8_t { forcibly, by_register };
 
 class AxisReactions : public AxisView {
@@ -26,7 +26,7 @@ class AxisReactions : public AxisView {
   AxisReactions(State& state, const Setup& setup, int number)
       : AxisView(state, setup, number), state_(state) {}
 
-  /// Sets what power-up gives the motor.
+  /// Sets the motor's settings and servo state at power-up.
   void power_up();
   void stop(Stopping how = Stopping::forcibly);
   void servo_off();

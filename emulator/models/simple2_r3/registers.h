@@ -178,7 +178,7 @@ inline constexpr auto kProgramRows = section("程式控制", {
     reg(0x8100, "PROG_VAR{}", s32, RW).times(32, 2, 0).halves("_RegL", "_RegH"),
 });
 
-// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A like 0xF029.
+// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It gives 0xF02A the same entry as 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", {
     reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept(),
     reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept(),

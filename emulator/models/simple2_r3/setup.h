@@ -1,6 +1,6 @@
-// What a Simple2-R3 is made from, besides its state: its device, which has time, inputs and choices, and
-// everything that follows from firmware and choices, computed once. All parts of the controller are functions
-// on a State and a Setup:
+// What a Simple2-R3 needs besides its state: its device, which has time, inputs and choices, and everything
+// that follows from firmware and choices, computed once. All parts of the controller are functions on a State
+// and a Setup:
 //
 //   setup.h, state.h    choices, terminals, time; the state
 //   signals.h           inputs, outputs and the functions that registers give them; STATUS
@@ -13,7 +13,7 @@
 //   power.h             power-up, power-down, factory reset, erasure
 //   effects.h           what registers read and do
 //
-// Each may know those above it. device.h joins them to a device.
+// Each may use the ones above it. device.h combines them into a device.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ namespace understudy::emulator::models::simple2_r3 {
 struct alignas(64) Setup {
   explicit Setup(const Device& of);
 
-  // What ticks use, on one cache line.
+  // The members that ticks use, on one cache line.
   const Device& device;
   const interpreter::simple2::Dialect dialect;
   const bool assigned_at_power_up;
@@ -61,13 +61,13 @@ struct alignas(64) Setup {
   Tick timer_time() const { return now() / timer_unit; }
   /// Returns the tick that counts as the last one before a motion commanded now.
   Tick tick_before_motion() const { return chose(option("move_begins", "one_tick_in")) ? now() - 1 : now(); }
-  /// Returns true if neither a limit nor an alarm stops an axis, whichever `signal` is.
+  /// Returns true if, by choice, this signal (a limit or the alarm) does not stop an axis.
   bool ignores(motion::Signal signal) const {
     return chose(signal == motion::Signal::alarm ? option("alarm_reaction", "none")
                                                  : option("limit_reaction", "none"));
   }
   bool keeps(const RegisterRow& row) const {
-    // No star is printed at NEW_PWD.
+    // The manual prints no star (persistent) at NEW_PWD.
     return row.persistent || (chose(option("password_kept", "yes")) && row.name == "NEW_PWD");
   }
 

@@ -25,7 +25,7 @@ class Signals {
   }
   /// Returns a DIP switch; DIP1 is number 0.
   bool dip_switch(int number) const;
-  /// Returns true if the levels are not those that were sampled.
+  /// Returns true if the levels have changed since they were sampled.
   bool have_changed() const;
 
   /// Returns true if the register at `assignment_slot` (0x0A00 to 0x0A0D) gives its pin a function.

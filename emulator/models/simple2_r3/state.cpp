@@ -25,7 +25,7 @@ void require_encoder_count(std::int64_t counts) {
   require_within(counts, -kEnd, kEnd - 1);
 }
 
-/// Velocity mode multiplies the two.
+/// Limits the speed, because velocity mode multiplies it by the resolution.
 void require_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
   const std::int64_t most = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
   require_within(axis.speed_urpm, -most, most);
@@ -49,7 +49,7 @@ namespace understudy {
 using namespace emulator::models::simple2_r3;
 
 void StateOf<KeptCommand>::check(const KeptCommand& kept) {
-  // A distance is the difference of two coordinates; the rest is as registers bring it.
+  // A distance is the difference of two coordinates; the other values come from registers.
   require_within(kept.move.distance_pulses, -(std::int64_t{1} << 33), std::int64_t{1} << 33);
   for (const std::uint32_t word :
        {kept.move.speed_rpm, kept.move.acceleration_10ms, kept.move.deceleration_10ms}) {

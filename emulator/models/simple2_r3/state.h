@@ -72,7 +72,7 @@ struct KeptCommand {
 /// The members that a tick needs come first and, up to the beginning of `eeprom`, on one cache line (a test
 /// checks this).
 struct alignas(64) State {
-  bool touched = true;               // registers or inputs may have changed since motion looked at them
+  bool touched = true;               // registers or inputs may have changed since motion last read them
   bool unlocked = true;              // PROG_UNLOCK
   std::uint8_t switches = 0;         // bit n: DIP n + 1, as at power-up
   std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
@@ -80,7 +80,7 @@ struct alignas(64) State {
   std::uint16_t assignments = 0;     // bit n: the register 0x0A00 + n, as at power-up
   std::array<std::uint16_t, kAnalogCount> adc{};  // as sampled in this tick
   std::uint16_t password = 0;                     // NEW_PWD, independent of the image while it is locked
-  Tick first_tick = 1;                            // after power-up: AutoStart_MainProg is checked there
+  Tick first_tick = 1;  // the first after power-up, in which AutoStart_MainProg is checked
   interpreter::simple2::Execution execution;
   Eeprom eeprom;
   std::array<AxisState, 2> axes;

@@ -78,7 +78,7 @@ struct OtherOutcome {
   constexpr OtherOutcome(Option option, Outcome what) : chosen(option), outcome(what), is_there(true) {}
 };
 
-/// A set of Doings, Phases or Events.
+/// A set of Activities, Phases or Events.
 using Set = std::uint32_t;
 template <class... T>
 constexpr Set set_of(T... members) {

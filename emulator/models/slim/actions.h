@@ -32,7 +32,7 @@ using Action = Error (*)(Order& order);
 /// Returns Error::not_allowed.
 Error is_refused(Order& order);
 
-/// Which motion a move waits for in its buffer.
+/// The motion that a move waits for in its buffer.
 enum class Moves : std::uint8_t { nothing, its_module, its_letter, x_and_y, x_y_and_z, a_letter_each };
 
 struct VerbActions {
@@ -45,10 +45,10 @@ struct VerbActions {
 const VerbActions& actions_of(lang::Verb verb);
 
 Order order_of(State& state, const Setup& setup, const lang::Machine& machine, const lang::Command& command);
-/// Executes a typed command, or one of a program.
+/// Executes a typed command, or a program's.
 Error perform(Order& order, Action action);
-/// Executes a line of a program. The program waits where a host is refused: for room in a buffer, and (unless
-/// chosen otherwise) for the end of a pause.
+/// Executes a line of a program. Where a host would be refused, the program waits: for room in a buffer, and
+/// (unless chosen otherwise) for the end of a pause.
 lang::Outcome perform_stored(Order& order);
 
 /// Returns true for a move of a module that is busy. A command that is refused for another reason does not

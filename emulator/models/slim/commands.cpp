@@ -66,7 +66,7 @@ constexpr ActionRow of_editor(Verb verb, Action typed) {
 constexpr std::array kCommandVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Queries are replaced by any other command, because a key may occur twice.
+  // Queries are replaced by a command, because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) verbs[count++] = row.is_query() ? Verb::home : row.verb;
   return verbs;
 }();
@@ -90,7 +90,7 @@ lang::Outcome::Program program_after_stop(const Setup& setup, From from) {
   return Program::goes_on;
 }
 
-/// DN, TpDN and XDN.
+/// Evaluates DN, TpDN and XDN.
 bool is_done(const Chain& chain, const lang::Command& command) {
   if (command.verb == Verb::axis_wait_done) return chain.done(chain.assigned(letter_of(command)));
   if (command.module >= 0) return chain.done(command.module);
@@ -104,7 +104,6 @@ bool is_done(const Chain& chain, const lang::Command& command) {
 
 Error is_refused(Order&) { return Error::not_allowed; }
 
-/// The rows.
 struct Actions {
   static double amount(const Order& order, std::size_t operand) {
     return order.machine.value(order.command.operands[operand]);
@@ -264,7 +263,7 @@ struct Actions {
     const bool is_integer = holds_integer(what.kind) || what.kind == lang::Operand::Kind::integer;
     return is_integer ? text_of_integer(value) : text_of_real(value, order.setup.real_form());
   }
-  /// A program is much faster than its line: it prints when there is room again.
+  /// A program is much faster than its line, so it waits until there is room.
   static Error print_from_program(Order& order) {
     order.outcome.waits = !has_room_to_speak(order.state, order.setup);
     if (!order.outcome.waits) say(order.state, order.setup, printed(order));

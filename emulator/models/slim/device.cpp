@@ -90,7 +90,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
 
 // --- memory and program ----------------------------------------------------------------------------
 
-/// Values that were set when the device was made are saved.
+/// Saves all values, because some may have been set when the device was made.
 void Slim::settle_memory() {
   state_.kept = state_.ram;
   keep_program(state_);
@@ -159,7 +159,7 @@ void Slim::update_outputs(Tick) { remember_late_errors(state_, setup_); }
 Tick Slim::next_active_tick(Tick done) const {
   if (state_.touched || sees_something_new(state_, setup_)) return done + 1;
   if (program_is_held(state_, setup_)) return state_.chain.next_active_tick(done);
-  // A program that waits for the chain asks in every tick.
+  // A program that waits for the chain checks it in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),
                   next_active_ms(state_.execution, done, state_.program, setup_.flow, *this));
@@ -191,6 +191,6 @@ bool Slim::output(int terminal) const {
   return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
 }
 
-void Slim::set_encoder(int, std::int64_t) {}  // its loop is closed inside; see the model's gaps
+void Slim::set_encoder(int, std::int64_t) {}  // the servo closes its loop itself; see the model's gaps
 
 }  // namespace understudy::emulator::models::slim

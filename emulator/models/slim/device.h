@@ -90,7 +90,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   bool output(int terminal) const override;
   bool output_moves(int /*terminal*/) const override {
     return false;
-  }  // outputs that change by position or time have separate ticks
+  }  // outputs that change by position or time do so in ticks that are run in full
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.module_at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
   std::optional<bool> servo_on(int axis) const override {
@@ -114,7 +114,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
-  /// Something comes from outside, after ticks that may have been skipped.
+  /// Called when something comes from outside, possibly after skipped ticks.
   void wake();
 
   const Setup setup_;

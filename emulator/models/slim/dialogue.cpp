@@ -47,7 +47,7 @@ bool takes_for_number(const State& state, const Setup& setup, std::string_view l
   return wants_number(state.execution) && !is_heard_instead_of_number(setup, line);
 }
 
-/// A typed command. `lines` is what it has to say.
+/// Executes a typed command. `lines` receives its reply.
 Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang::Command& command,
            std::vector<std::string>& lines) {
   if (const Error error = resolve_indices(command, machine); error != Error::none) return error;
@@ -71,7 +71,7 @@ Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang:
   return error;
 }
 
-/// Executes a command, sends its result, and returns it.
+/// Executes a command, sends its result, and returns its error.
 Error hear_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {

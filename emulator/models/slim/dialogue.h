@@ -1,4 +1,4 @@
-// The dialogue: what happens to a line, and the reply.
+// The dialogue: handles a line, and makes the reply.
 #pragma once
 
 #include <string_view>

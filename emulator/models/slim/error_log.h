@@ -18,11 +18,12 @@ int remember_error(State& state, const Setup& setup, int module, Error error);
 /// Notes the errors of queued commands that were dropped when their turn came.
 void remember_late_errors(State& state, const Setup& setup);
 
-/// ?ERC: "4,1", or "0".
+/// Returns the answer to ?ERC: "4,1", or "0".
 std::string history_text(const Setup& setup, const Errors& errors);
 
-/// The history in a memory image: the errors of each module, the last one first, ERC(0), ERC(1) ..., T1ERC(0)
-/// ... Reading removes them from the image; it throws NvError for numbers that are not errors.
+/// Write and read the history in a memory image: the errors of each module, the last one first, ERC(0),
+/// ERC(1) ..., T1ERC(0) ... Reading removes them from the image; it throws NvError for numbers that are not
+/// errors.
 void write_history(const std::array<Errors, kModules>& errors, NvImage& image);
 std::array<Errors, kModules> read_history(const Setup& setup, NvImage& image);
 

@@ -1,4 +1,4 @@
-// What the numbers of error replies mean, in words.
+// The meanings of the numbers in error replies.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// By the number of an error (rules/errors.h).
+/// Indexed by error number (rules/errors.h).
 inline constexpr std::array<std::string_view, 14> kErrorWords{
     "",
     "this is not a command here: check its spelling and its operands",

@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns what writes the memory of this moment, at any time later.
+/// Returns a function that writes the memory as it is now, and may be called at any later time.
 std::function<void(NvImage&)> image_writer(const State& state, const Setup& setup);
 /// Throws NvError for an image that does not fit; then nothing has changed.
 void read_image(State& state, const Setup& setup, const NvImage& given);

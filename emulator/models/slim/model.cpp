@@ -49,7 +49,7 @@ constexpr ProofRow kProofs[] = {
     {"numbers", "?ERR|?ERC|R#|?PE|N#|N#, R#|NS, RS|TM"},
 };
 
-/// Names live as long as the program.
+/// Owns the names in the tables, for as long as the process runs.
 struct Names {
   std::vector<std::string> texts;
   std::vector<TerminalRow> terminals;
@@ -83,7 +83,7 @@ Names make_names() {
   return names;
 }
 
-/// Where a command can be given, as bits of Place, in words.
+/// Texts for the places where a command can be given, indexed by the bits of Place.
 constexpr std::array<std::string_view, 8> kWhere{
     "nowhere", "program",          "typed",          "program, typed",
     "running", "program, running", "typed, running", "program, typed, running"};

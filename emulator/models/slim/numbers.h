@@ -14,7 +14,7 @@ enum class RealForm : std::uint8_t {
 std::string text_of_integer(double value);
 /// Writes as few digits as distinguish a 32-bit real from its neighbours.
 std::string text_of_real(double value, RealForm form = RealForm::plain);
-/// Writes every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
+/// Distinguishes every pulse: whole numbers exactly, others with up to nine decimals and about 15 digits.
 std::string text_of_coordinate(double units);
 
 }  // namespace understudy::emulator::models::slim

@@ -27,7 +27,7 @@ std::optional<double> fitted(const ParameterDefinition& row, double value) {
 
 namespace {
 
-/// PN37: four nibbles, 0 to 5 or 8.
+/// Returns true for a value of PN37: four nibbles, each 0 to 5 or 8.
 bool is_axis_map(int map, bool may_repeat) {
   unsigned seen = 0;
   for (int shift = 0; shift < 16; shift += 4) {

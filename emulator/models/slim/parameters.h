@@ -80,11 +80,11 @@ consteval std::size_t parameter(std::string_view name) {
   throw "no such parameter";
 }
 
-/// Which of PN10 and PN14 is VM. The manual says only that both are speeds. Rows are ordered by meaning: with
-/// `pn14_is_vm` the first row is called PN14.
+/// Says which of PN10 and PN14 is VM. The manual says only that both are speeds. Rows are ordered by meaning:
+/// with `pn14_is_vm` the first row is called PN14.
 enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
 
-/// Converts a place in a list into the row whose name is there, and a row into its place.
+/// Converts a position in a list into the row whose name is there, and a row into its position.
 constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
   static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
   return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
@@ -108,8 +108,8 @@ constexpr Parameters factory_parameters() {
   return all;
 }
 
-/// Returns the value as the parameter stores it: a real is rounded to what 32 bits hold. Returns nothing if
-/// it is out of range.
+/// Returns the value as the parameter stores it: a real is rounded to 32 bits. Returns nothing if it is out
+/// of range.
 std::optional<double> fitted(const ParameterDefinition& row, double value);
 
 /// The limit of TM, which is set like a parameter.

@@ -23,7 +23,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// The user unit, by parameter numbers: this many pulses are this many user units.
+/// The numbers of the parameters that define the user unit: `pulses` pulses are `units` user units.
 struct UserUnit {
   std::size_t pulses = parameter("PN45");
   std::size_t units = parameter("PN46");
@@ -51,7 +51,7 @@ Error set_scale(State& state, const Setup& setup, int module, std::size_t number
   return state.chain.settings().set_scale(module, of(unit.pulses), of(unit.units));
 }
 
-/// Does what a parameter means to the chain, before it is stored.
+/// Applies a parameter to the chain, before it is stored.
 Error apply_parameter(State& state, const Setup& setup, int module, std::size_t number, double value) {
   ChainSettings chain = state.chain.settings();
   switch (number) {

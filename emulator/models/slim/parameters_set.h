@@ -1,4 +1,4 @@
-// Parameters and axis letters while the controller runs, and what is kept of its numbers and program.
+// Sets parameters and axis letters while the controller runs, and saves its numbers and program.
 #pragma once
 
 #include <string>
@@ -18,17 +18,17 @@ Error linked(const State& state, int module);
 Error set_parameter(State& state, const Setup& setup, int module, std::string_view name, double value);
 /// Applies all parameters to a chain that has just been made.
 void apply_all_parameters(State& state, const Setup& setup);
-/// DF. It is refused while anything is in progress whose units it would change.
+/// Executes DF. It is refused while anything is in progress whose units it would change.
 Error restore_factory_parameters(State& state, const Setup& setup);
-/// ULC.
+/// Returns the answer to ULC.
 std::vector<std::string> parameter_list(const State& state, const Setup& setup);
 
-/// TX= ..., and the map of PN37 at power-up.
+/// Executes TX= ..., and applies the map of PN37 at power-up.
 Error assign_axis(State& state, const Setup& setup, Letter letter, int module);
 /// Sets PN37 to the map that is in effect.
 void keep_axis_map(State& state);
 
-// SAVE P, SAVE D, SAVE C
+// Execute SAVE P, SAVE D and SAVE C.
 void keep_parameters(State& state);
 void keep_data(State& state);
 void keep_program(State& state);

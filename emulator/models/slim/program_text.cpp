@@ -55,7 +55,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
         : error == Error::address     ? "begins with a label that another line has"
                                       : lang::why_not_command(std::string_view(line).substr(first));
     read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
-    if (error == Error::buffer_full) break;  // for all that follow as well
+    if (error == Error::buffer_full) break;  // the following lines would not fit either
     if (read.mistakes.size() >= kMaxMistakes) break;
   }
   return read;

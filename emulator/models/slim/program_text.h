@@ -1,4 +1,4 @@
-// The program of a SLIM: its text, and where it is.
+// The program of a SLIM: its text and its position.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// A program as read: its good lines, and the mistakes.
+/// A program after reading: its valid lines, and the mistakes.
 struct ReadProgram {
   lang::Program program{};
   std::vector<int> text_lines{};  // where its lines are, from 1
@@ -24,7 +24,7 @@ ReadProgram read_program(const Setup& setup, std::string_view text);
 
 /// Returns the program as its observers count it.
 ProgramPart part_of(const ReadProgram& read);
-/// Returns a number that another program does not have.
+/// Returns a hash that identifies the program.
 std::uint64_t mark_of(const lang::Program& program);
 
 /// Returns true if PZ holds the program.

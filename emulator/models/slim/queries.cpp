@@ -38,7 +38,7 @@ using lang::Verb;
 
 namespace {
 
-// ?ST.
+// The bits of ?ST.
 constexpr unsigned kServoOn = 1U << 0;
 constexpr unsigned kMoving = 1U << 1;
 constexpr unsigned kProgramRuns = 1U << 2;
@@ -50,7 +50,7 @@ constexpr unsigned kJogs = 1U << 7;
 constexpr unsigned kBufferNotEmpty = 1U << 8;
 constexpr unsigned kInBlend = 1U << 9;
 
-/// "1:02:03".
+/// Returns "1:02:03".
 std::string time_text(std::int64_t seconds) {
   char text[40];
   std::snprintf(text, sizeof text, "%lld:%02d:%02d", static_cast<long long>(seconds / 3600),
@@ -98,7 +98,7 @@ unsigned status_bits(const State& state, int module) {
 constexpr std::array kQueryVerbs = [] {
   std::array<Verb, lang::kCommands.size()> verbs{};
   std::size_t count = 0;
-  // Other commands are replaced by any query, because a key may occur twice.
+  // Other commands are replaced by a query, because a key may occur twice.
   for (const lang::CommandRow& row : lang::kCommands) {
     verbs[count++] = row.is_query() ? row.verb : Verb::query_parameter;
   }
@@ -107,7 +107,6 @@ constexpr std::array kQueryVerbs = [] {
 
 }  // namespace
 
-/// The answers of the queries.
 struct Queries {
   struct Question {
     const State& state;
@@ -139,7 +138,7 @@ struct Queries {
       answer.number = value;
       return words(std::move(text));
     }
-    /// Not modelled; kGaps says so.
+    /// Answers a query of an electrical value, which is not modelled (kGaps).
     Error electrical(double value) const {
       setup.device.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
       return whole(value);

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// The chosen option of each row, from the device.
+/// Returns the chosen option of each row, from the device.
 ChainOptions options_of(const Device& device) {
   ChainOptions options;
   for (std::size_t row = 0; row < options.numbers.size(); ++row) options.numbers[row] = device.choice(row);

@@ -1,5 +1,5 @@
-// What a SLIM is made from, besides its state: its device, which has time, inputs and a log, and the options
-// that its bench has chosen. All parts of the controller are functions on a State and a Setup:
+// What a SLIM needs besides its state: its device, which has time, inputs and a log, and the options that its
+// bench has chosen. All parts of the controller are functions on a State and a Setup:
 //
 //   setup.h             choices, terminals, time
 //   error_log.h         ?ERR and ?ERC
@@ -14,7 +14,7 @@
 //   by_name.h           queries and assignments that bypass the line
 //   dialogue.h          what happens to a line
 //
-// Each may know those above it. device.h joins them to a device.
+// Each may use the ones above it. device.h combines them into a device.
 #pragma once
 
 #include <cstddef>

@@ -9,13 +9,14 @@
 
 namespace understudy::emulator::models::slim {
 
-/// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
+/// Adds text. Drops it beyond a limit that no listing reaches, because a host may type faster than its line
+/// sends.
 void say(State& state, const Setup& setup, std::string_view text);
 /// Returns true if there is room for unrequested output of a program, which is faster than its line.
 bool has_room_to_speak(const State& state, const Setup& setup);
 /// Acknowledges a successful command that has no reply of its own.
 void acknowledge(State& state, const Setup& setup);
-/// Sends and stores an error. Returns the module that stores it in the end.
+/// Sends and stores an error. Returns the module that finally has it.
 int fail(State& state, const Setup& setup, int module, Error error);
 /// Sends the prompt, after each completed line.
 void conclude(State& state, const Setup& setup);

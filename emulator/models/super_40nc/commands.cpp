@@ -177,7 +177,7 @@ void Commands::hold_while_inhibited() {
     }
     return;
   }
-  // Those that a pause holds as well stay held.
+  // Motions that a pause holds as well stay held.
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
@@ -209,7 +209,7 @@ void Commands::look_at_contacts() {
   program_state_.file_changed = false;
 }
 
-/// M8008. File and recipe change as if they had been written.
+/// Executes M8008. File and recipe change as if they had been written.
 void Commands::reset_parameters() {
   const bool leaves_some = chose(option("m8008_scope", "but_for_d9000_and_d9026"));
   const auto stays = [&](const RegisterRow& row) {

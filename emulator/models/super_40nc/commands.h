@@ -1,6 +1,6 @@
-// What a scan does with command contacts, in this order: emergency, resets, STOP keys, pages of the panel,
-// M8008, ZERO SET, HOME, ZERO, jog, hand wheel. Levels that stay ON after they were void, or after a stop,
-// need to go OFF first.
+// Handles command contacts in a scan, in this order: emergency, resets, STOP keys, pages of the panel, M8008,
+// ZERO SET, HOME, ZERO, jog, hand wheel. A level that stays ON after it was void, or after a stop, must go
+// OFF before it acts again.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -37,9 +37,9 @@ class Commands : protected Chips {
         program_state_(program_state),
         state_(state) {}
 
-  /// The scan's step of contacts, if anything was written since the last one.
+  /// Executes the scan's step of contacts, if anything was written since the last one.
   void look_at_contacts();
-  /// Returns true if axes have errors that are cleared at the next tick, if that is chosen.
+  /// Returns true if axes have errors that, by choice, the next scan clears.
   bool has_errors_for_a_scan() const;
 
  private:

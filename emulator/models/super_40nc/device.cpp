@@ -111,7 +111,7 @@ void Super40nc::end_path() {
   if (const auto why = parts_.paths.path_ended()) parts_.programs.path_broken(*why);
 }
 
-/// Checks the comparators that the chip's own cannot do, as far as the tick has not checked them.
+/// Checks the comparators that the chip cannot evaluate, unless the tick has checked them already.
 void Super40nc::stop_by_comparators(int axis) {
   for (std::size_t which = 0; which < kComparators; ++which) {
     const auto stop = parts_.axes.comparators.compare(axis, which);

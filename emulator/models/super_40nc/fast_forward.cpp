@@ -1,5 +1,5 @@
-// Many ticks in one step, while a SUPER-40NC only counts: the PLC has settled, no step program runs, and axes
-// meet nothing.
+// Runs many ticks in one step, while a SUPER-40NC only counts: the PLC has settled, no step program runs, and
+// axes meet nothing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// Signals have separate ticks, and a PLC that reads moving values scans in each tick.
+/// Ticks in which signals change are run in full, and a PLC that reads moving values scans in each tick.
 bool Super40nc::output_moves(int /*terminal*/) const { return false; }
 
 Tick Super40nc::next_timed_tick(Tick done) const {
@@ -27,7 +27,7 @@ Tick Super40nc::next_timed_tick(Tick done) const {
 
 Tick Super40nc::next_active_tick(Tick done) const {
   const Counters& counters = parts_.axes.counters;
-  const bool scans = parts_.programs.plc_scans();  // scans are skipped in bulk, not left out
+  const bool scans = parts_.programs.plc_scans();  // fast_forward_to() does them in bulk
   if (scans || state_.touched || inputs_changed() || parts_.programs.are_busy() ||
       parts_.commands.has_errors_for_a_scan()) {
     return done + 1;

@@ -48,7 +48,7 @@ std::string_view cost_of(const lang::InstructionRow& row) {
   return "";
 }
 
-/// The rows, and the data that they refer to.
+/// The instruction rows, and the data to which they refer.
 struct Instructions {
   std::array<std::array<OperandRow, 4>, lang::kInstructions.size()> operands;
   std::array<std::string, lang::kInstructions.size()> areas;
@@ -92,7 +92,7 @@ class ProgramListing final : public ProgramLanguage {
     return Super40nc(settings).parts().programs.stored().parts_of(text);
   }
   bool parts_run_at_once() const override { return true; }
-  /// A key acts when it goes ON, so it is released first.
+  /// A key acts when it goes ON, so these requests release it first.
   std::span<const ProgramControl> controls() const override {
     using By = ProgramControl::By;
     static constexpr std::array<ProgramControl, 11> kControls{{{"start C", By::registers, "M8000=1"},

@@ -1,4 +1,4 @@
-// Decides what a SUPER-40NC answers on the line, and to which addresses.
+// Decides which replies a SUPER-40NC sends on the line, and to which addresses.
 #include "emulator/models/super_40nc/wire.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Returns a counter to its ring once a count that was beyond the ring has come into it.
+/// Returns a counter to its ring once a count from beyond the ring has entered it.
 void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
   if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);
@@ -39,7 +39,8 @@ motion::Reaction limit_reaction(const BasicSettings& basic) {
   return basic.limit_stop_mode == 1 ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
 }
 
-/// 3.10: edges of both lines, of one, or its rising edges. Up and down pulses are not divided.
+/// Returns how many edges make a count (3.10): it counts all edges of both lines, those of one, or only
+/// rising ones. Up and down pulses are not divided.
 std::int64_t divider_of(const BasicSettings& basic) {
   const bool is_quadrature = basic.encoder_mode == 0 || basic.encoder_mode == 2;
   return is_quadrature ? std::int64_t{1} << basic.encoder_division : 1;

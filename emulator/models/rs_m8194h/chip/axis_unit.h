@@ -39,7 +39,7 @@ constexpr std::uint16_t bit_of(ErrorBit bit) {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(bit));
 }
 
-/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two more that inputs 138 and 139 show.
+/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two others that inputs 138 and 139 show.
 enum class Factor : std::uint8_t {
   pulse,
   at_least_minus,  // P >= C-
@@ -65,7 +65,7 @@ inline constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Ev
                                                                       motion::Event::constant_started,
                                                                       motion::Event::ended};
 
-/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives.cpp).
+/// Returns the error bit of a cause that ends a motion or keeps it from beginning (drives/ends.cpp).
 std::uint16_t error_of(motion::Cause cause);
 
 /// The activity of an axis.
@@ -99,7 +99,7 @@ struct OutSettings {
   bool operator==(const OutSettings&) const = default;
 };
 
-/// Returns the time `takes_s` after `at_ns`.
+/// Returns the time in nanoseconds that is `takes_s` seconds after `at_ns`.
 constexpr std::int64_t after(std::int64_t at_ns, double takes_s) {
   constexpr double kMax_s = 1e9;
   const double whole_ns = std::clamp(takes_s, 0.0, kMax_s) * 1e9;
@@ -127,23 +127,23 @@ struct AxisUnit {
   std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
   std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;
-  std::uint16_t met = 0;              // error bits of what it has met on a path that slows down for it
-  bool locked = false;                // locked by STOP_*
-  bool path_locked = false;           // locked by VSTOP_*
-  bool held = false;                  // held by DRV_HOLD
-  Drive held_drive{};                 // waits for DRV_START
-  Drive paused_drive{};               // continues after a trigger's pause,
-  std::int64_t paused_to_pulses = 0;  // up to this travel, if it has an end
+  std::uint16_t met = 0;     // error bits of what the axis has met on a path that is slowing down for it
+  bool locked = false;       // locked by STOP_*
+  bool path_locked = false;  // locked by VSTOP_*
+  bool held = false;         // held by DRV_HOLD
+  Drive held_drive{};        // waits for DRV_START, or for its axis to stop
+  Drive paused_drive{};      // continues after a trigger's pause
+  std::int64_t paused_to_pulses = 0;  // travel at which that drive ends, if it does
   FilteredPins pins{};
   bool emergency = false;  // the EMG input, after its filter
   motion::ExternalDrive external{};
   std::int64_t began_pulses = 0;                 // travel at the beginning of the last drive
   std::uint32_t external_pps = 0;                // speed of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP- seen so far
-  std::int64_t external_waiting = 0;             // pulses of edges after the last drive's were out
-  std::int64_t external_free_ns = 0;             // when these are out; 0: the last drive is another
-  std::array<Compare, 2> compare{};              // C+, C-
-  std::uint8_t factors = 0;                      // INTFACTOR_ENABLE, a bit for each nINT
+  std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses were out
+  std::int64_t external_free_ns = 0;  // when the last drive's pulses are out; 0: it was no move by edges
+  std::array<Compare, 2> compare{};   // C+, C-
+  std::uint8_t factors = 0;           // INTFACTOR_ENABLE, a bit for each nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};
   std::uint8_t action_isr = 0;  // ISR of its action set
   OutSettings out{};
@@ -182,9 +182,9 @@ void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
 /// Arms the motor's limits and comparators. Call it again whenever a counter or one of them is set. `asked`
-/// are the events that have a consumer.
+/// has the events that something uses.
 void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
-/// Returns EP as a function of the travel, by the axis's settings, for a machine with the given line.
+/// Returns EP as a function of the travel, by the axis's settings, for a machine with the given encoder line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);
 
 /// The choice for bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their

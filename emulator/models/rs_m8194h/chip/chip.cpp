@@ -74,7 +74,7 @@ void Chip::set_encoder(std::size_t axis, std::int64_t counts) {
 }
 
 void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
-  // SET_OUT knows X and Y (7.3.9).
+  // SET_OUT supports only X and Y (7.3.9).
   if (axis >= static_cast<std::size_t>(kOuts)) return;
   // Whole ticks of PulseWidth; shorter pulses are counted only.
   static constexpr std::array<Tick, 8> kWidths{0, 0, 0, 0, 1, 2, 10, 20};
@@ -86,7 +86,7 @@ void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
 // --- power and RESET_CARD ---------------------------------------------------------------------------------
 
 void Chip::blank_axis(std::size_t axis, const BasicSettings& basic) {
-  // The motor stays where it is, and the bench's encoder too.
+  // The motor keeps its position, and so does the bench's encoder.
   motion::Axis& motor = state_.motors[axis];
   const std::int64_t travel_pulses = motor.travel_pulses;
   const AxisUnit before = state_.units[axis];

@@ -1,5 +1,5 @@
-// RS-M8194H: the motion chip with its four axes: motors, counters, pins behind their filters, what the motors
-// watch and meet, the path that carries some of them, and the outputs of X and Y.
+// RS-M8194H: the motion chip with its four axes: motors, counters, pins behind their filters, signals that
+// the motors watch and meet, the path that carries some of them, and the outputs of X and Y.
 #pragma once
 
 #include <array>
@@ -45,8 +45,8 @@ struct ChipState {
   std::array<LineScan, kAxes> scans{};
   AxisMask scanning = 0;         // axes of LINE_SCAN_START
   bool holds_back = false;       // a filter holds back the level of an input
-  bool emergency_input = false;  // true: EMG is active,
-  Tick emergency_since = 0;      // since this tick; false: not active since this tick
+  bool emergency_input = false;  // EMG is active, before the filters
+  Tick emergency_since = 0;      // when that last changed
 
   bool operator==(const ChipState&) const = default;
 };
@@ -101,11 +101,11 @@ class Chip final : public Part {
   void connect_encoder(std::size_t axis, std::int64_t counts);
   void set_encoder(std::size_t axis, std::int64_t counts);
 
-  /// Gives pulses at OUT_X or OUT_Y; other axes have no output (7.3.9).
+  /// Outputs pulses at OUT_X or OUT_Y; other axes have no output (7.3.9).
   void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
 
   // --- power and RESET_CARD ----------------------------------------------------------------------
-  /// Resets everything but places, pins and the bench's encoder, with these settings of section 3.
+  /// Resets everything except positions, pins and the bench's encoder, with these settings of section 3.
   void blank(const std::array<BasicSettings, kAxes>& basic);
   void keep_counters_of(const ChipState& before);
   void keep_settings_of(const ChipState& before);
@@ -114,7 +114,8 @@ class Chip final : public Part {
   void blank_axis(std::size_t axis, const BasicSettings& basic);
 
   ChipState& state_;
-  // Not state: set again after a restore. Apart, because a tick reads it only when an input has changed.
+  // Not state: set again after a restore. Allocated separately, because a tick reads it only after an input
+  // has changed.
   const std::unique_ptr<std::array<MachineEdges, kAxes>> edges_ =
       std::make_unique<std::array<MachineEdges, kAxes>>();
 };

@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The most interrupts that wait, if they are counted.
+/// The largest number of interrupts that can wait, if they are counted.
 inline constexpr std::size_t kMaxMarks = 256;
 
 /// An interrupt that waits for its ISR.
@@ -28,7 +28,7 @@ struct IsrMark {
   Tick tick = 0;
   std::uint8_t axis = 0;
   std::uint8_t source = 0;  // nINT 0 to 7, or one of the above
-  std::uint8_t number = 0;  // number of the ISR: of a call, or as bound at the event
+  std::uint8_t number = 0;  // number of the ISR that was called, or was bound at the event
 
   auto operator<=>(const IsrMark&) const = default;
 };

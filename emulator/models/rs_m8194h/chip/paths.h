@@ -1,5 +1,4 @@
-// RS-M8194H: interpolation, as a value. One group of axes at a time follows a path (4.7, 4.8 of the
-// behaviour; manual 7.2 and 7.4).
+// RS-M8194H: interpolation, as a value. One group of axes at a time follows a path (7.2, 7.4).
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ Tick filter_ticks(const AxisUnit& unit, int pin, const MachineOptions& options) 
   return std::max<Tick>(kFilterTicks[unit.basic.filter_time], options.short_filters_take_a_tick ? 1 : 0);
 }
 
-/// A pin that tells the chip something, and the setting of its active level.
+/// A pin, and the signal that it gives the motor.
 struct PinFunction {
   Pin pin;
   motion::Signal signal;
@@ -117,7 +117,7 @@ void Chip::pass_all_pins() {
   state_.holds_back = false;
 }
 
-/// The motor meets zones if an input depends on the position; otherwise the input's level.
+/// Gives the motor zones if an input depends on the position; otherwise the input's level.
 void Chip::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = (*edges_)[axis];
@@ -161,7 +161,7 @@ void Chip::rearm(std::size_t axis) {
     const bool is_asked = machine_options().all_factors_are_noted || (unit.factors >> i & 1) != 0;
     if (is_asked) asked |= motion::bit(kFactorEvents[i]);
   }
-  // A scan has C+ for itself (7.4.12).
+  // A scan uses C+ alone (7.4.12).
   const LineScan& scan = state_.scans[axis];
   constexpr motion::Events kOfPlus =
       motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);

@@ -20,9 +20,9 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// 7.4.12.
+/// The limit of 7.4.12.
 constexpr double kMaxScanTriggers_hz = 100'000;
-/// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
+/// Triggers closer than 10 us to the last one are dropped: 100 of them fit into a tick (7.4.12).
 constexpr std::int64_t kMaxTriggersOfATick = 100;
 
 }  // namespace
@@ -77,7 +77,7 @@ void Scans::step(Tick tick) {
   }
 }
 
-/// C+ is where the next trigger would have been.
+/// Ends a scan. By choice, C+ is then where the next trigger would have been.
 void Scans::end(std::size_t axis) {
   LineScan& scan = chip_.scan(axis);
   if (chose(option("scan_comparator", "the_next_trigger"))) {

@@ -22,11 +22,11 @@ class Scans final : public Part {
   void open(AxisMask axes);
   /// Returns true if, by choice, a scan at this speed is void.
   bool is_too_fast(std::size_t axis, const motion::SpeedLaw& law) const;
-  /// Begins the scan of an axis that has set out for `distance_pulses`.
+  /// Begins the scan of an axis whose drive of `distance_pulses` has begun.
   void begin(std::size_t axis, std::int64_t distance_pulses);
   /// Sends the triggers of a tick, and ends the scans of axes at rest.
   void step(Tick tick);
-  /// Returns what the counter that LINE_SCAN's Type names has counted: a ring wraps in it, and it may be set.
+  /// Returns the travel that the scan's Type counts: a counter itself may wrap in a ring, or be set.
   std::int64_t travel(std::size_t axis) const;
   bool is_open() const { return chip_.state().scanning != 0; }
 

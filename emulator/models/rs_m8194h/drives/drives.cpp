@@ -54,7 +54,8 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
     if (may && takes_place_of_endless(a, what)) taken |= mask_of(a);
   }
   axes &= static_cast<AxisMask>(~taken);
-  // Then an axis that moves delays it, and starts with it after it has stopped.
+  // By choice, each axis starts on its own: one that still moves takes the drive, and starts it after it has
+  // stopped.
   const bool is_each_its_own = chose(option("mask_drive", "axis_by_axis")) && (axes & (axes - 1)) != 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
@@ -82,7 +83,7 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
         chip_.unit(a).held_drive = what;
         if (has(streams_.axes_of_held(), a)) streams_.drop_held();
         break;
-      case Start::waits: chip_.unit(a).held_drive = what; break;  // takes it along
+      case Start::waits: chip_.unit(a).held_drive = what; break;  // starts it after it has stopped
     }
   }
   return Took::done;
@@ -142,7 +143,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
     refused = motor.move(distance, law, now());
   }
   if (refused != motion::Cause::none) {
-    // Homing that cannot begin has found its index on already.
+    // Homing fails at once if its index is on already.
     unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
     return;
   }

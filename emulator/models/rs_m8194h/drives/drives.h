@@ -1,5 +1,5 @@
-// RS-M8194H: drives of single axes: whether they begin, wait, are held or void (transitions.h), and how they
-// begin.
+// RS-M8194H: drives of single axes: decides whether they begin, wait, are held or void (transitions.h), and
+// begins them.
 #pragma once
 
 #include <array>
@@ -56,13 +56,13 @@ class Drives final : public Part {
   /// Starts one axis without a check for locks and waits; what it meets at its start becomes its error.
   void start(std::size_t axis, const Drive& what, bool without_ramps = false);
   void start_held();
-  /// V has changed: a T-shaped drive continues at the new one, an S-shaped one keeps its own (7.1).
+  /// Applies a changed V: a T-shaped drive continues at the new speed, an S-shaped one keeps its own (7.1).
   void change_speed(std::size_t axis, motion::Instant at);
-  /// Discards what an axis had left to be done, as far as this event takes it away (transitions.h).
+  /// Discards what this event removes of an axis's remaining work (transitions.h).
   void take_off(std::size_t axis, WayOut way);
   /// Forgets the errors of earlier motions, for a drive that starts.
   void forget_errors(std::size_t axis);
-  /// Checks the rest of a drive that is held by a pause: anything that would have ended it ends it.
+  /// Checks the rest of a drive that a pause holds. Anything that would have ended the drive ends the rest.
   void check_paused(std::size_t axis);
 
  private:

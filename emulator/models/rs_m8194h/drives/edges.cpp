@@ -37,7 +37,7 @@ void Edges::at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events e
   if ((handled & chip_.sync().triggers[axis].factors) != 0) act_together(tick, axis, handled);
 }
 
-/// The kernel latches, presets and drives; this does the firmware's part.
+/// Does the firmware's part of synchronous actions; the kernel latches, presets and drives.
 void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::Events events) {
   using Action = motion::SyncAction::Drive;
   motion::SyncTable acting = chip_.sync();

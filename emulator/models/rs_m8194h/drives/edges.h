@@ -1,5 +1,5 @@
-// RS-M8194H: what happens when an axis reaches an edge, at that very moment, whatever moves it: its errors
-// are recorded, interrupts marked, and synchronous actions executed (7.3), on whichever axis they act.
+// RS-M8194H: handles an axis that reaches an edge, at that very moment, whatever moves it: records its
+// errors, marks interrupts, and executes synchronous actions (7.3), on whichever axis they act.
 #pragma once
 
 #include <array>

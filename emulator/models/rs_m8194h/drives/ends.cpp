@@ -18,7 +18,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// Returns true if an axis on a path has met this itself: the cause is that of the axis that met something.
+/// Returns true if an axis of a path has met this itself; the cause may come from another axis.
 bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
   switch (cause) {
@@ -48,7 +48,6 @@ bool is_complete(const AxisUnit& unit, const motion::Axis& motor) {
 
 }  // namespace
 
-/// Bits of what a motion ends by, or is kept from beginning by.
 std::uint16_t error_of(motion::Cause cause) {
   switch (cause) {
     case motion::Cause::soft_limit_plus: return bit_of(ErrorBit::soft_limit_plus);
@@ -79,7 +78,7 @@ void Edges::on_homed(std::size_t axis) {
   }
 }
 
-/// Returns true for a limit that, by choice, does not count as the cause of a drive that ends there anyway.
+/// Returns true for a limit that, by choice, is not the cause of an end, because the drive ends there anyway.
 bool Edges::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));
@@ -94,12 +93,12 @@ void Edges::note_end_of_path(std::size_t axis) {
     if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
     unit.error_code |= met;
   }
-  // Once: a host may have cleared it when D-END comes.
+  // The error is recorded only once: a host may have cleared it before D-END.
   if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
     motor.cause = motion::Cause::stopped;
 }
 
-/// Notes the cause of an end in the error code. Returns the events that count as such.
+/// Records the cause of an end in the error code. Returns the events that count under the chosen options.
 motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
   const motion::Axis& motor = chip_.motor(axis);
   AxisUnit& unit = chip_.unit(axis);

@@ -22,12 +22,12 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// More edges in a tick than the chip counts (4 MHz) are the last of them.
+/// If a tick has more edges than the chip counts (4 MHz), only the last ones count.
 constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
 
 }  // namespace
 
-/// Returns the edges of an input since the last call, in whichever direction its count was turned.
+/// Returns the edges of an input since the last call, whichever way its count was turned.
 std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   AxisUnit& unit = chip_.unit(axis);
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
@@ -37,19 +37,19 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   if (edges > kMaxEdgesPerTick) edges = kMaxEdgesPerTick - (edges & 1U);
   unit.external_seen[which] = count;
   if (chip_.is_filtered(axis, pin)) {
-    // Through its filter: pulses that are too short are lost, the rest arrives late.
+    // The edges pass its filter: pulses that are too short are lost, and others arrive late.
     const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
     const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
     edges = was_high != is_high ? 1 : 0;
     // If the filter is removed, the level that it held back becomes an edge.
     if (((count & 1U) == 0) != is_high) --unit.external_seen[which];
   }
-  // While off nothing but the level at the end matters.
+  // While off, only the level at the end matters.
   if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
   return edges;
 }
 
-/// Spreads the edges of an input evenly over the tick, between those of the other input.
+/// Spreads the edges of an input evenly over the tick, interleaved with those of the other input.
 void External::watch(std::size_t axis, Tick tick) {
   AxisUnit& unit = chip_.unit(axis);
   const std::array<std::uint32_t, 2> edges{edges_of(axis, 0), edges_of(axis, 1)};
@@ -65,7 +65,7 @@ void External::watch(std::size_t axis, Tick tick) {
     // Among edges of the other input, the exact time is not known.
     const std::int64_t most_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
     at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + most_ns);
-    // A line is high while it does not conduct; each edge turns it over.
+    // A line is high while it does not conduct; each edge inverts it.
     const bool plus = is_plus ? !unit.external.plus_high : unit.external.plus_high;
     const bool minus = is_plus ? unit.external.minus_high : !unit.external.minus_high;
     const bool is_busy = chip_.is_driving(axis) && !is_free(axis, at_ns);
@@ -73,7 +73,8 @@ void External::watch(std::size_t axis, Tick tick) {
   }
 }
 
-/// Returns true if it only drives because drives end at ticks: the pulses of its last edge are out by then.
+/// Returns true if the axis counts as driving only because drives end at ticks: the pulses of its last edge
+/// are already out.
 bool External::is_free(std::size_t axis, std::int64_t at_ns) const {
   const AxisUnit& unit = chip_.unit(axis);
   const motion::Axis& motor = chip_.motor(axis);
@@ -103,7 +104,7 @@ motion::SpeedLaw External::law_of(std::size_t axis) const {
   return law;
 }
 
-/// Returns true if it has begun.
+/// Starts a drive. Returns true if it has begun.
 bool External::start(std::size_t axis, const motion::DriveOrder& order) {
   AxisUnit& unit = chip_.unit(axis);
   unit.external.running = 0;

@@ -1,4 +1,5 @@
-// RS-M8194H: drives by the inputs EXP+ and EXP- (7.1.12): edges within a tick, and what they start.
+// RS-M8194H: drives by the inputs EXP+ and EXP- (7.1.12): edges within a tick, and the drives that they
+// start.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +20,11 @@ class External final : public Part {
 
   /// Handles the edges of a tick.
   void watch(std::size_t axis, Tick tick);
-  /// Starts what has waited for the tick in which the pulses before it were over.
+  /// Starts the drives that waited for the end of the tick in which the earlier pulses were out.
   void start_waiting();
   /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
   void set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);
-  /// Takes the levels that the inputs have at power-up: they are not edges.
+  /// Adopts the levels of the inputs at power-up, which are not edges.
   void take_levels(std::size_t axis);
 
  private:

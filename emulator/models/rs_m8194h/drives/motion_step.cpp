@@ -58,7 +58,7 @@ void MotionStep::step_axes(Tick tick) {
   }
 }
 
-/// C-STA and C-END of a path, for its axis1.
+/// Handles C-STA and C-END of a path, for its axis1.
 void MotionStep::on_path_speed(Tick tick) {
   if (!machine_options().paths_have_c_sta) return;
   Paths& paths = chip_.paths();

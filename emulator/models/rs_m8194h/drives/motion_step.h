@@ -1,4 +1,4 @@
-// RS-M8194H: a tick of the motion chip, and many at once: the motors, then what their events bring about.
+// RS-M8194H: a tick of the motion chip, or many at once: the motors move, then their events take effect.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class MotionStep final : public Part {
 
   /// Returns true if no axis moves, and none has anything to report.
   bool rests() const;
-  /// Returns the last tick before which only positions change, at most `last`; `done` if there is none.
+  /// Returns the last tick up to which only positions change, at most `last`; `done` if there is none.
   Tick quiet_until(Tick done, Tick last, const ClearTravel& ahead) const;
   void fast_forward_to(Tick tick, const ClearTravel& ahead, std::span<std::int64_t> pulses);
 

@@ -117,7 +117,7 @@ class Pen {
     return speed_range(max_v, chip_.machine_options().speed, highest);
   }
 
-  /// The place of a coordinate that a command gives, in pulses from where the run began.
+  /// Returns the place of a coordinate that a command gives, in pulses from where the run began.
   double place(std::size_t coordinate, double value) const {
     const double here = begin_[static_cast<Eigen::Index>(coordinate)];
     if (!row_.absolute) return here + value;
@@ -141,7 +141,7 @@ class Pen {
     add(motion::arc_by_centre(from, centre, to, turn, options));
   }
 
-  /// Draws a rectangle once round from the point where it begins (7.4.1).
+  /// Draws a rectangle once around, from the point where it begins (7.4.1).
   PathSpeed rectangle() {
     const lang::Command& command = path_.command;
     const bool is_clockwise = command.values[4] == 1;

@@ -1,4 +1,5 @@
-// RS-M8194H: what a command of 7.2 or 7.4 draws, and how fast, as a value. The path itself is motion's.
+// RS-M8194H: what a command of 7.2 or 7.4 draws, and how fast, as a value. The path itself belongs to
+// motion/.
 #pragma once
 
 #include <array>

@@ -67,7 +67,7 @@ void PathStarts::start_held() {
   }
 }
 
-/// Returns true if the path does not fit what its axes and its speed are set to.
+/// Returns true if the path does not fit the settings of its axes and of its speed.
 bool PathStarts::is_refused(const HeldPath& path) const {
   const PathRow& row = row_of_path(path.command.verb());
   const Paths& paths = chip_.paths();
@@ -165,7 +165,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now());
 }
 
-/// Starts what was drawn; returns false if an axis keeps it from beginning.
+/// Starts what was drawn. Returns false if an axis keeps it from beginning.
 bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
   const PathRow& row = row_of_path(path.command.verb());
   const bool ends_here = !is_segment(path) || is_last_segment(path);
@@ -182,7 +182,7 @@ bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
     motion::Axis& motor = chip_.motor(axis);
     motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
   }
-  streams_.on_path_end(false);  // of one that was stopped since the last tick
+  streams_.on_path_end(false);  // if the path was stopped after the last tick
   if (is_kept_off(path.codes, drawing.run.path().direction_at(0)) ||
       made.begin(motion::Point::Zero(), chip_.state().motors, now()) != motion::Cause::none) {
     return false;
@@ -198,8 +198,8 @@ bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
   return true;
 }
 
-/// A limit that is active before a path begins, or a soft limit that is reached, keeps it from beginning, as
-/// it keeps the drive of an axis: the bit is that of the axis which would have set out against it.
+/// Returns true if an active limit, or a soft limit that is reached, keeps a path from beginning, as it does
+/// the drive of an axis. The error bit is that of the axis that would have moved against the limit.
 bool PathStarts::is_kept_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& direction) {
   bool is_kept = false;
   for (std::size_t i = 0; i < codes.size(); ++i) {

@@ -1,5 +1,5 @@
-// RS-M8194H: interpolation, lines, arcs, streams, rectangle, helix (7.2, 7.4): whether a path begins, waits,
-// is held or void, or joins its stream.
+// RS-M8194H: interpolation, lines, arcs, streams, rectangle, helix (7.2, 7.4): decides whether a path begins,
+// waits, is held or void, or joins its stream.
 #pragma once
 
 #include <array>

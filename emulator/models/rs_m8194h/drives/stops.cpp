@@ -19,7 +19,8 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The others continue along the path; it stops, or decelerates along its own ramp from its present speed.
+/// Takes an axis off its path; the other axes continue. The axis stops, or slows down by its own ramp from
+/// its present speed.
 void Stops::leave_path(std::size_t axis, Halt halt) {
   const double speed_pps = chip_.paths().together.speed_pps(axis, now());
   for (std::int8_t& mine : chip_.paths().together.axis_of) {
@@ -200,7 +201,7 @@ void Stops::resume() {
     if (rest.what == Drive::What::fixed) {
       rest.value = static_cast<std::int32_t>(unit.paused_to_pulses - chip_.motor(a).travel_pulses);
     }
-    // A hold is for drives that follow.
+    // A hold applies to later drives.
     if (outcome != Start::is_void) drives_.start(a, rest);
   }
 }

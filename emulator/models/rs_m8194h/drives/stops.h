@@ -1,4 +1,4 @@
-// RS-M8194H: stops, locks, holds and pauses, and what takes them away (7.5): by the rows of transitions.h.
+// RS-M8194H: stops, locks, holds and pauses, and what ends them (7.5), by the rows of transitions.h.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,6 @@ bool Streams::is_complete() const {
   return true;
 }
 
-/// A path that has ended in this tick.
 void Streams::on_path_end(bool was_full) {
   Paths& paths = chip_.paths();
   const bool in_stream = paths.together.engaged && paths.runs == Paths::Runs::stream;
@@ -138,7 +137,7 @@ void Streams::forget_break(Stream stream) {
   chip_.paths().broken &= static_cast<std::uint8_t>(~bit_of(stream));
 }
 
-/// The last segment ends what is left of the stream.
+/// Returns true if the segment belongs to a broken stream. The last segment ends what is left of the stream.
 bool Streams::is_left_over(const HeldPath& segment) {
   const Stream stream = stream_of(segment);
   const bool runs = chose(option("broken_stream", "runs_all_the_same"));

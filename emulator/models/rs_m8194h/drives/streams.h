@@ -77,12 +77,12 @@ class Streams final : public Part {
   motion::SpeedLaw law_to_slow_down() const;
   void slow_down(Tick tick);
   void stop(motion::Instant at = {});
-  /// A drive of single axes begins on this axis: a starved stream on it is over.
+  /// Ends a starved stream on this axis, because a drive of single axes begins.
   void on_single_drive(std::size_t axis);
 
   /// Breaks off the stream that runs or slows down, or that has starved.
   void break_off();
-  /// Breaks off the stream of a segment that may not begin: nothing behind it does.
+  /// Breaks off the stream of a segment that may not begin; the segments behind it do not begin either.
   void refuse(const HeldPath& path);
   /// Returns true if a segment belongs to what is left of a stream that was broken off.
   bool is_left_over(const HeldPath& segment);

@@ -15,7 +15,7 @@ namespace lang = interpreter::rs_m8194h;
 
 // --- starting: the rows are checked in order, and the first that applies decides ---------------------------
 
-/// What can prevent a drive, other than a motion of its axis.
+/// The obstacles that can prevent a drive, besides a motion of its axis.
 enum class Obstacle : std::uint8_t {
   emergency_state,
   lock,
@@ -38,8 +38,8 @@ struct ObstacleRow {
   Obstacle obstacle;
   Start command;
   Start external;
-  bool sets_error;  // whether it sets a bit of the error code,
-  ErrorBit error;   // and which bit
+  bool sets_error;  // true: it sets a bit of the error code
+  ErrorBit error;   // that bit
 };
 /// Obstacles (7.5.1 to 7.5.10, 3.12). A lock sets its error bit when it is set, not when it prevents a drive.
 inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
@@ -52,7 +52,7 @@ inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
     {Obstacle::hold, Start::is_held, Start::starts, false, ErrorBit::reserved},
 }};
 
-/// What a start does without obstacles.
+/// The effect of a start without obstacles.
 struct ActivityRow {
   Activity activity;
   Start command;
@@ -157,7 +157,7 @@ enum class WayOut : std::uint8_t {
 };
 inline constexpr std::size_t kWaysOut = 7;
 
-/// Which event discards which mark. RESET_CARD and power-off discard all of them.
+/// Says which event discards which mark. RESET_CARD and power-off discard all of them.
 inline constexpr std::array<std::array<bool, kWaysOut>, kMarks> kTakenOff{{
     // stop, VSTOP, emergency stop, cause, another drive, DRV_START, triggers off
     {true, false, true, true, true, false, false},
@@ -170,8 +170,8 @@ constexpr bool takes_off(WayOut way, Mark mark) {
 
 // --- clearing ----------------------------------------------------------------------------------------------
 
-/// What keeps bits of an error code when CLEAR_STOP or CLEAR_VSTOP removes its lock (A-35, 6.2): the other
-/// lock, the emergency state, and inputs that are still active.
+/// The reasons to keep bits of an error code when CLEAR_STOP or CLEAR_VSTOP removes its lock (A-35, 6.2): the
+/// other lock, the emergency state, and inputs that are still active.
 struct Cleared {
   bool other_lock = false;
   bool emergency_state = false;

@@ -35,7 +35,7 @@ void limit_levels(BasicSettings& s, const Command& c) {
 void limit_stop(BasicSettings& s, const Command& c) { s.limit_stop_mode = byte_at(c, 1); }
 void near_home_level(BasicSettings& s, const Command& c) { s.near_home_level = byte_at(c, 1); }
 void home_level(BasicSettings& s, const Command& c) { s.home_level = byte_at(c, 1); }
-/// Soft limits and a ring exclude each other: the later one wins (3.15.1).
+/// Sets soft limits. They and a ring exclude each other: the later one wins (3.15.1).
 void soft_limits(BasicSettings& s, const Command& c) {
   s.soft_limits = true;
   s.forward_soft_limit = c.signed_value(1);
@@ -87,7 +87,7 @@ constexpr HandlerRow<Verb, Change> kChanges[] = {
 };
 // clang-format on
 
-/// Those that the Initial Table can hold, by the rows of the language.
+/// The settings that the Initial Table can hold, from the rows of the language.
 constexpr auto kSettingVerbs = [] {
   std::array<Verb, 18> verbs{};
   std::size_t count = 0;

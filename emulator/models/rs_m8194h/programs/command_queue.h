@@ -1,4 +1,4 @@
-// RS-M8194H: the FIFO: commands in their order, as many as a tick has room for.
+// RS-M8194H: the FIFO. It executes commands in their order, as many as a tick has room for.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class CommandQueue final : public Part {
   const QueueState& state() const { return state_; }
   bool is_empty() const { return state_.fifo.waiting.empty(); }
 
-  /// Takes a checked command from the window: executes it at once, or queues it. Returns why it does not.
+  /// Takes a checked command from the window: executes or queues it, or returns why it cannot.
   lang::Fault take(const lang::Command& command);
   /// Returns the fault of a command for which there is no room here, or in the macro being downloaded.
   lang::Fault why_no_room(const lang::Command& command) const;

@@ -33,7 +33,7 @@ bool Frnet::scans_at(Tick tick) const {
   if (machine_options().frnet_every_tick) return true;
   const Tick since = tick - state_.powered_at;
   if (since <= 0) return false;
-  const Tick in_round = (since - 1) % kScanUnits + 1;  // as many ticks as a scan has units: whole scans
+  const Tick in_round = (since - 1) % kScanUnits + 1;  // 288 ticks are exactly 100 scans
   return in_round * kTickUnits / kScanUnits > (in_round - 1) * kTickUnits / kScanUnits;
 }
 

@@ -1,4 +1,4 @@
-// Macros and triggers as text: for listings, and for what is sent to the window.
+// Macros and triggers as text: for listings, and for messages to the window.
 #pragma once
 
 #include <vector>

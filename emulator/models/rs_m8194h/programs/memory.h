@@ -75,7 +75,7 @@ class Memory final : public Part {
   /// Stores a register that a request has written.
   void register_written(const RegisterRow& row, std::size_t slot);
 
-  /// Returns the settings of a new box.
+  /// Returns the settings of a new device.
   BasicSettings factory_settings() const;
   void keep_initial_table();
 
@@ -83,7 +83,7 @@ class Memory final : public Part {
   MemoryState& state_;
 };
 
-/// Returns a parameter of one register.
+/// Returns a parameter as a byte.
 inline std::uint8_t byte_at(const lang::Command& command, std::size_t i) {
   return static_cast<std::uint8_t>(command.values[i]);
 }

@@ -1,4 +1,4 @@
-// Shows observers where its macros are.
+// Tells observers where the macros are.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -29,7 +29,7 @@ std::string_view awaited_by(lang::Hold hold) {
   return "";
 }
 
-/// The line of the text after the one that begins the macro: "MP 21".
+/// Returns the line in the text of a macro's line `number`, counted after the macro's head, "MP 21".
 int line_in(std::string_view text, const std::string& head, int number) {
   for (const TextLine line : TextLines(text)) {
     if (line.text == head) return line.number + 1 + number;

@@ -208,7 +208,7 @@ void Programs::mp_ended() {
   status_.pass(kMpFinished);
 }
 
-/// Marks that call nothing are spent.
+/// Returns the ISR of the next mark. Marks that call nothing are discarded.
 int Programs::take_isr() {
   while (interrupts_.is_due()) {
     const IsrMark mark = interrupts_.take_mark();

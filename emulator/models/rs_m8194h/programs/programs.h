@@ -1,5 +1,4 @@
-// RS-M8194H: macros: their download, their store, and those that run (8, 9). What their lines do is the
-// machine's.
+// RS-M8194H: macros: their download, storage and execution (8, 9). lang::Machine executes their lines.
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The value for "no download". It has a name because each download has one.
+/// The value for "no download". It has a macro's name only because each download has one.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
 /// Inputs 115 to 119: the macro, the command, the line and the error.
@@ -99,7 +98,7 @@ class Programs final : public Part {
   void set_watch(ProgramWatch* watch) { acts_on_.set_watch(watch); }
   /// Ends a restored execution that no run of these macros can have reached.
   void check_restored();
-  /// Returns true if the memory's macros are compiled; forgets what was compiled.
+  /// Return true if the memory's macros are compiled, and discard the compiled ones.
   bool is_compiled() const { return compiled_revision_ == memory_.state().blocks.revision(); }
   void forget_compiled() { compiled_revision_ = UINT64_MAX; }
 
@@ -118,7 +117,7 @@ class Programs final : public Part {
   Status& status_;
   Interrupts& interrupts_;
   lang::Machine& acts_on_;
-  // Not state: compiled from the text blocks, again whenever these have changed.
+  // Not state: compiled from the text blocks whenever these have changed.
   mutable lang::MacroStore macros_;
   mutable lang::TriggerTable triggers_{};
   mutable std::uint64_t compiled_revision_ = UINT64_MAX;

@@ -17,8 +17,8 @@ inline constexpr std::uint8_t kIsrFinished = 8;
 
 struct StatusState {
   bool at_init = false;       // the switch, as found at power-up
-  std::uint8_t finished = 0;  // the last state that has passed within a tick,
-  Tick finished_at = 0;       // and its tick
+  std::uint8_t finished = 0;  // the last state that has passed within a tick
+  Tick finished_at = 0;       // the tick in which it passed
   Tick resetting_until = 0;   // end of RESET_CARD
 
   bool operator==(const StatusState&) const = default;

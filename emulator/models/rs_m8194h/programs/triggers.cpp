@@ -20,7 +20,7 @@ bool is_on(const FrnetWords& words, int channel) {
   return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
 }
 
-/// `at_start`: levels that are there already count, though nothing has changed.
+/// Returns true if a change of level fires. `at_start`: levels that are present already count, too.
 bool fires(lang::TriggerCondition condition, bool was, bool is, bool at_start) {
   switch (condition) {
     case lang::TriggerCondition::none: return false;
@@ -68,8 +68,8 @@ void Triggers::check(const FrnetWords& before, bool at_start) {
   }
 }
 
-/// When a level ends, it ends its pause, by choice, and releases what it held (the last level, if several
-/// did).
+/// Ends the level's pause, by choice, and releases the axes that it held unless another level still holds
+/// them.
 void Triggers::on_level_end(int channel, const lang::Trigger& trigger) {
   ProgramState& programs = known_.programs.state();
   const bool ends_its_pause = programs.paused && programs.paused_by == channel &&
@@ -154,7 +154,7 @@ void Triggers::repeat_levels() {
   }
 }
 
-/// Nothing starts in a download or in the emergency state.
+/// Returns true unless a download, the emergency state, a reset, an MP or a pause prevents it.
 bool Triggers::may_start() const {
   const Programs& programs = known_.programs;
   return !programs.is_downloading() && !known_.drives.state().emergency_state &&

@@ -38,8 +38,8 @@ class Triggers final : public Part {
       : Part(ground), state_(state), known_(known) {}
 
   void reset() { state_ = {}; }
-  /// Handles the scan of inputs that were `before`. At the start levels that are there already count, though
-  /// nothing has changed.
+  /// Handles the scan of inputs that were `before`. By choice, check_at_start() also counts levels that are
+  /// present already.
   void check(const FrnetWords& before);
   void check_at_start();
   /// Handles a write to holding 9.

@@ -11,7 +11,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// A speed in whole counts of MAX_V / 8000, one at least.
+/// Returns a speed in whole counts of MAX_V / 8000, at least one.
 double in_counts(std::uint32_t speed_pps, const SpeedRange& range) {
   const double within = std::min<double>(speed_pps, range.max_v);
   const double counts = within / range.step_pps;

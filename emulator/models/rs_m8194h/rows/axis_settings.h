@@ -16,7 +16,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 inline constexpr std::size_t kAxes = 4;
-/// One bit an axis, X first.
+/// One bit per axis, X first.
 using AxisMask = std::uint8_t;
 inline constexpr AxisMask kAllAxes = 0xF;
 constexpr bool has(AxisMask mask, std::size_t axis) { return (mask >> axis & 1) != 0; }
@@ -57,7 +57,7 @@ struct SpeedRules {
   bool rounds_to_nearest = false;
   bool has_offset = true;              // AO
   bool mode_3_is_symmetric = false;    // for NORMAL_SPEED, as printed
-  double least_jerk_part = 0.0119211;  // the minimum jerk, as a part of MAX_V
+  double least_jerk_part = 0.0119211;  // the minimum jerk, as a fraction of MAX_V
 };
 
 /// The rules for an axis that the manual leaves open (choices.h).

@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The device that the parts are in, and its choices as options.
+/// The device that contains the parts, and its choices as options.
 struct Ground {
   explicit Ground(const Device& whole)
       : device(whole),

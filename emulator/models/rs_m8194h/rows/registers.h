@@ -29,7 +29,7 @@ inline constexpr Value kMaxPosition = 2'000'000'000;
 inline constexpr int kWindowWords = 101;
 inline constexpr std::uint16_t kWindow = 8000;
 
-/// Names the section of its rows.
+/// Returns the rows with the name of their section.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   std::array<RegisterRow, N> named{};
@@ -307,7 +307,7 @@ consteval std::size_t slot(std::string_view holding_name) {
   throw "no register is stored there";
 }
 
-/// Addresses in a row: those of one row, or of all from one row to another, with everything between them.
+/// Consecutive addresses: those of one row, or all from one row to another.
 struct Addresses {
   Table table;
   std::size_t first;

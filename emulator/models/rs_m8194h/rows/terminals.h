@@ -1,4 +1,4 @@
-// RS-M8194H: the terminals, by number and as rows. 1 is conducting, which the manual calls on.
+// RS-M8194H: the terminals, by number and as rows. 1 means conducting, which the manual calls on.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Inputs of a chain, and what can be asked.
+// Sets the inputs of a chain, and answers questions about its state.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -39,7 +39,7 @@ enum class Letter : std::uint8_t { x, y, z, w };
 /// The value of assign() for "no module".
 inline constexpr int kUnassigned = 8;
 
-/// ?MD.
+/// The values of ?MD.
 enum class Mode : std::uint8_t { idle = 0, position = 1, jog = 2, torque = 3, coordinated = 4, analog = 5 };
 
 /// The bits of ?ST that the chain determines.
@@ -110,8 +110,8 @@ class Chain {
   /// Takes two to four coordinates: X, Y, Z, W.
   Error line(std::span<const double> units, bool absolute);
   Error arc(const ArcOrder& order);
-  /// `growth_units` is the growth of the radius, in a turn or in all. By choice `sweep_deg` is the radius at
-  /// the end.
+  /// `growth_units` is the growth of the radius, per turn or in total (a choice). By choice `sweep_deg` is
+  /// the radius at the end.
   Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
   /// CM: `mode` is 0, 1 or 2.
   Error set_continuous_path(int mode);
@@ -130,7 +130,7 @@ class Chain {
 
   ChainSettings settings() { return ChainSettings(state_); }
   Error set_analog_speed(int module);             // AVM
-  void set_options(const ChainOptions& options);  // FIFOs that are longer than allowed stay so
+  void set_options(const ChainOptions& options);  // FIFOs that are longer than allowed keep their commands
 
   // ---- Inputs, between ticks
 
@@ -142,7 +142,7 @@ class Chain {
 
   // ---- State
 
-  /// Returns what is queued, the pulses of the last tick, settings.
+  /// Returns the module's FIFO, settings, activity and the pulses of the last tick.
   const Module& module_at(int module) const { return state_.modules[at(module)]; }
   const motion::Axis& axis(int module) const { return state_.axes[at(module)]; }
   const ChainOptions& options() const { return state_.options; }
@@ -165,7 +165,8 @@ class Chain {
   }
   double speed_pps(int module) const;  // signed
   std::int64_t pulses_to_come(int module) const;
-  /// Returns the level after the last tick. It is asked at every tick, so the compiler should see it.
+  /// Returns the level after the last tick. Defined here so the compiler can inline it: it is called at every
+  /// tick.
   bool output(int module, int number) const {
     return state_.modules[at(module)].outputs[at(number - 1)].level_at(state_.now);
   }
@@ -177,14 +178,14 @@ class Chain {
 
   /// Runs one tick; ticks up to next_active_tick() may be skipped.
   void step(Tick tick);
-  /// Like stepping all ticks up to `now`, in which nothing may happen; later commands count from `now`.
+  /// Skips all ticks up to `now`, in which nothing may happen; later commands count from `now`.
   void skip_to(Tick now) { state_.now = now; }
   /// Returns the first tick after `done` at which something may happen without a command, or kNever.
   Tick next_active_tick(Tick done) const;
-  /// Like next_active_tick(), while modules only continue their motion within the free travel of their
-  /// machines; at most `most` + 1.
+  /// Like next_active_tick(), but also skips ticks in which modules only continue their motion within the
+  /// free travel of their machines. Returns at most `most` + 1.
   Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
-  /// Runs all ticks up to `tick`, before that event, in one step. Adds the pulses of each module.
+  /// Runs all ticks up to `tick`, which is before that event, in one step. Adds the pulses of each module.
   void fast_forward_to(Tick tick, std::span<std::int64_t> pulses);
 
  private:

@@ -1,4 +1,4 @@
-// A restored chain must be one whose ticks can neither leave a table nor run away.
+// Refuses a restored chain whose ticks could leave a table or never end.
 #include "emulator/models/slim/chain/chain_fields.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ void require_coordinate(double units) {
   require_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
 }
 
-// Or an acceleration, each in its own unit.
+// Used for accelerations, too; each has its own unit.
 void require_speed(double value) {
   require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is beyond its range");
 }

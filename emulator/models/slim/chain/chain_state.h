@@ -63,7 +63,7 @@ struct ChainState {
     return {modules[at(module)], axes[at(module)], environment[at(module)], options, now};
   }
 
-  /// Returns true if PZ applies to the module, or to one of the group.
+  /// Returns true if PZ applies to the module, or to a module of the group.
   bool in_pause_scope(int module) const { return module == 0 || !options.chose(option("pause_scope", "t0")); }
   bool in_pause_scope(const Group& group) const;
   /// Returns the pauses of a module or a group: TAPZ, and PZ within its scope.
@@ -79,7 +79,7 @@ struct ChainState {
 
 /// Drops a job from all FIFOs.
 void drop_job(ChainState& chain, std::uint64_t number);
-/// Drops the job at the head of the module's FIFO, from all FIFOs. The module has the error.
+/// Drops the job at the head of the module's FIFO from all FIFOs, and gives the module the error.
 void drop_head(ChainState& chain, int module, Error why);
 /// Drops all jobs in the module's FIFO after the first `kept`, from all FIFOs.
 void forget_queue(ChainState& chain, int module, std::size_t kept = 0);

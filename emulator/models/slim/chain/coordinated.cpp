@@ -36,10 +36,10 @@ int Chain::assigned(Letter letter) const {
 
 namespace {
 
-/// Fills in what counts when the command is issued.
+/// Enqueues a job with the settings that are in effect now.
 Error enqueue_coordinated(ChainState& chain, Job job) {
   motion::Point begin = motion::Point::Zero();
-  bool begin_is_known = true;  // while a jog runs, it is a guess
+  bool begin_is_known = true;  // while a jog runs, the beginning is a guess
   const ModuleSettings& first = chain.modules[at(job.module_of[0])].settings;
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     const int module = job.module_of[i];

@@ -1,4 +1,4 @@
-// Outputs of a module, in their turn and at once.
+// Commands for the outputs of a module, queued and at once.
 #include <cstddef>
 #include <cstdint>
 
@@ -16,7 +16,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// A little more than an hour of ticks; the manual states no limit for PLS.
+/// In units of 4 ms: a little more than an hour. The manual states no limit for PLS.
 constexpr std::int32_t kLongestPulse = 1'000'000;
 constexpr double kFastestPwm_hz = 1e6;
 

@@ -89,7 +89,7 @@ void note_ends(ChainState& chain, const Job& job, std::size_t place, const motio
   }
 }
 
-/// The path of a job from a place, or nothing if it is impossible, too far, or by choice empty.
+/// Returns the path of a job from a place, or nothing if it is impossible, too far, or by choice empty.
 std::optional<motion::Path> path_from(const ChainState& chain, const Job& job, const motion::Point& begin) {
   try {
     const motion::Path path = path_of(job, begin);
@@ -110,7 +110,7 @@ void finish_empty(ChainState& chain, const Job& job, const motion::Point& end) {
   }
 }
 
-/// A group that is ready to begin the job's path.
+/// Returns a group that is ready to begin the job's path.
 Group group_for(const ChainState& chain, const Job& job, const motion::Path& path) {
   Group group;
   const ModuleSettings& speeds = path_settings(chain, job);
@@ -182,7 +182,7 @@ void extend_group(ChainState& chain, Group& group) {
     const Job next = fifo[group.paths];
     if (!next.coordinated() || !at_all_places(chain, next, group.paths)) return;
     Job before = fifo[group.paths - 1U];
-    // The acceleration can only change at rest, and so can a speed that is another one's.
+    // The acceleration can change only at rest, and so can the parameter that gives the speed.
     if (before.path_acceleration_units_s2 != next.path_acceleration_units_s2) return;
     if (chain.options.chose(option("joint", "second_command_decides"))) before.continuous = next.continuous;
     const motion::Joint joint = joint_between(before, next);

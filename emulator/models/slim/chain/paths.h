@@ -15,10 +15,10 @@ namespace understudy::emulator::models::slim {
 
 /// Returns the module's settings whose speed and acceleration a path uses.
 const ModuleSettings& path_settings(const ChainState& chain, const Job& job);
-/// PR4 instead of PR3.
+/// Returns true if the job's speed is PR4 rather than PR3.
 bool goes_by_line_speed(const ChainOptions& options, const Job& job);
 double path_speed(const ChainOptions& options, const Job& job, const ModuleSettings& settings);
-/// Returns true if the modules can count the path; of an arc, all that the circle may reach.
+/// Returns true if its modules can count all positions of the path; for an arc, of its whole circle.
 bool within_reach(const ChainState& chain, const Job& job, const motion::Path& path);
 bool is_refused_as_empty(const ChainOptions& options, const motion::Path& path);
 
@@ -27,17 +27,17 @@ bool free_to_move(const ChainState& chain, int module);
 /// Starts the path at the head of the module's FIFO, if it is at the head of all FIFOs that it is in and all
 /// its modules are free. Returns true if FIFOs have changed.
 bool start_group(ChainState& chain, int module, Tick begin_at);
-/// Gives a running path what follows it without a stop, so that it need not slow down.
+/// Gives a running path the commands that follow it without a stop, so it need not slow down.
 void extend_group(ChainState& chain, Group& group);
 
 /// Drops the commands whose paths the group has completed. It has just been stepped.
 void drop_completed(ChainState& chain, Group& group);
-/// Lets the modules of a group that has ended go, with what is left of its commands.
+/// Releases the modules of a group that has ended, and drops what is left of its commands.
 void release_group(ChainState& chain, Group& group, Tick begin_at);
 
-/// Sends no more pulses of the module, nor of those that share its path. The running command is dropped.
+/// Stops the pulses of the module at once, and of those that share its path. The running command is dropped.
 void cut(ChainState& chain, int module, motion::Cause why);
-/// Slows down what the module does, or ends it; all that is in its FIFO is about to be dropped.
+/// Slows down or ends the module's activity, because its FIFO is about to be dropped.
 void slow_for_discard(ChainState& chain, int module);
 
 }  // namespace understudy::emulator::models::slim

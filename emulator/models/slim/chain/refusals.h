@@ -1,4 +1,4 @@
-// Why a command is refused before anything has changed.
+// Finds why a command is refused, before anything has changed.
 #pragma once
 
 #include "emulator/models/slim/chain/chain_state.h"
@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns why any command is refused: not_linked.
+/// Returns the refusal that applies to every command: not_linked.
 Error refusal(const ChainState& chain, int module);
 /// Return why a motion of a module, given by its letter or by its number, is refused.
 Error refusal_of_motion(const ChainState& chain, int module, InPause what = InPause::motion);

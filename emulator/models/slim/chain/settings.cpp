@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-// A speed or an acceleration, in its own unit.
+// Used for accelerations, too; each has its own unit.
 bool plannable(double value) { return value >= kMinSpeed && value <= kMaxSpeed; }
 
 }  // namespace
@@ -71,7 +71,7 @@ Error ChainSettings::set_jog_speed(int module, double rpm_or_rps) {
   Module& mine = chain_.modules[at(module)];
   const bool same_sense = rpm_or_rps * mine.settings.jog_speed > 0;
   mine.settings.jog_speed = rpm_or_rps;
-  // A jog that must reverse or stop is another one.
+  // A jog that must reverse or stop counts as a new one.
   const bool counts_at_once = same_sense && chain_.options.new_speed_counts_at_once();
   if (mine.activity == Activity::jog && counts_at_once) refresh_speed(chain_, module);
   return Error::none;

@@ -9,12 +9,12 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Functions that change them. They return Error::none, or refuse the value and change nothing.
+/// Changes the settings. The functions return Error::none, or refuse the value and change nothing.
 class ChainSettings {
  public:
   explicit ChainSettings(ChainState& chain) : chain_(chain) {}
 
-  void set_linked(int module, bool linked);  // module 0 always is
+  void set_linked(int module, bool linked);  // module 0 is always linked
   /// Refused while the module moves or has a command to do.
   Error set_scale(int module, std::int64_t multiplier, std::int64_t divider);
   Error set_pulses_per_revolution(int module, std::int32_t pulses);
@@ -34,7 +34,7 @@ class ChainSettings {
   ChainState& chain_;
 };
 
-/// Applies what has changed a module's speed, and starts what has waited for a speed.
+/// Applies a change of a module's speed, and starts what has waited for a speed.
 void refresh_speed(ChainState& chain, int module);
 
 }  // namespace understudy::emulator::models::slim

@@ -28,7 +28,7 @@ void hold(ChainState& chain) {
   for (int module = 0; module < kModules; ++module) {
     if (chain.held(module)) hold_motion(chain.motor(module));
   }
-  serve(chain, chain.now + 1);  // outputs that waited for a jog's end
+  serve(chain, chain.now + 1);  // starts outputs that waited for a jog's end
 }
 
 void release(ChainState& chain) {
@@ -54,10 +54,10 @@ void give_up(ChainState& chain, bool in_scope_only) {
   for (int module = 0; module < kModules; ++module) {
     if (is_meant(module)) forget_queue(chain, module);
   }
-  serve(chain, chain.now + 1);  // commands that waited in other FIFOs for a dropped one
+  serve(chain, chain.now + 1);  // starts commands that waited in other FIFOs for a dropped one
 }
 
-/// Discards what waits, but not what is in progress.
+/// Discards waiting commands, but not those in progress.
 void clear_waiting(ChainState& chain) {
   for (Group& group : chain.groups) {
     if (!group.motion.engaged || group.paths == 0 || !chain.in_pause_scope(group)) continue;

@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// PZ, REDO, CLR BUF, TAPZ, TAREDO, TAUPZ, TASTOP, and what a RESET of T0 does to pauses.
+/// Executes PZ, REDO, CLR BUF, TAPZ, TAREDO, TAUPZ, TASTOP, and the effect of a RESET of T0 on pauses.
 Error steer(ChainState& chain, InPause what);
 
 }  // namespace understudy::emulator::models::slim

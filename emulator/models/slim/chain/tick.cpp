@@ -26,7 +26,7 @@ namespace {
 
 using Pulses = std::array<std::int64_t, kModules>;
 
-/// Places that switch outputs do so in the order in which they are passed.
+/// Switches outputs at their places, in the order in which the axes pass them.
 class TriggerOwner final : public motion::EdgeOwner {
  public:
   explicit TriggerOwner(ChainState& chain) : chain_(chain) {}
@@ -76,7 +76,7 @@ void step_axes(ChainState& chain) {
   }
 }
 
-/// Returns true if the module does nothing of itself but what its axis does.
+/// Returns true if nothing happens to the module by itself, apart from its axis or group.
 bool waits(const ChainState& chain, int module) {
   const Module& mine = chain.modules[at(module)];
   const motion::Axis& axis = chain.axes[at(module)];

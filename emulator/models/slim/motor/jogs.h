@@ -1,4 +1,4 @@
-// Jogs and thrust of one module. They pass by the FIFO; one that comes during another motion follows it.
+// Jogs and thrust of one module. They bypass the FIFO; one that comes during another motion follows it.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Orders a jog in `direction`, or thrust if that is 0. It replaces another one, or follows what stops.
+/// Orders a jog in `direction`, or thrust if that is 0. It replaces a running one, or follows another motion.
 void order_jog(const Motor& motor, int direction, std::int32_t force);
 void begin_jog(const Motor& motor, int direction, Tick begin_at);
 /// Begins the jog or thrust that has waited for the motor to stop, if there is one.
 void begin_next_jog(const Motor& motor, Tick begin_at);
-/// JG0: slows down, and forgets what was to follow.
+/// Slows down for JG0, and cancels the jog or thrust that was to follow.
 void stop_jog(const Motor& motor);
 
-/// Stops it for a pause. resume_jog() continues what it was about to be.
+/// Stops a jog or thrust for a pause. resume_jog() continues it, or the one that was to follow.
 void hold_jog(const Motor& motor);
 void resume_jog(const Motor& motor);
 
-/// Slows down from a move or homing that is given up.
+/// Slows down from a move or homing that is abandoned.
 void slow_down_for_good(const Motor& motor);
 
 /// Does what the end of a jog, of thrust, or of slow_down_for_good() requires, if the axis is at rest.

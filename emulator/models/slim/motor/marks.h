@@ -1,6 +1,6 @@
 // Marks of a module: what an activity sets for a later decision. Each mark has a row with the events that
-// clear it, and marks are cleared by this table, except where a motion continues in another way: AVM has a
-// speed again (refresh_speed(), resume_motion()), VM ends AVM, and thrust that runs was a jog for a moment.
+// clear it, and this table clears marks, except where a motion continues in another way: AVM has a speed
+// again (refresh_speed(), resume_motion()), VM ends AVM, and running thrust was a jog for a moment.
 // marks_test.cpp begins every activity, ends it in every possible way and checks all rows.
 #pragma once
 

@@ -21,8 +21,8 @@ inline constexpr int kModules = 8;
 inline constexpr int kOutputs = 4;
 inline constexpr std::size_t kFifoLength = 32;
 inline constexpr int kFullAnalog = 1000;
-/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (1e-6
-/// is the value that 32 bits hold.)
+/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (The
+/// lower limit is 1e-6 as a 32-bit real.)
 inline constexpr double kMinSpeed = 1e-6F;
 inline constexpr double kMaxSpeed = 1e9;
 
@@ -61,18 +61,18 @@ struct Module {
   bool homed = false;
   Activity activity = Activity::idle;
   std::int8_t jog_direction = 0;       // direction of the running jog
-  std::int8_t next_jog_direction = 0;  // jog that begins when the running motion has stopped, or ...
-  std::int32_t next_thrust = 0;        // ... thrust that does
-  std::int8_t held_jog_direction = 0;  // jog that continues after the pause, or ...
-  std::int32_t held_thrust = 0;        // ... thrust that does
+  std::int8_t next_jog_direction = 0;  // jog that begins when the running motion has stopped
+  std::int32_t next_thrust = 0;        // thrust that does the same
+  std::int8_t held_jog_direction = 0;  // jog that continues after the pause
+  std::int32_t held_thrust = 0;        // thrust that does the same
   bool analog_speed = false;           // AVM
   bool starved = false;                // slowed down because AVM gives no speed
   std::int16_t analog = 0;             // 0 .. kFullAnalog
-  std::int32_t thrust = 0;             // number of FT while it pushes; otherwise 0
+  std::int32_t thrust = 0;             // FT's operand while it pushes; otherwise 0
   std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
-  double place_units = 0;          // at rest: the commanded coordinate, of which travel is the rounded value
-  std::int64_t sent_pulses = 0;    // of the last tick, as they are sent
-  Error late_error = Error::none;  // error of a queued command when its turn came
+  double place_units = 0;              // at rest: the commanded coordinate; travel is this, rounded to pulses
+  std::int64_t sent_pulses = 0;        // of the last tick, as they are sent
+  Error late_error = Error::none;      // error of a queued command when its turn came
   std::array<Output, kOutputs> outputs{};
   std::array<PositionTrigger, 2> triggers{};
   Fifo<Job, kFifoLength> fifo;
@@ -89,7 +89,7 @@ struct Module {
 
   // ---- With its axis
   double coordinate(const motion::Axis& axis) const { return units_of(axis.travel_pulses - zero_pulses); }
-  /// Both return what will be so after all commands in the FIFO; `number` is the module's own.
+  /// Both return the state after all commands in the FIFO; `number` is the module's own.
   bool servo_expected(const motion::Axis& axis) const;
   double end_expected(int number, const motion::Axis& axis) const;
 

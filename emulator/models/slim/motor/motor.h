@@ -1,7 +1,8 @@
-// One module at work: its state, its axis, and what both look up. A view, made for a command or a tick.
+// One module at work: its state, its axis, and the data that both look up. A view, made for a command or a
+// tick.
 //
 //   motor.h   the coordinate, the outputs, and the places at which they switch
-//   jogs.h    jogs and thrust, which pass by the FIFO; slowing down from a motion that is given up
+//   jogs.h    jogs and thrust, which bypass the FIFO; slowing down from an abandoned motion
 //   moves.h   MA, MR and H, at the FIFO's head; what the end of each motion requires
 //
 // Each knows those above it, and none knows another module.
@@ -26,7 +27,7 @@ struct Motor {
   double coordinate() const { return module.coordinate(axis); }
 };
 
-/// CS, and the end of a homing: the place is called `units` from now on.
+/// Sets the coordinate of the present place to `units`, for CS and at the end of a homing.
 void set_coordinate(const Motor& motor, double units);
 
 // ---- Outputs

@@ -40,7 +40,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
   motion::Axis& axis = motor.axis;
   Job& job = module.fifo[0];
   if (!job.absolute) job.units[0] += module.place_units;
-  job.absolute = true;  // the rest of an interrupted one goes to the same position
+  job.absolute = true;  // the rest of an interrupted move goes to the same position
   job.ends[0] = job.units[0];
   if (!axis.servo_on) return drop_head(module, Error::servo_off);
   if (!module.reaches(job.units[0])) return drop_head(module, Error::range);
@@ -51,7 +51,7 @@ bool start_move(const Motor& motor, Tick begin_at) {
     return true;
   }
   const motion::SpeedLaw law = module.working_law(motor.options);
-  if (law.top_speed_u_s == 0) return false;  // AVM without a voltage: it starts when there is some
+  if (law.top_speed_u_s == 0) return false;  // AVM without a voltage: the move starts when there is one
   motion::Cause refused = motion::Cause::none;
   try {
     refused = axis.move(distance, law, begin_at - 1);
@@ -129,7 +129,7 @@ bool refresh_speed(const Motor& motor, bool is_held) {
   if (!is_move && module.activity != Activity::jog) return true;
   const motion::SpeedLaw law = is_move ? module.working_law(motor.options) : module.jog_law(motor.options);
   const bool stands_still = !is_move && module.settings.jog_speed == 0;
-  const bool stops = axis.slowing && !module.starved;  // for JG0, say
+  const bool stops = axis.slowing && !module.starved;  // after JG0, for example
   const bool stops_anyhow = stops || is_held || module.next_jog_direction != 0 || module.next_thrust != 0;
   if (stops_anyhow || (stands_still && axis.task == motion::Task::hanging)) return false;
   if (law.top_speed_u_s == 0) {

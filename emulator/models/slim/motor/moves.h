@@ -1,4 +1,5 @@
-// What a module does at the head of its FIFO on its own: MA, MR and H; pauses and AVM, which slow it down.
+// The commands that a module executes alone at the head of its FIFO (MA, MR and H); pauses and AVM slow it
+// down.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -12,7 +13,7 @@ namespace understudy::emulator::models::slim {
 bool start_move(const Motor& motor, Tick begin_at);
 bool start_home(const Motor& motor, Tick begin_at);
 
-/// Does what the end of a move or homing means.
+/// Does what the end of a move or homing requires.
 void after_move(const Motor& motor);
 /// Does what the end of a motion requires, if the motor has had one of its own and is at rest.
 inline void after_motion(const Motor& motor, Tick begin_at) {

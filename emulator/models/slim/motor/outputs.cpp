@@ -18,7 +18,7 @@ bool varies(const Output& output) {
   return output.frequency_hz <= kFastestShown_hz && output.duty_percent > 0 && output.duty_percent < 100;
 }
 
-/// The first tick, counted from the period's number 0, that is at or after `periods` of them.
+/// Returns the first tick, counted from the start of period 0, that is at or after `periods` periods.
 double tick_of(const Output& output, double periods) {
   return std::ceil(periods * kTicksPerSecond / output.frequency_hz - kTolerance_ticks);
 }
@@ -76,7 +76,7 @@ void carry_out(Output& output, const OutputOrder& order, Tick begin_at) {
                 .duty_percent = order.duty_percent};
       break;
     case OutputOrder::Kind::all:
-    case OutputOrder::Kind::arm: break;  // of a whole module
+    case OutputOrder::Kind::arm: break;  // the module handles this
   }
 }
 

@@ -18,7 +18,7 @@ struct Output {
     pwm,    // on for the first `duty_percent` of each period, counted from `since`
   };
   Mode mode = Mode::level;
-  bool on = false;  // the level in mode level; in the other modes that before `since`
+  bool on = false;  // the level in mode level; in the other modes, the level before `since`
   Tick since = 0;
   Tick width = 0;  // of a single pulse
   double frequency_hz = 0;
@@ -59,7 +59,7 @@ struct PositionTrigger {
   bool operator==(const PositionTrigger&) const = default;
 };
 
-/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, to last for whole ticks.
+/// Executes all kinds but arm. Pulses and PWM begin with tick `begin_at`, so they last whole ticks.
 void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,5 +1,4 @@
-// The chain looks up what the manual leaves open about modules and motion in the rows of choices.h, as the
-// device does.
+// Gives the chain the chosen options of the rows of choices.h that concern modules and motion.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// The chosen option of each row; at first our own, the first of the row.
+/// The chosen option of each row; by default our own choice, the first of the row.
 struct ChainOptions {
   std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
 

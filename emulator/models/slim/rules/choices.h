@@ -1,5 +1,5 @@
 // SLIM: what its command list leaves open, and what we chose. The list gives names and meanings of commands
-// and hardly anything of the dialogue around them, so most rows are proposals. docs/fidelity/slim.md is
+// and hardly anything about the dialogue around them, so most rows are proposals. docs/fidelity/slim.md is
 // generated from these rows; a bench overrides one with `choices: { ID: OPTION }`.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The transition table of pauses: for each pause in effect and each command, what happens.
+// The transition table of pauses: what each command does under each pause.
 //
 //   PZ   is ended by REDO, which continues, and by CLR BUF, which abandons
 //   TAPZ is ended by TAREDO, which continues, and by TAUPZ, which abandons

@@ -1,6 +1,5 @@
 // The transition table of pauses, resumes and stops against the activities of the chain and its program. Each
-// cell has its outcome and the source for it: the list's line, or a row of choices.h, whose first option it
-// is.
+// cell has its outcome and the source for it: the list's line, or the first option of a row of choices.h.
 //
 // The code follows this table (chain/stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
 // transitions_test.cpp checks every cell.
@@ -37,7 +36,7 @@ enum class Event : std::uint8_t {
 };
 inline constexpr std::size_t kEvents = 6;
 
-/// Where the command comes from.
+/// The source of a command.
 enum class From : std::uint8_t { host, program, event_routine };
 inline constexpr std::size_t kSources = 3;
 
@@ -48,7 +47,7 @@ enum class Outcome : std::uint8_t {
   is_forgotten,      // is at rest and does not continue
   stops_at_once,     // stops without another pulse and does not continue
   // of a program:
-  goes_on,             // continues as if nothing had happened: it waits on, or takes its next line
+  goes_on,             // continues as if nothing had happened: it keeps waiting, or takes its next line
   ends,                // takes no further line
   ends_after_routine,  // the event's routine continues to its RET, but the interrupted program does not
   cannot_be,           // impossible: a waiting program gives no command, except in an event's routine

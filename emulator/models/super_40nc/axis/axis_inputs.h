@@ -1,4 +1,4 @@
-// What the axes encounter: switches along their travel, the drive's alarm, the encoder's index.
+// The signals that the axes meet: switches along their travel, the drive's alarm, the encoder's index.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ class AxisInputs : protected Chips {
 
   /// Returns X33 or X34: 0 not in use, 1 NO, 2 NC.
   Value limit_logic(int axis, int direction) const;
-  /// Returns true if D8x18 and D8x19 are what acts of X33 and X34.
+  /// Returns true if D8x18 and D8x19 act in place of X33 and X34.
   bool has_limit_copies() const { return !chose(option("limit_copies", "plain_registers")); }
   void update_environment(int axis_number);
   void see_first_signals();
   void set_edges(int axis, const MachineEdges& edges);
   /// Returns where a switch of the machine switches an input, in the axis's own direction.
   std::optional<MachineEdges::Span> span_of(int axis, int input) const;
-  /// The edges of a restored state are set again before anything has changed.
+  /// Announces that the edges of a restored state will be set again before anything has changed.
   void await_edges() { is_restored_.fill(true); }
   void await_no_edges() { is_restored_.fill(false); }
 

@@ -59,7 +59,7 @@ motion::AxisSettings AxisParameters::motor_settings(int axis, bool homes) const 
   return made;
 }
 
-/// If D8x17 is a counter of its own, another CMX or CDV leaves it unchanged.
+/// If D8x17 is a counter of its own, a new CMX or CDV leaves it unchanged.
 void AxisParameters::keep_display(int axis_number) {
   AxisState& state = axis(axis_number);
   const motion::UnitScale scale = registers().scale(axis_number);

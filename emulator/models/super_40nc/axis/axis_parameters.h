@@ -1,4 +1,4 @@
-// How parameters and counters act on an axis when they are written.
+// Applies parameters and counters to an axis when they are written.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ class AxisParameters : protected Chips {
   AxisParameters(const Chips& chips, Comparators& comparators, AxisInputs& inputs)
       : Chips(chips), comparators_(comparators), inputs_(inputs) {}
 
-  /// Applies a written parameter of an axis: `number` of D9x00 + number; 0: a D8x.
+  /// Applies a written register of an axis: D9x00 + `number`, or for 0 a D8x.
   void apply_axis_parameters(int axis_number, int number);
   /// Applies the parameters of all axes.
   void apply_all_axis_parameters();
   void set_work_lu(int axis_number, std::int64_t position);
   void set_counter(int axis_number, int number, std::int32_t pulses);
-  /// ZERO SET.
+  /// Executes ZERO SET.
   void set_zero(int axis_number);
   motion::AxisSettings motor_settings(int axis, bool homes) const;
 

@@ -1,4 +1,4 @@
-// The parts of the axes, each of which knows only parts before it.
+// The parts of the axes. Each may use only those before it.
 #pragma once
 
 #include "emulator/models/super_40nc/axis/axis_flags.h"

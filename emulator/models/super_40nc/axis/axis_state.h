@@ -24,7 +24,7 @@ enum class RestKind : std::uint8_t { none, move, path, mark, turning, home };
 struct Rest {
   RestKind kind = RestKind::none;
   std::int64_t travel = 0;    // the chip's travel at the target
-  std::int64_t distance = 0;  // MRK: distance to the target, and beyond it
+  std::int64_t distance = 0;  // MRK: distance to the target; `search` is the distance beyond it
   std::int64_t search = 0;
   bool searches = false;
   bool marks_positive = false;
@@ -76,14 +76,14 @@ struct AxisState {
   bool has_ended = false;  // a motion has ended since the last start
   bool has_error = false;
   std::int8_t order = 0;  // order number of the panel's HOME or ZERO key that started it; 0: none
-  double step_pps = 1;    // pps in a step of the chip's speeds, since the last start
+  double step_pps = 1;    // pps per step of the chip's speeds, since the last start
 
   // Relative targets are added to the last target while the axis is at it.
   bool stands_on_target = false;
   std::int64_t target_lu = 0;
 
   WheelSource wheel = WheelSource::none;
-  std::int32_t wheel_lu = 0;     // length for one count, during an MPG line
+  std::int32_t wheel_lu = 0;     // length per count, during an MPG line
   std::int32_t wheel_edges = 0;  // edges that do not make up a count yet
 
   bool operator==(const AxisState&) const = default;

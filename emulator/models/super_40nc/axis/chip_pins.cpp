@@ -55,7 +55,7 @@ void ChipPins::pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed
   const Value mode = registers().of(kept_x(d9x::kClrSignal), axis);
   if (mode == (is_on ? kAtOn : kAtOff) || holds_cleared(axis)) clear_by_pin(axis);
   const bool has_level = mode == kWhileOn || mode == kWhileOff;
-  if (has_level) parameters_.apply_axis_parameters(axis, 0);  // a held counter passes nothing
+  if (has_level) parameters_.apply_axis_parameters(axis, 0);  // a held counter passes no comparator
 }
 
 void ChipPins::hold_cleared() {

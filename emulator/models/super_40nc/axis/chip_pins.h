@@ -19,12 +19,13 @@ class ChipPins : protected Chips {
 
   using Chips::has_chip_pins;
   void see_pins();
-  /// Called at the moment of a change of CLR or LTC, when the counters have counted until then. `speed` is
-  /// the chip's at that moment.
+  /// Handles a change of CLR or LTC at that moment, after the counters have counted up to it. `speed` is the
+  /// chip's at that moment.
   void pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed);
   /// Clears the counters in the mask D9x27.
   void clear_by_pin(int axis);
-  /// A held counter counts nothing. COUNTER1 follows the travel: it is set back at the end of each tick.
+  /// Clears the counters that CLR holds at 0. COUNTER1 follows the travel, so it is set back at the end of
+  /// each tick.
   void hold_cleared();
   /// Returns true while ERC is given (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < axes_.erc_until[static_cast<std::size_t>(axis)]; }

@@ -99,7 +99,7 @@ enum Operation : std::int32_t {
   kSlowingDown = 13,
 };
 
-/// Makes 32 bits of a sum that wraps, as the chip does.
+/// Wraps a sum to 32 bits, as the chip does.
 inline std::int32_t wrapped(std::int64_t number) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(number));
 }

@@ -68,7 +68,7 @@ bool Comparators::comparator_holds(int axis, int number) const {
   }
 }
 
-/// Returns the comparator as the axis compares, or nothing if it cannot.
+/// Returns the comparator in the axis's own form, or nothing if the axis cannot evaluate it.
 std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, std::size_t which) const {
   const Settings settings = registers();
   const ComparatorRow& row = kComparatorRows[which];

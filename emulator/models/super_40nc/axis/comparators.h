@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// What a comparator that is checked at the end of a tick demands.
+/// The stop that a comparator demands when it is checked at the end of a tick.
 struct ComparatorStop {
   bool by_ramp = false;
   motion::Cause why = motion::Cause::none;

@@ -26,7 +26,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-/// Counts of a tick are spread evenly over it, the last one at its end.
+/// Returns the counts by this moment of a tick: they are spread evenly over it, the last one at its end.
 std::int64_t spread(std::int64_t counts, double at_s) {
   const double part = at_s * motion::kTicksPerSecond;
   const auto come = static_cast<std::int64_t>(part * static_cast<double>(std::abs(counts)) + 1e-9);

@@ -20,7 +20,7 @@ struct BeforeTick {
   std::array<std::int8_t, kAxisCount> phase{};  // of a homing
 };
 
-/// The input that the counters may count.
+/// The input that the counters can count.
 struct Counted {
   std::int64_t pulses = 0;
   std::int64_t backlash = 0;
@@ -29,7 +29,7 @@ struct Counted {
   std::int64_t clock = 0;
 };
 
-/// Returns what COUNTER2 to COUNTER4 (`counter` 1 to 3) count of it, by D9x19, D9x23 to D9x25 and D9x29.
+/// Returns how much of it COUNTER2 to COUNTER4 (`counter` 1 to 3) count, by D9x19, D9x23 to D9x25 and D9x29.
 std::int64_t counts_of(const Settings& settings, int axis, int counter, const Counted& counted);
 
 class Counters : protected Chips {
@@ -50,8 +50,8 @@ class Counters : protected Chips {
   void set_encoder(int axis_number, std::int64_t counts);
   /// Returns true if nothing of the axis changes until something happens to it.
   bool is_quiet(int axis_number) const;
-  /// Returns true if a clock drives COUNTER4, or COUNTER4 or the comparators 4 and 5 latch at the end of a
-  /// tick: such ticks are run.
+  /// Returns true if every tick must be run: a clock drives COUNTER4, or comparator 4 or 5 latches at the end
+  /// of a tick.
   bool acts_each_tick(int axis) const;
   /// Clears counters at the end of a home, after the counts of its last tick.
   void clear_counters(int axis_number);

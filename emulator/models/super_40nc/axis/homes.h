@@ -16,9 +16,9 @@ class Homes : protected Chips {
 
   void start_home(int axis_number, int order = 0);
   void start_zero(int axis_number, int order = 0);
-  /// `code` is the reason of the failure; none: it was abandoned.
+  /// Called when a homing has ended. `code` is the reason for a failure; none: it was abandoned.
   void home_ended(int axis_number, bool found, Code code);
-  /// The zero return of an axis has ended before its target.
+  /// Called when the zero return of an axis has ended before its target.
   void zero_failed(int axis_number);
 
  private:

@@ -1,6 +1,5 @@
-// Which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0 ends
-// any motion, and what stops programs; the rest is ours (5.7 of the specification). The motion that moves an
-// axis keeps it.
+// Decides which motion gets an axis. The manual only says that a DRV waits for the one before it, that VDRV 0
+// ends any motion, and what stops programs; the rest is our choice. The motion that moves an axis keeps it.
 #pragma once
 
 #include <array>
@@ -9,7 +8,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// What holds an axis.
+/// The holder of an axis.
 enum class Activity : std::uint8_t {
   nobody,
   jog,
@@ -22,7 +21,7 @@ enum class Activity : std::uint8_t {
 };
 inline constexpr std::size_t kActivities = 8;
 
-/// What requests an axis.
+/// A request for an axis.
 enum class Request : std::uint8_t {
   jog,
   home_or_zero,

@@ -1,4 +1,4 @@
-// How motions of an axis begin and end, whatever kind they are.
+// Begins and ends motions of an axis, whatever their kind.
 #pragma once
 
 #include <cstdint>

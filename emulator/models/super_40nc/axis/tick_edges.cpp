@@ -57,13 +57,13 @@ void TickEdges::latch(const motion::SharedTick& tick, int axis_number) {
   AxisState& state = axis(axis_number);
   const auto compared = state.compared;
   counters_.take_latch(axis_number, chip(axis_number).travel_pulses, speed(axis_number, seconds(tick.now())));
-  // It may clear counters; the rest of a move and the speed are not among them.
+  // A latch may clear counters, but not the rest of a move or the speed.
   for (std::size_t which = 0; which < kComparators; ++which) {
     if (question(axis_number, which).source >= kRemaining) state.compared[which] = compared[which];
   }
 }
 
-/// D9x50: latches at the DOG's edge, and at the comparators 4 and 5 if the axis itself compares them.
+/// Latches by D9x50: at the DOG's edge, or at the comparators 4 and 5 if the axis itself compares them.
 void TickEdges::at_edge(motion::SharedTick& tick, std::size_t number, motion::Events events) {
   const int axis_number = static_cast<int>(number);
   constexpr Value kDog = 1;
@@ -91,7 +91,7 @@ bool TickEdges::is_answered(const Question& of, std::int64_t before, std::int64_
   if (of.method != kSoftLimit) return is_met(of.source, of.method, before, present, of.set);
   const motion::Axis& motor = chip(of.axis);
   const bool reacts = !motor.moving() || motor.slowing || axes_.path.slowing_for != motion::Cause::none;
-  if (reacts) return false;  // it has been reported
+  if (reacts) return false;  // it has been reported already
   const int direction = motor.last_direction;
   return of.which == 0 ? direction > 0 && present > of.set
                        : of.which == 1 && direction < 0 && present < of.set;
@@ -117,7 +117,7 @@ bool TickEdges::may_be_answered(const Question& of, const Look& from, const Look
 std::int64_t TickEdges::speed(int axis_number, double at_s) const {
   const motion::Axis& motor = chip(axis_number);
   const bool has_profile = motor.drive.drive == motion::Drive::running && !is_on_path(axis_number);
-  if (!has_profile) return chip_speed(axis_number);  // of the tick
+  if (!has_profile) return chip_speed(axis_number);  // the speed of the whole tick
   const double speed_pps = std::abs(motor.drive.sample(instant(at_s)).speed_u_s);
   return std::llround(speed_pps / axis(axis_number).step_pps);
 }
@@ -174,7 +174,7 @@ std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Qu
   return first_answer(tick, of, middle, to);
 }
 
-/// A speed rises or falls from one part of its profile to the next.
+/// Within a part of its profile, a speed only rises or only falls.
 std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Question& of, const Look& from,
                                              const Look& to) const {
   const motion::PulseDrive& drive = chip(of.axis).drive;
@@ -205,7 +205,7 @@ std::optional<double> TickEdges::next_comparison(motion::SharedTick& tick, const
   return of.source == kSpeed ? first_speed(tick, of, from, to) : first_answer(tick, of, from, to);
 }
 
-/// When the level of a pin changes that a switch of the machine switches.
+/// Returns when a pin changes its level next, if a switch of the machine is wired to it.
 std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, ChipPin pin, double from_s,
                                            double to_s) const {
   const auto span = inputs_.span_of(axis, chip_pin_of(axis, pin));
@@ -223,7 +223,7 @@ std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, C
   } else {
     const bool has_come = begin >= span->first && begin <= span->last;
     place = has_come ? begin : end >= begin ? span->first : span->last;
-    if (end >= begin ? begin > span->last : begin < span->first) return std::nullopt;  // behind it
+    if (end >= begin ? begin > span->last : begin < span->first) return std::nullopt;  // already passed
   }
   if (place == begin) return from_s;
   if (end >= begin ? end < place : end > place) return std::nullopt;
@@ -266,7 +266,7 @@ void TickEdges::at_moment(motion::SharedTick& tick) {
   tick.bring(static_cast<std::size_t>(number));
   counters_.count_until(number, at_s);
   if (found_.comparator) return compare(tick, question(number, *found_.comparator));
-  if (is_held_cleared(number, kCounter1)) pins_.clear_by_pin(number);  // until now
+  if (is_held_cleared(number, kCounter1)) pins_.clear_by_pin(number);  // they were held at 0 until now
   pins_.pin_changes(number, found_.pin, !pin_seen(number, found_.pin), speed(number, at_s));
 }
 

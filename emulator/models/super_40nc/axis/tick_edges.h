@@ -28,7 +28,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
       : Chips(chips), inputs_(inputs), counters_(counters), pins_(pins) {}
 
   void begin_tick(Tick tick, bool wheel_turns);
-  /// Returns the mask of the axes with comparators or pins that the axes themselves do not know.
+  /// Returns the mask of the axes with comparators or pins that the axes themselves do not evaluate.
   std::uint32_t watched() const { return watched_; }
 
   void at_edge(motion::SharedTick& tick, std::size_t axis, motion::Events events) override;
@@ -43,7 +43,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
     Counted since{};  // since the counters were counted last
     std::int64_t number = 0;
   };
-  /// A comparator, as it asks in this tick.
+  /// The question that a comparator asks in this tick.
   struct Question {
     int axis = 0;
     std::size_t which = 0;
@@ -52,7 +52,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
     std::int64_t set = 0;
   };
 
-  /// What the last next_moment() has found: a comparator, or a pin.
+  /// The result of the last next_moment(): a comparator, or a pin.
   struct Found {
     int axis = 0;
     std::optional<std::size_t> comparator{};

@@ -1,4 +1,4 @@
-// The signals of outputs Y0 to Y9: for some time they show that a motion or a program has finished.
+// The signals of outputs Y0 to Y9, which show for some time that a motion or a program has finished.
 #include <algorithm>
 #include <array>
 #include <cstddef>

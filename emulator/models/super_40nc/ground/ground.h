@@ -36,7 +36,7 @@ struct ErrorReport {
   std::int32_t step = 0;
   Area area = Area::plc;  // area of the step program's line; plc: a line of the PLC, or no line
   std::int32_t other_step = 0;
-  Tick tick = -1;  // of several errors in one tick the first one stays
+  Tick tick = -1;  // the first of several errors in one tick stays
 
   bool operator==(const ErrorReport&) const = default;
 };
@@ -86,7 +86,7 @@ class Ground {
 
   // --- registers and contacts
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
-  /// Writes a register as the device does: without its effect.
+  /// Writes a register without its effect, as the device itself does.
   void put(Kept kept, std::int32_t value, int axis = 0);
   /// Keeps the image's value in memory, if it is retentive.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
@@ -102,7 +102,7 @@ class Ground {
   bool keeps(const RegisterRow& row) const;
   std::uint32_t factory_bits(const RegisterRow& row) const;
   Eeprom factory_memory() const;
-  /// Loads the image from the memory, as it is at power-up.
+  /// Loads the image from the memory, as at power-up.
   void load_image();
   void take_parameters();
   void take_power_up_parameters();

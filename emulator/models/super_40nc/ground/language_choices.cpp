@@ -1,4 +1,4 @@
-// The options of the languages, as chosen.
+// Derives the options of the languages from the choices.
 #include "emulator/models/super_40nc/ground/language_choices.h"
 
 #include "base/choices.h"

@@ -1,4 +1,4 @@
-// The options of the languages that the choices of a device make.
+// The options of the languages, as the choices of a device set them.
 #pragma once
 
 #include "interpreter/super_40nc/options.h"

@@ -1,5 +1,4 @@
-// The retentive memory of a SUPER-40NC: latched contacts and registers, with the values that they leave the
-// factory with.
+// The retentive memory of a SUPER-40NC: latched contacts and registers, with their factory values.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -85,7 +84,7 @@ void Ground::put(Kept kept, std::int32_t value, int axis) {
   }
 }
 
-/// Puts written parameters into effect that had to wait.
+/// Puts into effect written parameters that had to wait.
 void Ground::take_parameters() {
   if (!parameters_wait_) return;
   state_.parameters_in_force.assign(state_.image.begin() + static_cast<std::ptrdiff_t>(kFirstParameterSlot),

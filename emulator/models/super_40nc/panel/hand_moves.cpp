@@ -58,7 +58,7 @@ void HandMoves::obey_order_keys() {
     if (!key.runs && keys_.is_pressed(what, -1)) key = {.runs = true};
   };
   press(axes_.homing_by_key, KeyDoes::home_by_order);
-  // As a HOME key it obeys the lock digit of HOME.
+  // As a HOME key, M8514 obeys the lock digit of HOME.
   constexpr int kHomeDigit = 1;
   const bool is_home_key = keys_.is_origin_the_home_key() && rises(kOriginKey);
   const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};

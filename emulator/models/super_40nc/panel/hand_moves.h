@@ -16,7 +16,7 @@ class HandMoves : protected Chips {
   void obey_contacts();
   /// Drops the orders: axes that are still stopping do not belong to a key pressed meanwhile.
   void give_up_orders();
-  /// PAUSE and M8006: slow down motion by hand, if that is chosen.
+  /// Slows down motion by hand for PAUSE and M8006, if that is chosen.
   void slow_by_hand(int axis);
 
  private:

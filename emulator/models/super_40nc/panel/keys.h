@@ -1,4 +1,4 @@
-// The panel's keys (《M85x 人機對應接點》): for each its contact, its function, and the digit that locks it.
+// The panel's keys (《M85x 人機對應接點》), each with its contact, its function, and the digit that locks it.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ struct Key {
   int lock = 0;       // the lock digit, counted from the left from 1
 };
 
-// Keys to which more than their row refers.
-inline constexpr int kFirstJogKey = 8560;  // the older jog keys come before
+// Keys that the code needs by name.
+inline constexpr int kFirstJogKey = 8560;  // the older jog keys have lower numbers
 inline constexpr int kOriginKey = 8514;    // the older name of the key that sets zero
 
 inline constexpr int kMainLockDigits = 6;
@@ -45,7 +45,7 @@ inline constexpr auto kKeys = [] {
   std::array<Key, kMain + kJogAliases + kOfAxes> keys;
   std::size_t next = 0;
   const auto add = [&](const Key& key) { keys[next++] = key; };
-  // Five keys have an older name that acts alike (《命令範例》 has the jog keys' older names as well).
+  // Five keys have an older name that does the same (《命令範例》 has the jog keys' older names as well).
   for (const auto& [contact, older, does, lock] :
        {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
         std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},

@@ -96,7 +96,7 @@ void PressedKeys::read_keys() {
             press(of_axis(m8x::kZeroSet, number));
         }
         break;
-      // These have no contact of their own: obey_contacts() checks them.
+      // These have no contact of their own: the parts that obey them call is_pressed().
       case KeyDoes::stop:
       case KeyDoes::stop_c:
       case KeyDoes::pause:

@@ -23,20 +23,20 @@ class PressedKeys : protected Chips {
   void read_keys();
   bool is_locked(const Key& key) const;
   bool is_wheel_locked(int axis) const;
-  /// Returns which of its two meanings M8514 has.
+  /// Returns true if M8514 means HOME rather than ZERO SET.
   bool is_origin_the_home_key() const { return chose(option("m8514_meaning", "home")); }
   /// Returns true if the key is pressed in this scan; axis -1: on the main page.
   bool is_pressed(KeyDoes what, int axis) const;
 
   bool is_stopped_by_emergency() const;
   bool is_held_in_reset(int axis) const;
-  /// Returns true under M8004 or one of the above: starts by hand are then dropped without a code.
+  /// Returns true under M8004, in an emergency or in reset: starts by hand are then dropped without a code.
   bool is_inhibited(int axis) const;
   /// Returns true if levels that stayed ON through a reset act now.
   bool acts_behind_reset(int axis) const;
   /// Returns true for a level that has stayed ON through a stop, if a choice makes it act.
   bool is_level_again(int axis, int contact) const;
-  /// D8020 or D8021 was written.
+  /// Called when D8020 or D8021 has been written.
   void select_wheel() { state_.wheel_selected = true; }
   /// Remembers for the next scan which axes are held in reset.
   void see_held();

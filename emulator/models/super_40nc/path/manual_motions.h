@@ -1,4 +1,4 @@
-// What each event does to a motion that no line of a step program waits for: the whole table, as data. (《M8
+// The table of what each event does to a motion for which no line of a step program waits. (《M8
 // 特殊接點的功用》, 《M8x 特殊接點的功用》, 《STP 指令》; where the manual says nothing, the entry is ours.)
 // The motor itself handles limits and alarms; interpreter/super_40nc/events.h handles lines and their
 // programs.

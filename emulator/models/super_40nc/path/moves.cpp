@@ -150,7 +150,7 @@ void Moves::hold_axis(int axis_number) {
   motor.slow_down(now());
 }
 
-/// Called when a held axis has come to rest; it waits.
+/// Called when a held axis has come to rest, where it waits.
 void Moves::rest_axis(int axis_number) {
   AxisState& state = axis(axis_number);
   if (state.rest.kind == RestKind::mark) {

@@ -1,4 +1,4 @@
-// What stops, holds and continues an axis, whether it moves alone or on a path.
+// Stops, holds and continues an axis, whether it moves alone or on a path.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ class Moves : protected Chips {
 
   /// Stops at once. A home or zero return that is abandoned has no further effect.
   void stop_axis(int axis_number, Code code = Code::none);
-  /// VDRV 0. Returns true if the axis has to come to rest first.
+  /// Executes VDRV 0. Returns true if the axis has to come to rest first.
   bool end_by_ramp(int axis_number, Mover mover);
   /// Stops by STP, a STOP key or M8x02.
   void stop_by_command(int axis_number);

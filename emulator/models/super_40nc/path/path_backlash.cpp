@@ -1,5 +1,5 @@
-// Every axis that reverses, or every axis if it slips (D9x57 = 2), first goes its X1 pulses at X22, all at
-// once; the path begins when the last is done. Within an arc nothing is corrected, as on the chip, unless
+// Every axis that reverses, or every axis if it slips (D9x57 = 2), first sends its X1 pulses at X22, all axes
+// at once; the path begins when the last is done. Within an arc nothing is corrected, as on the chip, unless
 // that is chosen. (Manual, X1., X22.)
 #include "emulator/models/super_40nc/path/path_backlash.h"
 
@@ -33,7 +33,7 @@ std::int64_t backlash_before(const motion::Axis& motor, int direction) {
   return direction > 0 ? all - taken : taken;
 }
 
-/// Returns how many of `pulses` have come after `ticks`.
+/// Returns how many of `pulses` have been sent after `ticks`.
 std::int64_t come_by(std::int64_t pulses, double speed_pps, Tick ticks) {
   constexpr double kRounding = 1e-9;
   const double come = speed_pps * static_cast<double>(ticks) / motion::kTicksPerSecond + kRounding;
@@ -59,7 +59,7 @@ void PathBacklash::begin_path_backlash(const motion::Path& path) {
     const std::int64_t untaken = backlash_before(motor, direction);
     if (untaken == 0) continue;
     axis(number).path_backlash = untaken * direction;
-    // Record how much has come, in case it is stopped.
+    // Record how much has been sent, in case it is stopped.
     motor.backlash_taken_pulses = direction > 0 ? motor.settings.backlash_pulses - untaken : untaken;
     motor.last_direction = static_cast<std::int8_t>(direction);
   }
@@ -97,8 +97,8 @@ void PathBacklash::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisC
   if (axes_.path.slowing_for == motion::Cause::none) axes_.path.run.resume(tick);
 }
 
-/// If that is chosen, an axis that reverses on its path goes X1 at X22 in addition. If it reverses again
-/// before the end, it goes back what has come so far.
+/// If that is chosen, an axis that reverses on its path sends X1 at X22 in addition. If it reverses again
+/// before the end, it takes back what it has sent so far.
 void PathBacklash::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& ways_before,
                                      std::array<std::int64_t, kAxisCount>& sent) {
   const Settings settings = registers();

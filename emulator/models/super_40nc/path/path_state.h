@@ -10,7 +10,7 @@ namespace understudy::emulator::models::super_40nc {
 struct PathState {
   Tick path_backlash_ticks = 0;     // ticks for which backlash is sent before the path
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
-  double path_feed_scale = 1;       // LU along the path for a unit of F
+  double path_feed_scale = 1;       // LU along the path per unit of F
   double path_limit_lu_s = 1;       // speed at which one axis reaches its highest speed
 
   bool operator==(const PathState&) const = default;

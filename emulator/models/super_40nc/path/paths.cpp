@@ -1,5 +1,5 @@
 // One profile along the path, with the smallest slope among its axes (《C11./C12.》 to 《C22.》), no faster
-// than X12 of any axis, and the feed override at once.
+// than X12 of any axis. The feed override applies at once.
 #include "emulator/models/super_40nc/path/paths.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ double Paths::path_feed() const {
   return feed * state_.path_feed_scale * parts_.drives.override_percent() / 100;
 }
 
-/// Returns the LU along a path for a unit of F.
+/// Returns the LU along a path per unit of F.
 double Paths::feed_scale(const motion::Path& path) const {
   static constexpr std::array<double, 4> kUnits{0.001, 0.01, 0.1, 1};
   const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
@@ -77,14 +77,15 @@ motion::Cause Paths::blocked_on_path(int axis_number, const motion::Path& path) 
   return chip(axis_number).forbidden(ahead > 0 ? +1 : -1);
 }
 
-/// Prepares the axes of a path, and returns its law: the limit of each axis is along its own direction.
+/// Prepares the axes of a path, and returns its law, in which the limit of each axis applies along its own
+/// direction.
 motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& path) {
   const Settings settings = registers();
   motion::Point most;
   most.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
-  double longest = 0;  // pulses of an axis for a LU of the path
+  double longest = 0;  // the most pulses of an axis per LU of the path
   const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;

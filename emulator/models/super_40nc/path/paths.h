@@ -31,7 +31,7 @@ class Paths : protected Chips {
   Paths(AxisParts& parts, PathState& state)
       : Chips(parts.chips), parts_(parts), state_(state), backlash_(parts.chips, state) {}
 
-  /// Returns what the axes of a path get together.
+  /// Returns the grant that the axes of a path get together.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
   /// Returns true if the path has begun; if not, it reports its error.
   bool begin_path(const PathPlan& plan);
@@ -46,7 +46,7 @@ class Paths : protected Chips {
 
   void hold_path();
   void go_on_path();
-  /// VDRV 0: slows down by the path's ramp, and ends.
+  /// Executes VDRV 0: slows down by the path's ramp, and ends.
   void slow_path();
   void stop_path();
   /// Stops all axes of the path for `why`; path_ended() follows.

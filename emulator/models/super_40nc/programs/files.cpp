@@ -81,7 +81,7 @@ std::string why_not_file_name(const std::string& name) {
 }
 
 std::string why_not_listing(const std::string& text) {
-  // Use the most tolerant options, whatever is chosen.
+  // The most tolerant options apply, whatever is chosen.
   language::Options options;
   options.loose_groups = language::Options::LooseGroups::take_last_result;
   options.capacity = language::Options::Capacity::lines;

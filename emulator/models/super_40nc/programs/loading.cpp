@@ -1,4 +1,4 @@
-// How programs are loaded, and replaced by those of a file or of the user table.
+// Loads programs, and replaces them by those of a file or of the user table.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::super_40nc {
 
 using language::Area;
 
-/// Returns true if an axis is taken, and a choice makes that stop all axes.
+/// Returns true if, by choice, no axis may start because one of them is taken.
 bool ProgramMachine::plc_takes_none(language::AxisSet axes, Request request) {
   if (!chose(option("plc_several_axes", "none"))) return false;
   for (int axis = 0; axis < kAxisCount; ++axis) {

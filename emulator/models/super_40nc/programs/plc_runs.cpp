@@ -22,7 +22,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// "plc 初始": programs that do not run start from the beginning.
+/// Handles "plc 初始": programs that do not run start from the beginning.
 void Programs::plc_to_run() {
   ProgramMachine machine(*this, controls_);
   language::run(state_.plc, *ladder_, machine, options_);
@@ -59,7 +59,7 @@ void Programs::run_plc() {
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   const auto ladder = ladder_;
   if (!ladder->is_empty() && state_.plc.runs) {
-    // A scan that changed nothing, and had no new input, is the same again.
+    // A scan that changed nothing, and had no new input, would do the same again.
     tell_watch();
     const bool was_told = ground_.state().touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);

@@ -1,6 +1,6 @@
-// Whether a PLC that has settled needs to scan. A scan that has changed nothing is the same again until
-// something that it reads changes. Writes by hosts and step programs are noted; other values are checked in
-// each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
+// Decides whether a PLC that has settled needs to scan. A scan that has changed nothing would do the same
+// again until something that it reads changes. Writes by hosts and step programs are noted; other values are
+// checked in each tick that is run. In skipped ticks only moving values change, as their rows say (Varies).
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ class PlcWatch {
  public:
   explicit PlcWatch(const RegisterBank& bank) : bank_(bank) {}
 
-  /// Finds what the ladder reads and others write without notice.
+  /// Finds the values that the ladder reads and others change without notice.
   void find(const interpreter::super_40nc::Ladder& ladder);
   /// Remembers what the PLC sees now.
   void note();

@@ -38,7 +38,7 @@ int line_of_step(std::string_view text, std::string_view area, const std::string
   return 0;
 }
 
-/// Returns why a program has stopped there, as far as D8094 says.
+/// Returns why a program has stopped, if D8094 shows it.
 std::string why_of(const ErrorReport& error, language::Area area, bool is_idle) {
   const bool stops_all = error.code == Code::emergency_stop || error.code == Code::emergency_input;
   if (error.code == Code::none || (error.area != area && !(stops_all && is_idle))) return {};
@@ -65,7 +65,7 @@ std::vector<ProgramLocation> Programs::program_locations() const {
     if (is_of_error && !place.why.empty() && !language::leaves_program_running(ground_.state().error.code)) {
       place.state = ProgramLocation::State::failed;
     }
-    // Show where it is, or what stopped it.
+    // The line is the present one, or the one that stopped the program.
     const int at =
         is_of_error ? ground_.state().error.step - language::base_of(row.area, options_) : step.step;
     const auto listed = [&](int number) {

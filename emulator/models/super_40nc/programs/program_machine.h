@@ -66,7 +66,7 @@ class ProgramMachine final : public language::Machine, protected Chips {
   AxisState& state_of(int axis) { return Chips::axis(axis); }
   const AxisState& state_of(int axis) const { return Chips::axis(axis); }
   bool plc_takes_none(language::AxisSet axes, Request request);
-  /// Begins a motion on each axis of a line if all are granted; waits if one has to.
+  /// Begins a motion on each free axis of a line, and reports the others. Begins none while one has to wait.
   template <class Start>
   language::Begun begin_each(language::Area by, const language::AxisValues& values, Request request,
                              Start start);
@@ -76,7 +76,7 @@ class ProgramMachine final : public language::Machine, protected Chips {
   language::Begun begin_on_path(const std::array<bool, kAxisCount>& takes,
                                 const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                 int mode, const Geometry& geometry);
-  /// `reports`: whether to report an impossible arc; otherwise it is skipped.
+  /// Skips an impossible arc. With `reports`, also reports it, or begins a line instead, by choice.
   language::Begun begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
                             const Geometry& geometry);
   ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;

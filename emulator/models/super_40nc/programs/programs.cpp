@@ -62,7 +62,7 @@ void Programs::tell_watch() const {
 
 namespace {
 
-/// An observer of all areas except C when it runs a user table: nobody has downloaded that.
+/// Hides C from an observer while it runs a user table, because nobody has downloaded that.
 class WithoutC final : public ProgramWatch {
  public:
   explicit WithoutC(ProgramWatch& watch) : watch_(watch) {}

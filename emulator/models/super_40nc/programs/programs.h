@@ -1,4 +1,4 @@
-// The PLC and the step programs of a SUPER-40NC: loaded, run, and told what happens.
+// Loads and runs the PLC and the step programs of a SUPER-40NC, and tells them what happens.
 #pragma once
 
 #include <cstddef>
@@ -50,10 +50,11 @@ class Programs : protected Chips, public Watched {
   const StoredPrograms& stored() const { return stored_; }
 
   // --- loading.cpp
-  /// Areas that `text` does not name stay as they are. A refused listing shows in D8094 to D8096.
+  /// Loads a listing. Areas that it does not name stay as they are. A refused listing shows in D8094 to
+  /// D8096.
   void load_program(std::string_view text);
   void make_programs_ready();
-  /// Makes the programs of a restored state ready, if they are others.
+  /// Makes the programs of a restored state ready, if they differ.
   void restored();
   /// Changes the path file (D9001).
   void change_file(std::int32_t number);
@@ -95,7 +96,7 @@ class Programs : protected Chips, public Watched {
   void note_what_plc_sees() { watch_.note(); }
   /// Checks at the end of a tick whether the PLC must scan.
   void wake_plc_by_what_changed();
-  /// Makes up the scans of the ticks after `done`, up to `tick`.
+  /// Does the scans of the skipped ticks after `done`, up to `tick`.
   void fast_forward(Tick done, Tick tick);
 
  private:
@@ -113,7 +114,7 @@ class Programs : protected Chips, public Watched {
   const interpreter::super_40nc::Options& options_;
   StoredPrograms stored_;
   PlcWatch watch_;
-  interpreter::super_40nc::StepCodes codes_;  // not state: made, like the ladder, of the memory's listings
+  interpreter::super_40nc::StepCodes codes_;  // not state: made, like the ladder, from the memory's listings
   SharedLadder ladder_ = std::make_shared<const interpreter::super_40nc::Ladder>();
   NamedBlocks::mapped_type ready_texts_;  // the texts of codes_ and ladder_
   std::vector<int> table_lines_;          // lines of the user table, while it runs

@@ -64,7 +64,7 @@ void StoredPrograms::show_line_counts() {
   }
 }
 
-/// Returns the options with D9042, the room of C and of each file.
+/// Returns the options with the capacity of C and of each file.
 language::Options StoredPrograms::options_with_room() const {
   language::Options options = options_;
   if (registers().raw(kept_d(d9::kLinesOfAFile)) > 0) options.c_capacity = room_of_c();  // 0 before power-up
@@ -260,7 +260,7 @@ void StoredPrograms::show_capacities() {
   ground_.put(kept_d(d9::kFileCount), kAllSteps / lines);
 }
 
-/// Returns the room of C and of each file, in steps.
+/// Returns the capacity of C and of each file, in steps or, by choice, in lines.
 std::int32_t StoredPrograms::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;

@@ -1,5 +1,4 @@
-// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and how much room
-// they have.
+// The flash of a SUPER-40NC: its programs, path files and recipes, each a text (files.h), and their capacity.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +30,15 @@ class StoredPrograms : protected OnGround {
   interpreter::super_40nc::Checked check(std::string_view text) const;
   /// Returns the areas of `text`, and its files as programs of C, for observers.
   std::vector<ProgramPart> parts_of(std::string_view text) const;
-  /// Returns the program of an area that is stored so, or nothing.
+  /// Returns the program of an area that is stored under this kind and name, or nothing.
   std::optional<interpreter::super_40nc::AreaProgram> area(std::string_view kind, std::string_view name,
                                                            Area area) const;
   /// Stores the areas and files that a program has; an empty area is erased.
   void store(const interpreter::super_40nc::Program& program);
-  /// Returns true if a stored program has more lines than D9042 allows.
+  /// Returns true if a stored program is longer than the capacity of C.
   bool is_too_long(std::string_view kind, std::string_view name) const;
-  /// Stores the C program as the present file, and takes that of `number` in its place.
+  /// Stores the C program as the present file, and replaces it by the program of file `number`. A file that
+  /// is too long is reported and leaves C empty.
   void change_c(std::int32_t number);
   void flash_written(bool is_recipe);
 
@@ -48,7 +48,7 @@ class StoredPrograms : protected OnGround {
   void read_files_again();
   /// Computes D9042 and D9043 from D9045.
   void show_capacities();
-  /// Shows in D9036 to D9042 the stored lines, not the capacities, if that is chosen.
+  /// Shows in D9036 to D9042 the steps of the programs, not the capacities, if that is chosen.
   void show_line_counts();
 
  private:

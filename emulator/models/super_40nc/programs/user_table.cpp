@@ -44,7 +44,7 @@ constexpr std::array<CommandRow, 10> kCommands{{{Op::lin, 4},
                                                 {Op::set, 4, true, true},
                                                 {Op::rst, 4, true, true}}};
 
-/// Returns Y, M or M8 at an address; unset if there is none.
+/// Returns Y, M or M8 at an address; an unset operand if there is none.
 Operand coil_at(std::uint32_t address) {
   const auto number = static_cast<std::int32_t>(std::min(address, kNoCoil));
   Operand coil;

@@ -4,9 +4,9 @@
 //
 // A line has ten registers: a command, and data 1 to 9; there are 200 lines. D8020 = 100 runs the table as
 // the C program, from line 0 to a line with command 0; D8019 shows the line. D8020 = 100 + command runs one
-// command with the data in D8021 to D8029. In both cases D8020 falls to 0; while C runs, D8020 has no effect,
-// and code 21 is shown. The table begins with the modes and speeds of the parameters, as C does; a command
-// has those of the command before it.
+// command with the data in D8021 to D8029. In both cases D8020 returns to 0; while C runs, D8020 has no
+// effect, and code 21 is shown. The table begins with the modes and speeds of the parameters, as C does; a
+// command uses those of the command before it.
 //
 //   1 LIN  2 CW  3 CCW  4 DRV  6 RPM  8 HOM   data 1 to 4 as their fields, -2147483648 for one that is unset
 //   5 F  7 TMR                                data 1
@@ -32,7 +32,7 @@ struct UserTable {
   bool operator==(const UserTable&) const = default;
 };
 
-/// A table as a program of C. It has no END, so it stops with code 1, at a line that cannot run.
+/// A table as a program of C. At a line that cannot run it ends without END, so it stops with code 1.
 struct TableProgram {
   interpreter::super_40nc::AreaProgram program;
   std::vector<int> table_lines;  // table line of each line of the program

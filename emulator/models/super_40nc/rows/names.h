@@ -6,7 +6,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// Returns the contact of an axis whose counterpart of X is given.
+/// Returns an axis's counterpart of a contact of axis X.
 constexpr int of_axis(int contact_of_x, int axis) { return contact_of_x + 100 * axis; }
 
 /// Special contacts M8, general.
@@ -35,7 +35,7 @@ inline constexpr int kMpg10 = 8109;
 inline constexpr int kMpg100 = 8110;
 }  // namespace m8x
 
-/// Contacts M85x that the panel switches when it turns its pages; its keys are in keys.h.
+/// Contacts M85x that the panel switches when it turns its pages; its keys are in panel/keys.h.
 namespace m85 {
 inline constexpr int kParameterPageLeft = 8500;
 inline constexpr int kEditPageLeft = 8501;

@@ -47,7 +47,7 @@ class Settings {
     return static_cast<std::int32_t>(slot < kFirstParameterSlot ? image_[slot]
                                                                 : parameters_[slot - kFirstParameterSlot]);
   }
-  /// Returns the value limited to its range, as it is used.
+  /// Returns the value limited to its range, as motion uses it.
   Value of(Kept kept, int axis = 0) const { return std::clamp<Value>(raw(kept, axis), kept.min, kept.max); }
   bool is_on(Kept kept, int axis = 0) const { return raw(kept, axis) != 0; }
 
