@@ -167,9 +167,13 @@ std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, 
   result.recording = recording;
   result.rerun = rerun_of(scenario, arguments);
   const std::string why = why_failed(end, scenario, arguments.timeout);
-  if (!result.failure && !why.empty()) {
+  if (!why.empty() && (!result.failure || end.has_timed_out)) {
+    // A command that takes too long is not one that fails in the same way as others.
     result.verdict = play::ScenarioResult::Verdict::failed;
-    result.failure = play::Failure{.at = result.simulated, .what = why};
+    if (!result.failure) result.failure = play::Failure{.at = result.simulated};
+    result.failure->what = why;
+    result.failure->expected.clear();
+    result.failure->came.clear();
   }
   if (!result.failure) return std::move(end.results);
   for (const std::string& line : last_lines(output.get()))

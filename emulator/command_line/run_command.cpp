@@ -18,6 +18,7 @@
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
+#include "base/files/text_file.h"
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
@@ -46,6 +47,7 @@
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_executor.h"
+#include "emulator/serve/host_time/host_program.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
 
@@ -322,11 +324,22 @@ class Players {
   std::optional<WorkerProcesses> workers_;
 };
 
-/// Returns the hash of a case's sources, of the program's version, and of the command.
-std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const RunArguments& arguments) {
+/// Returns everything besides its sources on which the result of a case depends: the program's version, and
+/// the command, with the contents of the files that it names.
+std::string maker_of(const RunArguments& arguments) {
   std::string maker = arguments.version;
-  for (const std::string& word : arguments.host.command) maker += ' ' + word;
+  for (const std::string& word : arguments.host.command) {
+    maker += ' ' + word;
+    const bool is_program = &word == &arguments.host.command.front();
+    const auto text = read_text_file(is_program ? serve::program_file(word) : word);
+    if (text) maker += ' ' + std::to_string(hash_of(std::as_bytes(std::span(*text))));
+  }
   if (arguments.host.host_time) maker += " --host-time";
+  return maker;
+}
+
+/// Returns the hash of a case's sources and of what has played it.
+std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& maker) {
   return hash_of(std::as_bytes(std::span(maker)), case_list.made_of(file));
 }
 
@@ -335,6 +348,7 @@ std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const R
 int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
   require_flags_that_agree(arguments);
+  const std::string maker = maker_of(arguments);
   const play::Shard shard = shard_of(arguments);
   play::CaseList case_list(
       models,
@@ -368,7 +382,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
         const bool was_played =
             account.was_played({.file = case_list.path(which_case->file),
                                 .identity = play::identity_of(next_reader.case_of(*which_case)),
-                                .made_of = made_of(case_list, which_case->file, arguments)});
+                                .made_of = made_of(case_list, which_case->file, maker)});
         if (!was_played) break;
         progress.one_left_out();
       }
@@ -377,7 +391,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
     play::run_suite(
         next, [&] { return players.make(); }, threads,
         [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
-          account.add(std::move(results), made_of(case_list, which_case.file, arguments), files, progress,
+          account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
                       [&] { return stagehand.play_again(reader, which_case); });
         });
   }

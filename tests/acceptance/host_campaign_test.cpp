@@ -133,6 +133,26 @@ TEST_F(HostCampaign, SkipsCasesThatRanBefore) {
   EXPECT_TRUE(has(other.output, "8 passed, 2 failed")) << other.output;
 }
 
+TEST_F(HostCampaign, PlaysCasesAgainIfTheHostHasChanged) {
+  const std::string rest =
+      "vary: { case: [ 1, 2 ] }\nsteps: [ { host: { exits: 0, within: 6s } }, { say: \"${case}\" } ]\n";
+  const Words flags{"--host-time", "--results", folder() / "changed.jsonl", "--resume"};
+  const Words command{"sh", folder().write("host.sh", "exit 0\n")};
+  EXPECT_EQ(exec(rest, command, flags).exit_code, 0);
+  EXPECT_TRUE(has(exec(rest, command, flags).output, "2 skipped, since they ran before"));
+  folder().write("host.sh", "exit 1\n");
+  const Finished changed = exec(rest, command, flags);
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_TRUE(has(changed.output, "2 failed")) << changed.output;
+}
+
+TEST_F(HostCampaign, TellsAHostThatHangsFromOneThatFails) {
+  const std::string rest = "steps: [ { host: { exits: 0, within: 60s } } ]\n";
+  const Finished spins = exec(rest, {"sh", "-c", "while :; do :; done"}, {"--host-time", "--timeout", "1s"});
+  EXPECT_EQ(spins.exit_code, 1);
+  EXPECT_TRUE(has(spins.output, "the command was ended because it took longer than 1s")) << spins.output;
+}
+
 TEST_F(HostCampaign, PutsValuesIntoTheEnvironment) {
   const Finished finished = exec(
       "parameters: { limit: 250 }\n"

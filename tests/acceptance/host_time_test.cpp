@@ -34,6 +34,14 @@ print(time.time() - began, time.monotonic() - up, time.strftime("%Y-%m-%d"))
   EXPECT_EQ(host.output, "2026-01-01 00:00:00 3600.0\n86400.0 86400.0 2026-01-02\n");
 }
 
+/// Their end is often noticed before their greeting.
+TEST_F(HostTime, GivesTheExitCodeOfHostsThatEndAtOnce) {
+  for (int i = 0; i < 20; ++i) {
+    const Finished host = exec({"false"});
+    EXPECT_EQ(host.exit_code, 1) << host.errors;
+  }
+}
+
 TEST_F(HostTime, WaitsForALineAsLongAsItTakes) {
   // Eight characters to the device, seven back, each of 11 bits at 19,200 baud, and the silence before the
   // reply.

@@ -21,17 +21,6 @@ namespace {
 
 constexpr std::size_t kHead = 64 * 1024;  // the headers of a program are at its beginning
 
-std::string find_in_path(const std::string& command) {
-  if (command.find('/') != std::string::npos) return command;
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = (folder.empty() ? "." : folder) + "/" + command;
-    if (access(file.c_str(), X_OK) == 0) return file;
-  }
-  return {};
-}
-
 std::string head_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string head(kHead, '\0');
@@ -94,11 +83,22 @@ std::string why_not(const std::string& file, int depth) {
 
 }  // namespace
 
+std::string program_file(const std::string& command) {
+  if (command.find('/') != std::string::npos) return command;
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string file = (folder.empty() ? "." : folder) + "/" + command;
+    if (access(file.c_str(), X_OK) == 0) return file;
+  }
+  return {};
+}
+
 bool can_be_started(const std::string& command) {
-  const std::string file = find_in_path(command);
+  const std::string file = program_file(command);
   return !file.empty() && access(file.c_str(), X_OK) == 0;
 }
 
-std::string why_not_in_host_time(const std::string& command) { return why_not(find_in_path(command), 0); }
+std::string why_not_in_host_time(const std::string& command) { return why_not(program_file(command), 0); }
 
 }  // namespace understudy::emulator::serve

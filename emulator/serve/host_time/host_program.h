@@ -5,6 +5,9 @@
 
 namespace understudy::emulator::serve {
 
+/// Returns the path of a command's program, as a shell finds it; or an empty text.
+std::string program_file(const std::string& command);
+
 /// Returns true if the command's program exists and may be started, as far as can be seen from here.
 bool can_be_started(const std::string& command);
 
