@@ -46,6 +46,8 @@ Stretch stretch_of(const Json& message, const world::Timeline& timeline) {
   };
   stretch.from = std::clamp(time("from_ns", stretch.from), timeline.begin(), timeline.end());
   stretch.to = std::clamp(time("to_ns", stretch.to), timeline.begin(), timeline.end());
+  // A scenario may fail before any time has passed.
+  if (timeline.begin() == timeline.end()) stretch.to = stretch.from + kTickLength;
   if (message.contains("dots")) stretch.dots = require_count(message, "dots", kMaxDots);
   if (stretch.dots == 0) throw MessageError("dots: expected 1 to " + std::to_string(kMaxDots));
   if (stretch.to <= stretch.from)
