@@ -45,12 +45,11 @@ inline constexpr std::array kControlWords{
     ControlWord{"step", "Advance simulated time by ticks, or a program by a step, while the clock is stopped",
                 "WHAT",
                 "Number of ticks [1]; or instruction, line, over, out or stand, with DEVICE, program=NAME, "
-                "within=1h; in a recording also back"},
+                "within=1h; or back"},
     ControlWord{"break", "Set, list or delete breakpoints and logpoints", "WHAT",
                 "DEVICE LINE, instruction=N program=NAME, write=NAME by=WHO or on=EVENT; when=CONDITION, "
                 "nth=N, log=TEXT; delete N, or delete all; without words, list them"},
-    ControlWord{"continue", "Let simulated time run on after a stop", "WITHIN",
-                "within=10s; in a recording also back"},
+    ControlWord{"continue", "Let simulated time run on after a stop", "WITHIN", "within=10s; or back"},
     ControlWord{"stack", "Show where a device's programs are, and their callers", "DEVICE",
                 "Name of the device"},
     ControlWord{"source", "Print the text in whose lines breakpoints and stacks count", "DEVICE",

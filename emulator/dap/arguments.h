@@ -21,4 +21,7 @@ std::string text_or(const Json& arguments, const char* key, const std::string& o
 std::int64_t whole_or(const Json& arguments, const char* key, std::int64_t otherwise);
 bool flag_or(const Json& arguments, const char* key, bool otherwise);
 
+/// Adds the fields that every kind of breakpoint may have: condition, hitCondition, logMessage.
+void add_common_fields(const Json& wanted, Json& message);
+
 }  // namespace understudy::emulator::dap

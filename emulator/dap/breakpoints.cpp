@@ -20,24 +20,6 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-/// Adds the fields that every kind of breakpoint may have.
-void add_common(const Json& wanted, Json& message) {
-  const std::string condition = text_or(wanted, "condition");
-  if (!condition.empty()) message["when"] = condition;
-  const std::string hits = text_or(wanted, "hitCondition");
-  if (!hits.empty()) {
-    std::string_view count = hits;
-    if (count.starts_with(">=")) count.remove_prefix(2);
-    while (count.starts_with(' ')) count.remove_prefix(1);
-    const auto number = parse_integer(count);
-    if (!number || *number < 1)
-      throw RequestError("hitCondition: " + quoted(hits) + " is not a count; expected a whole number from 1");
-    message["nth"] = *number;
-  }
-  const std::string log = text_or(wanted, "logMessage");
-  if (!log.empty()) message["log"] = log;
-}
-
 std::filesystem::path whole_path(const std::string& name) {
   std::error_code error;
   auto canonical = std::filesystem::weakly_canonical(name, error);
@@ -71,6 +53,23 @@ std::string difference(const std::string& device, const std::string& file, const
 }
 
 }  // namespace
+
+void add_common_fields(const Json& wanted, Json& message) {
+  const std::string condition = text_or(wanted, "condition");
+  if (!condition.empty()) message["when"] = condition;
+  const std::string hits = text_or(wanted, "hitCondition");
+  if (!hits.empty()) {
+    std::string_view count = hits;
+    if (count.starts_with(">=")) count.remove_prefix(2);
+    while (count.starts_with(' ')) count.remove_prefix(1);
+    const auto number = parse_integer(count);
+    if (!number || *number < 1)
+      throw RequestError("hitCondition: " + quoted(hits) + " is not a count; expected a whole number from 1");
+    message["nth"] = *number;
+  }
+  const std::string log = text_or(wanted, "logMessage");
+  if (!log.empty()) message["log"] = log;
+}
 
 /// Deletes the session's breakpoints from the bench, but not from the session.
 void Session::delete_from_bench() {
@@ -175,7 +174,7 @@ Json Session::set_line(const std::string& key, const Json& wanted, const std::ve
     const std::int64_t line = require_whole(wanted, "line") + line_offset_;
     for (const std::size_t device : devices) {
       Json message{{"do", "break"}, {"device", devices_[device].name}, {"line", line}};
-      add_common(wanted, message);
+      add_common_fields(wanted, message);
       Json one = set_one(key, id, std::move(message));
       if (told.is_null()) told = std::move(one);
     }
@@ -239,7 +238,7 @@ Json Session::set_exception_breakpoints(const Json& arguments) {
   for (const Json& option : wanted) {
     const int id = ++last_id_;
     Json message{{"do", "break"}, {"on", require_text(option, "filterId")}};
-    add_common(option, message);
+    add_common_fields(option, message);
     all.push_back(set_one(kEvents, id, std::move(message)));
   }
   return {{"breakpoints", std::move(all)}};
@@ -268,7 +267,7 @@ Json Session::set_data_breakpoints(const Json& arguments) {
     const int id = ++last_id_;
     try {
       Json message{{"do", "break"}, {"write", require_text(one, "dataId")}};
-      add_common(one, message);
+      add_common_fields(one, message);
       all.push_back(set_one(kData, id, std::move(message)));
     } catch (const GoneError&) {
       throw;

@@ -43,17 +43,11 @@ Json Session::step_in(const Json& arguments) {
   return step(arguments, is_small ? "instruction" : "line");
 }
 
-void Session::require_recording() const {
-  if (!is_recording_) throw RequestError("only a recording goes back; expected a session with one");
-}
-
 Json Session::step_back(const Json& arguments) {
-  require_recording();
   return step(arguments, text_or(arguments, "granularity") == "instruction" ? "instruction" : "line", true);
 }
 
 Json Session::reverse(const Json& /*arguments*/) {
-  require_recording();
   goes_back_ = true;
   link_->begin({{"do", "continue"}, {"back", true}});
   phase_ = Phase::running;
@@ -91,6 +85,7 @@ const char* Session::reason_of(const Json& stop, Json& body) const {
     if (stop["breakpoint"] != point.number) continue;
     body["hitBreakpointIds"] = {point.id};
     if (point.key == kData) return "data breakpoint";
+    if (point.key == kInstructions) return "instruction breakpoint";
     if (point.key == kEvents) return "exception";
   }
   return "breakpoint";
@@ -221,6 +216,7 @@ void Session::look() {
     std::string text = refusal;
     if (text.empty() && is_recording_)
       text = goes_back_ ? "the recording begins here" : "the recording ends here";
+    if (text.empty() && goes_back_) text = "debugging began here";
     if (text.empty() && !wants_pause_) text = "nothing has stopped it within " + std::string(kLongTime);
     stands(reply->value("stop", Json()), refusal.empty() ? "pause" : "step", text);
   } catch (const RequestError& error) {

@@ -61,7 +61,6 @@ void Session::open(std::string_view request, const Json& arguments) {
     throw;
   }
   phase_ = Phase::configuring;
-  if (is_recording_) event("capabilities", {{"capabilities", {{"supportsStepBack", true}}}});
 }
 
 void Session::find_devices() {

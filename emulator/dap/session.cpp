@@ -60,7 +60,7 @@ constexpr std::array<Filter, 6> kFilters{
 
 std::span<const Session::Row> Session::rows() {
   using S = Session;
-  static constexpr std::array<Row, 28> kRows{{
+  static constexpr std::array<Row, 30> kRows{{
       {"initialize", &S::initialize, kFresh},
       {"launch", &S::launch, kReady},
       {"attach", &S::attach, kReady},
@@ -70,6 +70,8 @@ std::span<const Session::Row> Session::rows() {
       {"setExceptionBreakpoints", &S::set_exception_breakpoints, kThere},
       {"setDataBreakpoints", &S::set_data_breakpoints, kThere},
       {"dataBreakpointInfo", &S::data_breakpoint_info, kThere},
+      {"setInstructionBreakpoints", &S::set_instruction_breakpoints, kThere},
+      {"disassemble", &S::disassemble, kThere},
       {"threads", &S::threads, kThere},
       {"stackTrace", &S::stack_trace, kThere},
       {"source", &S::source, kThere},
@@ -162,7 +164,8 @@ Json Session::initialize(const Json& arguments) {
         "supportsSetVariable", "supportsSetExpression", "supportsCompletionsRequest",
         "supportsDataBreakpoints", "supportsSteppingGranularity", "supportsRestartRequest",
         "supportsTerminateRequest", "supportsBreakpointLocationsRequest", "supportsExceptionFilterOptions",
-        "supportsValueFormattingOptions"})
+        "supportsValueFormattingOptions", "supportsStepBack", "supportsDisassembleRequest",
+        "supportsInstructionBreakpoints"})
     capabilities[able] = true;
   return capabilities;
 }

@@ -70,6 +70,11 @@ class Session {
     std::size_t device = 0;
     std::string program{};
   };
+  /// An instruction of a program, counted from 0. Clients know it as a number.
+  struct Address {
+    std::size_t space = 0;  // in spaces_
+    std::int64_t instruction = 0;
+  };
   /// The program of a device: its text, and the file it is from, if there is one.
   struct Source {
     std::string path;
@@ -89,6 +94,7 @@ class Session {
   static constexpr std::int64_t kFirstBits = 1'000'000'000;
   static constexpr const char* kEvents = "events";
   static constexpr const char* kData = "data";
+  static constexpr const char* kInstructions = "instructions";
   static constexpr const char* kLongTime = "1h";  // of simulated time
 
   // session.cpp
@@ -123,6 +129,12 @@ class Session {
   std::size_t device_of_source(std::int64_t reference) const;
   std::size_t device_of_frame(const Json& arguments) const;
 
+  // disassembly.cpp
+  Json disassemble(const Json& arguments);
+  Json set_instruction_breakpoints(const Json& arguments);
+  std::string address_of(std::size_t device, const std::string& program, std::int64_t instruction);
+  Address parsed_address(const Json& arguments, const char* key) const;
+
   // going_on.cpp
   Json go_on(const Json& arguments);
   Json next(const Json& arguments);
@@ -132,7 +144,6 @@ class Session {
   Json reverse(const Json& arguments);
   Json pause(const Json& arguments);
   Json step(const Json& arguments, const char* what, bool is_back = false);
-  void require_recording() const;
   void stands(const Json& stop, const char* reason, const std::string& text = {});
   const char* reason_of(const Json& stop, Json& body) const;
   void hear_events(const Json& events);
@@ -188,7 +199,7 @@ class Session {
   bool is_manual_ = true;
   bool wants_pause_ = false;
   bool is_recording_ = false;
-  bool goes_back_ = false;   // in a recording
+  bool goes_back_ = false;
   std::string failure_{};    // the failure at the end of a scenario's recording, in a sentence
   bool was_paused_ = false;  // when it was attached
   std::string speed_{};      // of a launched bench
@@ -196,6 +207,7 @@ class Session {
   std::unique_ptr<BenchLink> link_{};
   std::vector<DeviceInfo> devices_{};
   std::vector<Thread> threads_{};         // by number, from 1
+  std::vector<Thread> spaces_{};          // programs whose instructions have got addresses
   std::vector<std::string> with_bits_{};  // whole names of registers
   Json stop_{};                           // the bench's present stop, or null
   std::uint64_t next_event_ = 1;

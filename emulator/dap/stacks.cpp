@@ -96,11 +96,10 @@ Json Session::stack_trace(const Json& arguments) {
   const Thread& thread = thread_of(arguments);
   const bool has_many = devices_[thread.device].has_many;
   const Json told = stack_of(thread.device);
-  std::vector<std::pair<int, std::string>> lines;  // with their texts
+  std::vector<Json> lines;
   for (const Json& stack : told["stacks"]) {
     if (has_many && text_or(stack, "program") != thread.program) continue;
-    for (const Json& frame : stack["frames"])
-      lines.emplace_back(frame["line"].get<int>(), frame.value("text", std::string()));
+    for (const Json& frame : stack["frames"]) lines.push_back(frame);
     break;
   }
   const bool has_stopped = stop_.is_object() && stop_.contains("line") &&
@@ -111,7 +110,8 @@ Json Session::stack_trace(const Json& arguments) {
     const auto callers = stop_.value("callers", std::size_t{0});
     if (lines.size() > callers)
       lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(callers));
-    lines.insert(lines.begin(), {stop_["line"].get<int>(), stop_.value("code", std::string())});
+    lines.insert(lines.begin(), stop_);
+    lines.front()["text"] = stop_.value("code", std::string());
   }
   const Json source = lines.empty() ? Json() : source_json(thread.device);
   Json frames = Json::array();
@@ -119,12 +119,17 @@ Json Session::stack_trace(const Json& arguments) {
   const std::int64_t first = std::max<std::int64_t>(0, whole_or(arguments, "startFrame", 0));
   const std::int64_t most = whole_or(arguments, "levels", 0);
   for (std::int64_t i = first; i < count && (most <= 0 || i - first < most); ++i) {
-    const auto& [line, text] = lines[static_cast<std::size_t>(i)];
+    const Json& one = lines[static_cast<std::size_t>(i)];
+    const int line = one.value("line", 0);
+    const std::string text = text_or(one, "text");
     frames.push_back({{"id", require_whole(arguments, "threadId") * kPerThread + i},
                       {"name", text.empty() ? thread_name(thread) : text},
                       {"line", std::max(0, line - line_offset_)},
                       {"column", line > 0 ? 1 - column_offset_ : 0}});
     if (line > 0) frames.back()["source"] = source;
+    if (one.contains("instruction"))
+      frames.back()["instructionPointerReference"] =
+          address_of(thread.device, text_or(one, "program"), one["instruction"].get<std::int64_t>());
   }
   return {{"stackFrames", std::move(frames)}, {"totalFrames", count}};
 }

@@ -39,12 +39,6 @@ Json coverage_json(const std::string& path, const world::CoveredFile& file) {
   return json;
 }
 
-bool is_true(const Json& message, const char* key) {
-  if (!message.contains(key)) return false;
-  if (!message[key].is_boolean()) throw is_not(key, message[key], "true or false");
-  return message[key].get<bool>();
-}
-
 }  // namespace
 
 ReplyTask coverage_message(Daemon& daemon, Json message) {
@@ -58,7 +52,7 @@ ReplyTask coverage_message(Daemon& daemon, Json message) {
                        " takes no program; expected a device that does");
   }
   Observers& observers = daemon.observers();
-  if (is_true(message, "again") || observers.coverage == nullptr) observers.count_lines(daemon.world());
+  if (flag_or_false(message, "again") || observers.coverage == nullptr) observers.count_lines(daemon.world());
   const SimTime since = observers.counted_since;
   world::CoverageReport report;
   for (std::size_t d = 0; d < count; ++d) {

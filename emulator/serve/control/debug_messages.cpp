@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,13 +21,18 @@
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_cells.h"
+#include "emulator/device/program_language.h"
+#include "emulator/device/program_parts.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/recording_stops.h"
 #include "emulator/serve/control/verbs.h"
+#include "emulator/serve/control/way_back.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/debug/breakpoint.h"
 #include "emulator/world/debug/debugger.h"
@@ -132,11 +138,6 @@ const Device& require_program(Daemon& daemon, const Json& message) {
   return device;
 }
 
-void require_no_way_back(const Json& message) {
-  if (message.contains("back"))
-    throw MessageError("back: only a recording goes back; expected one that `replay --serve` serves");
-}
-
 world::StepKind require_step_kind(const Json& message) {
   const std::string what = require_text(message, "what");
   const auto* const found =
@@ -186,6 +187,7 @@ Json break_message(Daemon& daemon, const Json& message) {
     return Json{{"ok", true}};
   }
   if (message.size() > 1) {
+    keep_course(daemon);
     try {
       return Json{{"ok", true},
                   {"breakpoint", json_of_breakpoint(daemon, debugger.add(setup_of(daemon, message)))}};
@@ -200,9 +202,10 @@ Json break_message(Daemon& daemon, const Json& message) {
 }
 
 void continue_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  require_no_way_back(message);
-  require_keys(message, {"do", "within"});
+  if (is_way_back(message)) return reply(continue_back(daemon, message).dump());
+  require_keys(message, {"do", "within", "back"});
   if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
+  keep_course(daemon);
   if (message.contains("within")) {
     const SimTime within = require_duration(daemon, message, "within");
     daemon.advance(within, [&daemon, reply] { reply(time_and_stop(daemon).dump()); });
@@ -215,9 +218,10 @@ void continue_message(Daemon& daemon, const Json& message, const ControlServer::
 }
 
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
-  require_no_way_back(message);
+  if (is_way_back(message)) return reply(step_back(daemon, message).dump());
+  keep_course(daemon);
   if (!message.contains("what")) {
-    require_keys(message, {"do", "ticks"});
+    require_keys(message, {"do", "ticks", "back"});
     const std::uint64_t ticks =
         message.contains("ticks") ? require_count(message, "ticks", kMaxStepTicks) : 1;
     const SimTime now = daemon.world().now();
@@ -228,7 +232,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
     if (!begun) throw MessageError(std::string(kRunsByItself));
     return;
   }
-  require_keys(message, {"do", "what", "device", "program", "within"});
+  require_keys(message, {"do", "what", "device", "program", "within", "back"});
   const world::StepKind kind = require_step_kind(message);
   world::Debugger& debugger = daemon.observers().debugger;
   if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
@@ -250,6 +254,42 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
   }
 }
 
+/// Returns a frame of a stack: a line of the listing as the source's line, and its first instruction.
+static Json json_of_frame(const world::ProgramLines& lines, int listing_line) {
+  const int line = lines.source_line(listing_line);
+  Json frame{{"line", line}};
+  const auto all = lines.at(line);
+  if (all.empty()) return frame;
+  if (const auto place = lines.place(all.front())) {
+    if (!place->program.empty()) frame["program"] = place->program;
+    frame["instruction"] = place->number;
+  }
+  return frame;
+}
+
+/// Returns the instructions of each part, with their numbers on the wire where the language has them.
+static Json json_of_instructions(const Device& device, const world::ProgramLines& lines) {
+  std::map<int, std::vector<std::int64_t>> cells;  // by line
+  if (const ProgramCells* const form = device.model().language->cells()) {
+    try {
+      for (CellRow& row : form->assemble(lines.text(), device.settings()))
+        cells[row.line] = std::move(row.cells);
+    } catch (const ProgramError&) {  // the text of a file may hold more than a program
+    }
+  }
+  Json programs = Json::array();
+  for (const ProgramPart& part : lines.parts()) {
+    Json instructions = Json::array();
+    for (const ProgramLine& one : part.lines) {
+      Json entry{{"line", one.text_line}, {"code", one.code}};
+      if (const auto found = cells.find(one.text_line); found != cells.end()) entry["cells"] = found->second;
+      instructions.push_back(std::move(entry));
+    }
+    programs.push_back(Json{{"program", part.name}, {"instructions", std::move(instructions)}});
+  }
+  return programs;
+}
+
 Json stack_message(Daemon& daemon, const Json& message) {
   require_keys(message, {"do", "device"});
   daemon.catch_up();
@@ -258,8 +298,11 @@ Json stack_message(Daemon& daemon, const Json& message) {
   Json programs = Json::array();
   for (const ProgramLocation& place : device.user_program()->program_locations()) {
     Json frames = Json::array();
-    if (place.line > 0) frames.push_back({{"line", lines.source_line(place.line)}, {"text", place.text}});
-    for (const int caller : place.callers) frames.push_back({{"line", lines.source_line(caller)}});
+    if (place.line > 0) {
+      frames.push_back(json_of_frame(lines, place.line));
+      frames.back()["text"] = place.text;
+    }
+    for (const int caller : place.callers) frames.push_back(json_of_frame(lines, caller));
     Json entry{{"state", state_word(place.state)}};
     if (!place.program.empty()) entry["program"] = place.program;
     if (!place.waits_for.empty()) entry["waits_for"] = place.waits_for;
@@ -273,9 +316,10 @@ Json stack_message(Daemon& daemon, const Json& message) {
 }
 
 Json source_message(Daemon& daemon, const Json& message) {
-  require_keys(message, {"do", "device"});
+  require_keys(message, {"do", "device", "instructions"});
   daemon.catch_up();
-  const world::ProgramLines lines(require_program(daemon, message));
+  const Device& device = require_program(daemon, message);
+  const world::ProgramLines lines(device);
   Json reply{{"ok", true}};
   if (!lines.source().empty()) {
     std::error_code error;
@@ -284,6 +328,7 @@ Json source_message(Daemon& daemon, const Json& message) {
   }
   reply["text"] = lines.text();
   reply["lines"] = lines.lines();
+  if (flag_or_false(message, "instructions")) reply["programs"] = json_of_instructions(device, lines);
   return reply;
 }
 

@@ -28,6 +28,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
 /// {"do":"stack","device":"feeder"}: where its programs are, and their callers.
 Json stack_message(Daemon& daemon, const Json& message);
 /// {"do":"source","device":"feeder"}: the text of its program. `break` and `stack` use its line numbers.
+/// "instructions":true adds the instructions of each program.
 Json source_message(Daemon& daemon, const Json& message);
 /// {"do":"variables","device":"feeder","scope":"axes"}: the values of the names in its program, of its axes,
 /// of its terminals; without "scope" all of these.

@@ -62,6 +62,12 @@ const Json& require_values(const Json& message, std::string_view expected) {
   return values;
 }
 
+bool flag_or_false(const Json& message, const char* key) {
+  if (!message.contains(key)) return false;
+  if (!message[key].is_boolean()) throw is_not(key, message[key], "true or false");
+  return message[key].get<bool>();
+}
+
 std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most) {
   const Json& value = message[key];
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {

@@ -50,6 +50,8 @@ std::string require_text(const Json& message, const char* key);
 /// Returns the object under "values". `expected` is for messages: "names and levels".
 const Json& require_values(const Json& message, std::string_view expected);
 
+/// Returns false if the key is missing.
+bool flag_or_false(const Json& message, const char* key);
 /// Returns a whole number from 0 to `most`.
 std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most = UINT64_MAX);
 /// Returns the device named under "device"; without that key, the only device.

@@ -20,12 +20,6 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-bool is_back(const Json& message) {
-  if (!message.contains("back")) return false;
-  if (!message["back"].is_boolean()) throw is_not("back", message["back"], "true or false");
-  return message["back"].get<bool>();
-}
-
 /// Returns true if the stop ends a step: at its end, or at a breakpoint on the way.
 bool is_at_a_line(const world::DebugStop& stop) {
   using Reason = world::DebugStop::Reason;
@@ -33,6 +27,8 @@ bool is_at_a_line(const world::DebugStop& stop) {
 }
 
 }  // namespace
+
+bool is_way_back(const Json& message) { return flag_or_false(message, "back"); }
 
 RecordingStops::RecordingStops(Daemon& daemon, world::Timeline& timeline, std::function<void(SimTime)> go_to)
     : daemon_(daemon), timeline_(timeline), go_to_(std::move(go_to)) {}
@@ -43,7 +39,7 @@ SimTime RecordingStops::now() const { return daemon_.world().now(); }
 
 Json RecordingStops::go_on(const Json& message) {
   require_keys(message, {"do", "within", "back"});
-  if (is_back(message)) {
+  if (is_way_back(message)) {
     if (message.contains("within")) throw MessageError("within: is given together with back; expected one");
     go_back([this](SimTime until) { return play_on(until); }, [](const world::DebugStop&) { return true; });
     return time_and_stop(daemon_);
@@ -64,7 +60,7 @@ Json RecordingStops::step(const Json& message) {
   }
   require_keys(message, {"do", "what", "device", "program", "within", "back"});
   Wanted wanted = wanted_step(message);
-  if (!is_back(message)) {
+  if (!is_way_back(message)) {
     const SimTime end =
         message.contains("within") ? now() + require_duration(daemon_, message, "within") : timeline_.end();
     step_on(wanted, end);

@@ -14,6 +14,9 @@
 
 namespace understudy::emulator::serve {
 
+/// Returns true if the message has "back":true. Throws MessageError if "back" is neither true nor false.
+bool is_way_back(const Json& message);
+
 class RecordingStops {
  public:
   /// `go_to` takes the world to a moment. All must outlive it.

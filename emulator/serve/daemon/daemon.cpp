@@ -324,6 +324,7 @@ void Daemon::restore(const world::WorldState& state) {
   ++observers_.restores;
   if (observers_.scope) observers_.scope->begin_anew();
   observers_.debugger.begin_anew();
+  observers_.course.reset();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());

@@ -15,6 +15,7 @@
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/look/looked_names.h"
 #include "emulator/world/look/scope.h"
+#include "emulator/world/recording/recent_course.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 
@@ -41,6 +42,9 @@ struct Observers {
   }
   std::unique_ptr<world::Scope> scope;  // null: not armed
   world::Debugger debugger;
+  /// What has happened since debugging began, for the way back; null: nobody debugs, or the bench was
+  /// restored.
+  std::unique_ptr<world::RecentCourse> course;
   struct Kept {
     SimTime at{0};
     world::WorldState state;

@@ -276,9 +276,10 @@ const DebugStop* Debugger::stop() const { return stop_ && stop_->time == world_.
 
 bool Debugger::take_stop() { return std::exchange(is_fresh_, false); }
 
-void Debugger::wake() {
+void Debugger::wake(std::optional<DebugStop> stop) {
   sleeps_ = false;
   begin_anew();
+  stop_ = std::move(stop);
 }
 
 void Debugger::begin_anew() {

@@ -58,7 +58,8 @@ class Debugger final : private TickWatcher {
   void begin_anew();
   /// Until wake() it sees nothing and stops nothing, because the world is on its way to another moment.
   void sleep() { sleeps_ = true; }
-  void wake();
+  /// `stop` is the one where the world is.
+  void wake(std::optional<DebugStop> stop = {});
 
  private:
   struct Point;

@@ -40,6 +40,8 @@ class ProgramLines {
   /// Returns the part with that name, or null. An empty name means the only part.
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
+  /// Returns the parts, with their instructions in order.
+  const std::vector<ProgramPart>& parts() const { return parts_; }
   std::optional<InstructionPlace> place(Told told) const;
   /// Returns the source line for a line of the listing, or 0 if there is none.
   int source_line(int listing_line) const;

@@ -24,6 +24,19 @@ namespace understudy::emulator::world {
 
 using What = RecordedEvent::What;
 
+namespace {
+
+/// Writes the header, and returns the function that writes the events.
+std::function<void(RecordedEvent)> lines_for(const World& world, const RecordingHeader& header,
+                                             std::function<void(std::string_view)> take) {
+  take(to_line(header) + "\n");
+  return [&world, take = std::move(take)](const RecordedEvent& event) {
+    take(to_line(event, world.known()) + "\n");
+  };
+}
+
+}  // namespace
+
 /// Records one line.
 class Recorder::LineRecorder final : public pty::LineObserver {
  public:
@@ -76,8 +89,10 @@ class Recorder::LineRecorder final : public pty::LineObserver {
 };
 
 Recorder::Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view)> take)
+    : Recorder(world, lines_for(world, header, std::move(take))) {}
+
+Recorder::Recorder(World& world, std::function<void(RecordedEvent)> take)
     : world_(world), take_(std::move(take)) {
-  take_(to_line(header) + "\n");
   for (std::size_t i = 0; i < world.line_count(); ++i)
     line_recorders_.push_back(std::make_unique<LineRecorder>(*this, i));
   world_.add_listener(*this);
@@ -101,7 +116,7 @@ void Recorder::end_with(std::string state, RecordedFailure failed) {
 void Recorder::take(RecordedEvent event) {
   if (is_finished_) return;
   event.at = world_.now();
-  take_(to_line(event, world_.known()) + "\n");
+  take_(std::move(event));
 }
 
 void Recorder::on_input(std::size_t device, int terminal, std::int32_t level) {

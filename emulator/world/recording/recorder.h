@@ -13,8 +13,9 @@ namespace understudy::emulator::world {
 
 class Recorder final : private OutsideListener {
  public:
-  /// Starts now. `take` receives the header's line, then a line for each event, all with line ends. The
-  /// world must outlive the recorder.
+  /// Starts now. `take` receives each event. The world must outlive the recorder.
+  Recorder(World& world, std::function<void(RecordedEvent event)> take);
+  /// The same as text: `take` receives the header's line, then a line for each event, all with line ends.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
   /// Ends the recording without a final state.
   ~Recorder() override;
@@ -42,7 +43,7 @@ class Recorder final : private OutsideListener {
   void on_command(std::size_t device, std::string_view text) override;
 
   World& world_;
-  std::function<void(std::string_view)> take_;
+  std::function<void(RecordedEvent)> take_;
   std::vector<std::unique_ptr<LineRecorder>> line_recorders_;
   bool is_finished_ = false;
 };

@@ -264,7 +264,6 @@ def case_recording(model):
         set_ones = adapter.begin("launch", recording=served.recording, path=str(served.program),
                                  breakpoints=[{"line": language["call"]}])["breakpoints"]
         assert set_ones[0]["verified"], set_ones
-        assert adapter.event("capabilities")["capabilities"]["supportsStepBack"]
         assert adapter.event("stopped")["reason"] == "entry"
         lines = adapter.ask("breakpointLocations", source={"path": str(served.program)}, line=1, endLine=99)
         assert {"line": language["call"]} in lines["breakpoints"], lines
@@ -293,6 +292,62 @@ def case_recording(model):
         adapter.ask("restart")
         assert adapter.event("stopped")["reason"] == "entry"
         adapter.ask("disconnect")
+
+
+def goes_back(model):
+    """Steps to and fro on a running bench, and looks at instructions by their addresses."""
+    language = LANGUAGES[model]
+    with Served(model, language["ending"], language["program"]) as served, Adapter() as adapter:
+        served.end()  # the adapter starts its own
+        adapter.begin("launch", bench=str(served.bench), path=str(served.program),
+                      breakpoints=[{"line": language["call"]}])
+        assert adapter.event("stopped")["reason"] == "entry"
+        adapter.ask("stepBack", threadId=1)
+        assert "nothing has happened" in adapter.event("stopped")["text"]
+        adapter.ask("evaluate", expression=language["start"], context="repl")
+
+        def stop_after(request, **arguments):
+            adapter.ask(request, **arguments)
+            stopped = adapter.event("stopped")
+            return stopped, where_stopped(adapter, stopped["threadId"])
+
+        stopped, at_breakpoint = stop_after("continue", threadId=1)
+        thread = stopped["threadId"]
+        forward = [at_breakpoint] + [stop_after("stepIn", threadId=thread)[1] for _ in range(3)]
+        assert len({time for time, _ in forward}) == 4, forward
+        back = [forward[-1]] + [stop_after("stepBack", threadId=thread)[1] for _ in range(3)]
+        assert back == forward[::-1], (forward, back)
+        assert [stop_after("stepIn", threadId=thread)[1] for _ in range(3)] == forward[1:]
+        assert stop_after("reverseContinue", threadId=thread)[1] == at_breakpoint
+        stopped, begin = stop_after("reverseContinue", threadId=thread)
+        assert "debugging began here" in stopped["text"] and begin[0].startswith("0"), (stopped, begin)
+        # The program was started at that moment, so it starts again.
+        stopped, again = stop_after("continue", threadId=thread)
+        assert again == at_breakpoint, (stopped, again)
+
+        here = adapter.ask("stackTrace", threadId=thread)["stackFrames"][0]["instructionPointerReference"]
+        around = adapter.ask("disassemble", memoryReference=here, instructionOffset=-1, instructionCount=3)
+        before, at, after = around["instructions"]
+        assert at["address"] == here and at["line"] == language["call"], around
+        assert before["line"] < at["line"] < after["line"] and before["instruction"], around
+        assert ("instructionBytes" in at) == (model in ("simple2-r3", "rs-m8194h")), at
+        far = adapter.ask("disassemble", memoryReference=here, instructionOffset=1000, instructionCount=2)
+        assert [one["presentationHint"] for one in far["instructions"]] == ["invalid"] * 2, far
+        assert "not an address" in adapter.refused("disassemble", memoryReference="0x5", instructionCount=1)
+        adapter.ask("setBreakpoints", source={"path": str(served.program)}, breakpoints=[])
+        behind = next(one["address"] for one in adapter.ask("disassemble", memoryReference=here,
+                                                            instructionOffset=0, instructionCount=20)["instructions"]
+                      if one.get("line") == language["behind"])
+        set_one = adapter.ask("setInstructionBreakpoints", breakpoints=[{"instructionReference": behind}])
+        assert set_one["breakpoints"][0]["verified"], set_one
+        stopped, there = stop_after("continue", threadId=thread)
+        assert stopped["reason"] == "instruction breakpoint" and there[1][0] == language["behind"], (stopped, there)
+        adapter.ask("disconnect")
+
+
+def case_back():
+    for model in LANGUAGES:
+        goes_back(model)
 
 
 def case_scenario():

@@ -72,7 +72,7 @@ struct Row {
   const char* command;
   const char* phases;
 };
-constexpr std::array<Row, 29> kTable{{{"initialize", "F"},
+constexpr std::array<Row, 31> kTable{{{"initialize", "F"},
                                       {"launch", "R"},
                                       {"attach", "R"},
                                       {"configurationDone", "C"},
@@ -81,6 +81,8 @@ constexpr std::array<Row, 29> kTable{{{"initialize", "F"},
                                       {"setExceptionBreakpoints", "CSU"},
                                       {"setDataBreakpoints", "CSU"},
                                       {"dataBreakpointInfo", "CSU"},
+                                      {"setInstructionBreakpoints", "CSU"},
+                                      {"disassemble", "CSU"},
                                       {"threads", "CSU"},
                                       {"stackTrace", "CSU"},
                                       {"source", "CSU"},

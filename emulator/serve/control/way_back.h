@@ -1,0 +1,19 @@
+// Takes a running bench back to an earlier stop of its debugger, as long as no host is connected.
+#pragma once
+
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/daemon/daemon.h"
+
+namespace understudy::emulator::serve {
+
+/// Keeps the course of the bench from now on, if it is not kept already and no host is connected. The first
+/// message of a debugger calls it.
+void keep_course(Daemon& daemon);
+
+/// {"do":"continue","back":true}: back to the last stop before, or to where the course begins.
+Json continue_back(Daemon& daemon, const Json& message);
+/// {"do":"step","what":"line","back":true}. From there, the bench takes another course: what reached it from
+/// outside after that moment is forgotten. Both throw MessageError while time runs or a host is connected.
+Json step_back(Daemon& daemon, const Json& message);
+
+}  // namespace understudy::emulator::serve

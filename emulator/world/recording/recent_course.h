@@ -1,0 +1,61 @@
+// The course of a world from a moment on, in memory, so that it can be played again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/world/recording/recorder.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/recording/timeline.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+class RecentCourse {
+ public:
+  /// A course with more events from outside is not kept.
+  static constexpr std::size_t kMaxEvents = 100'000;
+
+  /// Begins now. The world must outlive it.
+  explicit RecentCourse(World& world);
+
+  /// Returns false if there were too many events.
+  bool is_whole() const { return !is_too_long_; }
+  SimTime begin() const { return begin_at_; }
+  /// Returns the course up to now. If no event has come since the last call and time has not gone beyond its
+  /// end, it is the same object; otherwise this plays the whole course again. Call it outside
+  /// World::advance_to(), while events are not kept (Pause).
+  Timeline& timeline();
+  /// Drops all events after this moment: from there the world takes another course.
+  void drop_after(SimTime moment);
+
+  /// While it exists, events are not kept, because they are those of the course.
+  class Pause {
+   public:
+    explicit Pause(RecentCourse& course) : course_(course) { course_.is_paused_ = true; }
+    ~Pause() { course_.is_paused_ = false; }
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+   private:
+    RecentCourse& course_;
+  };
+
+ private:
+  void take(RecordedEvent event);
+
+  World& world_;
+  SimTime begin_at_;
+  WorldState begin_;
+  std::vector<RecordedEvent> events_;
+  bool is_paused_ = false;
+  bool is_too_long_ = false;
+  std::unique_ptr<Timeline> timeline_;  // of `events_`; null: it must be made
+  Recorder recorder_;                   // the last member: it calls take() as soon as it exists
+};
+
+}  // namespace understudy::emulator::world
