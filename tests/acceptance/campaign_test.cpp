@@ -332,7 +332,7 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
             2},
            {{"--results", scenario}, "the scenario itself", 2},
            {{"--results", folder_ / "other.jsonl", "--resume"},
-            "other.jsonl cannot be written: it is not a file of results; expected one to replace, or a free "
+            "other.jsonl cannot be written: it is not a results file; expected one to replace, or a free "
             "path",
             3},
            {{"--results", folder_ / "no/rows.jsonl"}, "cannot be written: No such file or directory", 3},

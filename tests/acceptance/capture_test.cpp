@@ -169,7 +169,7 @@ TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesGoOn) {
     capturing.exchange(kReadHardwareCode, kHardwareCodeReply);
     return !capturing.daemon().errors().empty();
   }));
-  EXPECT_NE(capturing.daemon().errors().find("a.pcapng: the capture has ended early: File too large\n"),
+  EXPECT_NE(capturing.daemon().errors().find("a.pcapng: the capture ended early: File too large\n"),
             std::string::npos)
       << capturing.daemon().errors();
   const std::string file = capturing.stop();

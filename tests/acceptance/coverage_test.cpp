@@ -148,7 +148,7 @@ TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
   };
   constexpr Case kCases[] = {
       {"broken.info", "broken.info:3: 'one,1' is not understood; expected a line's number\n"},
-      {"bench.yaml", "bench.yaml: is a bench; expected a file of coverage\n"},
+      {"bench.yaml", "bench.yaml: is a bench; expected a coverage file\n"},
       {"none.info",
        "none.info: cannot be read (No such file or directory); expected a tracefile (FILE.info)\n"},
       {"broken.info -o broken.info",

@@ -158,7 +158,7 @@ TEST(ToldFaults, AReplyToNobodySaysBoth) {
   line.world().host_closed(0);
   line.world().advance_to(std::chrono::milliseconds(50));
   EXPECT_EQ(captured.lines().back(),
-            "out L 01 03 02 C0 01 29 7B  # to nobody: no host has the line open; "
+            "out L 01 03 02 C0 01 29 7B  # discarded: no host has the line open; "
             "fault 1 corrupt_checksum: last byte inverted");
 }
 
