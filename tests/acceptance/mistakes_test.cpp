@@ -316,7 +316,7 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
     const Finished finished = understudy({"import", at(name + ".csv")});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     const std::string said = finished.errors + finished.output;
-    EXPECT_EQ(said.find("read as Modicon's numbers: '40001' is 0 on the wire") != std::string::npos,
+    EXPECT_EQ(said.find("read as Modicon numbers: '40001' is 0 on the wire") != std::string::npos,
               list.is_remarked)
         << list.text << said;
   }
