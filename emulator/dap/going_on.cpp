@@ -44,7 +44,7 @@ Json Session::step_in(const Json& arguments) {
 }
 
 void Session::require_recording() const {
-  if (!is_recording_) throw RequestError("only a recording goes back; expected a session with one");
+  if (!is_recording_) throw RequestError("only a recording can go back; expected a session with one");
 }
 
 Json Session::step_back(const Json& arguments) {
@@ -221,7 +221,7 @@ void Session::look() {
     std::string text = refusal;
     if (text.empty() && is_recording_)
       text = goes_back_ ? "the recording begins here" : "the recording ends here";
-    if (text.empty() && !wants_pause_) text = "nothing has stopped it within " + std::string(kLongTime);
+    if (text.empty() && !wants_pause_) text = "nothing stopped it within " + std::string(kLongTime);
     stands(reply->value("stop", Json()), refusal.empty() ? "pause" : "step", text);
   } catch (const RequestError& error) {
     has_ended(error.what());

@@ -154,7 +154,7 @@ TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
       {"broken.info -o broken.info",
        "understudy: --output: broken.info: is a file to add; expected another path\n"},
       {"broken.info -o sum.txt",
-       "understudy: --output: sum.txt is not a kind of coverage; expected FILE.info (lcov), FILE.xml "
+       "understudy: --output: sum.txt has an unknown format; expected FILE.info (lcov), FILE.xml "
        "(Cobertura) or FILE.html (a page)\n"},
   };
   for (const Case& one : kCases) {
