@@ -368,7 +368,7 @@ scenario.yaml:11: steps[1].via: no line is called 'b'; expected 'rs485'
 scenario.yaml:12: steps[2].send.line: no line is called 'c'; expected 'rs485'
 scenario.yaml:12: steps[2].send.bytes: 'zz' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
 scenario.yaml:12: steps[2].send.reply: 'yy' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
-scenario.yaml:12: steps[2].send.within: takes no time; expected some
+scenario.yaml:12: steps[2].send.within: takes no time; expected a duration above 0
 scenario.yaml:12: steps[2].send.with: is not a key here; expected one of line, bytes, reply, within (the nearest is 'within')
 scenario.yaml:13: steps[3].hear: 'text' is missing; expected it here
 scenario.yaml:13: steps[3].hear.line: no line is called 'q'; expected 'rs485'
