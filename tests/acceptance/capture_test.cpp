@@ -268,8 +268,8 @@ TEST(Capture, TellsWhatFaultsDid) {
     EXPECT_NE(status.find("\nfault 1 drop device nth=1: seen 2, matched 2, hit 1\n"), std::string::npos)
         << status;
     const std::string file = capturing.stop();
-    for (const char* comment : {"fault 1 drop: not said", "fault 2 corrupt_checksum: last byte inverted",
-                                "fault 3 drop: not heard"}) {
+    for (const char* comment : {"fault 1 drop: not sent", "fault 2 corrupt_checksum: last byte inverted",
+                                "fault 3 drop: not received"}) {
       EXPECT_NE(file.find(comment), std::string::npos) << name << ": " << comment;
     }
     if (name == "a.txt") continue;

@@ -29,7 +29,7 @@ TEST(ReadCapture, JoinsRequestsAndReplies) {
       "0.100000000 in  pc (mill PC) 01 03\n"
       "0.105333333 out pc (mill PC) 01 83  # fault 2 corrupt_checksum: last byte inverted\n"
       "0.106000000 out pc (mill PC) 02\n"
-      "0.200000000 in  pc (mill PC)  # fault 1 drop: not heard\n"
+      "0.200000000 in  pc (mill PC)  # fault 1 drop: not received\n"
       "1.5 in  pc (mill PC) FF\n");
   EXPECT_EQ(capture.line, "pc (mill PC)");
   EXPECT_EQ(capture.unasked, 1U);

@@ -260,7 +260,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {get(R"(["feeder.A.positon"])"), "axis A has no 'positon'; the nearest is 'position'"},
       {get(R"(["feeder.0x0003"])"), "feeder: no register is at 0x0003"},
       {get(R"(["feeder.0x1002.16"])"), "feeder: 0x1002 has no bit '16'; expected 0 to 15"},
-      {get(R"(["feeder.A.greatest_speed"])"), "feeder.A.greatest_speed is kept in scenarios only"},
+      {get(R"(["feeder.A.greatest_speed"])"), "feeder.A.greatest_speed exists only in scenarios"},
       {eval("feeder.STATUS +"), "column 16 of 'feeder.STATUS +': unexpected end; expected "},
       {eval("1 / feeder.STATUS.0"), "column 3 of '1 / feeder.STATUS.0': division by zero"},
       {eval("feeder.STATUS == yes"),
