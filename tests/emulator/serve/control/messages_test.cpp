@@ -266,7 +266,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {eval("feeder.STATUS == yes"),
        "column 18 of 'feeder.STATUS == yes': 'yes' is not known here; expected on"},
       {R"({"do":"eval"})", "'expression' is missing"},
-      {R"({"do":"frames","since":1,"last":1})", "since: is given together with last; expected one of them"},
+      {R"({"do":"frames","since":1,"last":1})", "since: cannot be combined with last; expected one of them"},
       {R"({"do":"frames","since":-1})", "since: -1 is not a whole number; expected one of 0 or more"},
       {set(R"({"":1})"), "the device is missing"},
       {set(R"({"feeder.":1})"), "feeder: no register is called ''"},
