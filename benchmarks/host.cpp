@@ -16,7 +16,8 @@ Host::Host(const std::string& port) : descriptor_(open(port.c_str(), O_RDWR | O_
   cfsetspeed(&settings, B19200);
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
-  if (tcsetattr(descriptor_, TCSANOW, &settings) != 0) throw CannotRun(port + ": cannot be set raw");
+  if (tcsetattr(descriptor_, TCSANOW, &settings) != 0)
+    throw CannotRun(port + ": cannot be put into raw mode");
 }
 
 Host::~Host() { close(descriptor_); }

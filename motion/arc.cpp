@@ -120,7 +120,7 @@ Path finished(Path path, double growth_u, const ArcDemand& demand) {
   // A difference within the tolerance is blended in; a true spiral has no such length in closed form.
   if (std::abs(growth_u) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
     refuse(Refusal::out_of_range, demand.law,
-           "growth of the radius must be 0 where the longest axis is the measure, is " + text(growth_u));
+           "growth of the radius must be 0 if the longest axis is the measure, is " + text(growth_u));
   }
   path.length_u = length_by_longest_axis(path);
   return path;
@@ -218,7 +218,7 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   Path path = in_plane_of(demand, at_centre, sweep_rad, rise);
   const double radius = (demand.begin - at_centre).norm();
   if (radius == 0 && growth_u_turn <= 0) {
-    refuse(Refusal::no_such_arc, demand.law, "centre must be off begin, is on it");
+    refuse(Refusal::no_such_arc, demand.law, "centre must differ from begin, is on it");
   }
   double growth = growth_u_turn * (std::abs(sweep_rad) / (2 * kPi));
   if (radius + growth < 0) {
@@ -275,7 +275,7 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
   const double end_radius = to.norm();
   if (radius == 0 || end_radius == 0) {
     refuse(Refusal::no_such_arc, demand.law,
-           "centre must be off begin and end, is on " + std::string(radius == 0 ? "begin" : "end"));
+           "centre must differ from begin and end, is on " + std::string(radius == 0 ? "begin" : "end"));
   }
   Point met = end;
   double growth = end_radius - radius;
@@ -319,7 +319,8 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
   const double half = chord.norm() / 2;
   const double radius = std::abs(radius_u);
   if (radius == 0) refuse(Refusal::no_such_arc, demand.law, "radius must not be 0, is 0");
-  if (half == 0) refuse(Refusal::no_such_arc, demand.law, "end must be off begin in the plane, is on it");
+  if (half == 0)
+    refuse(Refusal::no_such_arc, demand.law, "end must differ from begin in the plane, is on it");
   if (2 * half > 2 * radius + options.radius_tolerance_u) {
     refuse(Refusal::no_such_arc, demand.law,
            "chord must be at most " + text(2 * radius) + ", twice the radius, is " + text(2 * half));

@@ -30,7 +30,7 @@ std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 void Environment::add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
-  if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "environment", "at most 12 zones an axis");
+  if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "environment", "at most 12 zones per axis");
   zones[zone_count++] = {.signal = signal, .from = from, .to = to, .slack = slack};
   ++version;
 }

@@ -49,7 +49,7 @@ void require_plans(SpeedLaw law, double override_factor) {
   }
   if (may_creep && law.start_speed_u_s <= 0) {
     throw BadMotion(Refusal::not_positive, "path run",
-                    "start speed must be above 0 where slowing down may begin early, is 0");
+                    "start speed must be above 0 if slowing down may begin early, is 0");
   }
   const Profile endless = plan_endless(law);
   constexpr double kLongest_u = 1e20;

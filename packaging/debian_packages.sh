@@ -43,7 +43,7 @@ install_missing() {
   if ! can_install; then
     why="no apt-get"
     ! command -v apt-get >/dev/null || why="not root, and no sudo"
-    echo "nothing can be installed here ($why); needed, by Debian 12's names: ${missing[*]}"
+    echo "nothing can be installed here ($why); needed (Debian 12 names): ${missing[*]}"
     return 0
   fi
   echo "installing: ${missing[*]}"

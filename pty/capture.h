@@ -34,7 +34,7 @@ constexpr std::string_view text_of(Remark remark) {
     case Remark::not_a_frame: return "dropped: not a frame";
     case Remark::unheard: return "unheard: the host set another speed";
     case Remark::collided: return "collided with another station";
-    case Remark::to_nobody: return "to nobody: no host has the line open";
+    case Remark::to_nobody: return "discarded: no host has the line open";
   }
   return "";
 }
@@ -51,7 +51,7 @@ struct CapturedPacket {
   std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
 };
 
-/// Returns "fault 1 drop: not said; fault 2 delay: said later".
+/// Returns "fault 1 drop: not sent; fault 2 delay: sent late".
 std::string text_of(std::span<const Strike> strikes);
 /// Returns the remark, faults and command of a packet as one text. It may be empty.
 std::string comment_of(const CapturedPacket& packet);

@@ -77,14 +77,14 @@ void CaptureFile::add(const CapturedPacket& packet) {
   if (outcome == BackgroundWriter::Outcome::failed) {
     tell_failure();
   } else if (!std::exchange(has_told_slow_, true)) {
-    log_(path_ + ": the disk is too slow, packets are missing from the capture");
+    log_(path_ + ": the disk is too slow; packets are missing from the capture");
   }
 }
 
 void CaptureFile::tell_failure() {
   const int error = writer_->failure().error;
   if (error == 0 || !failure_.empty()) return;
-  failure_ = path_ + ": the capture has ended early: " + std::generic_category().message(error);
+  failure_ = path_ + ": the capture ended early: " + std::generic_category().message(error);
   log_(failure_);
 }
 

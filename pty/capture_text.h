@@ -2,7 +2,7 @@
 //
 //   0.005333333 out rs485 01 03 02 C0 01 29 84  # remark
 //
-//   0.105333333 out rs485  # fault 1 drop: not said
+//   0.105333333 out rs485  # fault 1 drop: not sent
 //
 // The columns are simulated seconds since power-up, `in` (from the host) or `out`, the line's name, and the
 // bytes. Pure.

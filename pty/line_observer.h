@@ -24,7 +24,7 @@ struct Speech {
 struct Strike {
   std::uint64_t fault = 0;  // its number
   std::string_view kind;    // "drop"
-  std::string_view effect;  // for example "not said"
+  std::string_view effect;  // for example "not sent"
 };
 
 /// The effects of faults on one message.

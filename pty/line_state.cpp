@@ -19,23 +19,23 @@ void Line::check(const State& state) const {
   const LineSettings& settings = state.settings;
   require(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
               settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
-          "its settings are not those of a line");
+          "its settings are not possible for a line");
   require(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
-          "more bytes wait than it holds");
+          "more bytes are waiting than it can hold");
   const auto require_burst = [&](const Burst& burst) {
     require(is_within_reach(burst.start) && is_within_reach(burst.end) && burst.count >= 0 &&
                 burst.count < settings.baud,
-            "its characters take no time");
+            "its characters have impossible times");
   };
   require_burst(state.arriving);
   for (const Member& member : state.members) {
     require_burst(member.speech);
-    require(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters take no time");
+    require(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters have impossible times");
   }
   const auto require_characters = [&](const Queue<TimedByte>& characters) {
     for (const TimedByte& character : characters) {
       require(is_within_reach(character.start) && is_within_reach(character.end),
-              "its characters take no time");
+              "its characters have impossible times");
     }
   };
   require_characters(state.input);
@@ -43,7 +43,7 @@ void Line::check(const State& state) const {
   require(state.lump.size() < kLump && state.lump.empty() != state.lump_at.has_value() &&
               state.adapter.latency >= SimTime{0} && is_within_reach(state.adapter.latency) &&
               is_within_reach(state.lump_at.value_or(SimTime{0})),
-          "its adapter cannot hold that back");
+          "its adapter cannot hold these bytes back");
   require(is_within_reach(state.edge.clock), "its clock is after the end of simulated time");
 }
 

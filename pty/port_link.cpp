@@ -69,7 +69,7 @@ int replace_link(const std::string& path, const std::string& target) {
 }
 
 PortError cannot_link(const std::string& path, int error) {
-  return PortError(path + ": the link cannot be made: " + port_trouble(error) +
+  return PortError(path + ": the link cannot be created: " + port_trouble(error) +
                    "; expected a writable directory");
 }
 
@@ -103,7 +103,7 @@ PortLink::PortLink(const std::string& path, std::string target) {
   } catch (const std::system_error& error) {
     if (error.code().value() == EMFILE) throw PortError(path + ": " + port_trouble(EMFILE));
     throw PortError(path + ": cannot tell whether the link is in use: " + error.what() +
-                    "; expected to make and lock that file");
+                    "; expected to be able to create and lock that file");
   }
   if (!claim_) {
     throw PortError(path +

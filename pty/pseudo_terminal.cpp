@@ -101,7 +101,8 @@ Pair open_pair(const std::string& link_path) {
   pair.path = name.data();
   pair.slave = open_slave(pair.path);
   if (!pair.slave) throw cannot_have(link_path, pair.path + " cannot be opened", errno);
-  if (!rest(pair.slave.get())) throw cannot_have(link_path, pair.path + " cannot be set raw", errno);
+  if (!rest(pair.slave.get()))
+    throw cannot_have(link_path, pair.path + " cannot be put into raw mode", errno);
   return pair;
 }
 

@@ -26,17 +26,17 @@ constexpr std::array kKinds{
     KindRow{ContentKind::recording, "a recording", {"{"}, "\"kind\":\"recording\"", true},
     KindRow{ContentKind::snapshot, "a snapshot", {"{"}, "\"kind\":\"snapshot\"", true},
     KindRow{ContentKind::nv_image, "an NV image", {"{"}, "\"kind\":\"nv-image\"", true},
-    KindRow{ContentKind::results, "a file of results", {"{\"file\":\""}, "", true},
+    KindRow{ContentKind::results, "a results file", {"{\"file\":\""}, "", true},
     KindRow{ContentKind::database, "a database", {std::string_view("SQLite format 3\0", 16)}},
     KindRow{ContentKind::capture,
             "a capture",
             {"\x0a\x0d\x0d\x0a", "# simulated seconds, in (from the host) or out, line"}},
     KindRow{ContentKind::trace, "a trace", {"time_ms", "$version Understudy $end"}},
     KindRow{ContentKind::page, "an HTML page", {"<!DOCTYPE html", "<!doctype html"}},
-    KindRow{ContentKind::junit, "a file of JUnit results", {"<?xml", "<testsuite"}, "<testsuite"},
-    KindRow{ContentKind::coverage, "a file of coverage", {"TN:", "SF:"}},
-    KindRow{ContentKind::coverage, "a file of coverage", {"{"}, "\"kind\":\"device-coverage\"", true},
-    KindRow{ContentKind::coverage, "a file of coverage", {"<?xml", "<coverage"}, "<coverage"},
+    KindRow{ContentKind::junit, "a JUnit results file", {"<?xml", "<testsuite"}, "<testsuite"},
+    KindRow{ContentKind::coverage, "a coverage file", {"TN:", "SF:"}},
+    KindRow{ContentKind::coverage, "a coverage file", {"{"}, "\"kind\":\"device-coverage\"", true},
+    KindRow{ContentKind::coverage, "a coverage file", {"<?xml", "<coverage"}, "<coverage"},
     KindRow{ContentKind::picture, "a picture", {"\x89PNG\r\n\x1a\n"}},
     KindRow{ContentKind::picture, "a picture", {"<?xml", "<svg"}, "<svg"},
     KindRow{ContentKind::photograph, "a photograph", {"{"}, "\"kind\":\"photograph\"", true},
@@ -118,7 +118,7 @@ std::string_view name_of(ContentKind kind) {
   for (const NamedKind& row : kYamlKinds) {
     if (row.kind == kind) return row.name;
   }
-  return "a file of another kind";
+  return "another kind of file";
 }
 
 std::string the(ContentKind kind) {

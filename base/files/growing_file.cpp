@@ -60,7 +60,7 @@ void GrowingFile::begin(std::string_view line) {
 
 void GrowingFile::give_up(const std::string& why) {
   if (!failure_.empty()) return;
-  failure_ = path_ + ": " + what_ + " has ended early: " + why;
+  failure_ = path_ + ": " + what_ + " ended early: " + why;
   if (log_) log_(failure_);
 }
 

@@ -4,7 +4,7 @@
 //   folder.
 // - It follows a symbolic link and keeps it: the target is written. In a folder that everyone can write to
 //   (/tmp), it refuses another user's link or file.
-// - It never replaces a file of another kind (content_kind.h), because the path may be a typing error.
+// - It never replaces another kind of file (content_kind.h), because the path may be a typing error.
 // - It keeps the old content until the first bytes are written, so all outputs can be opened before any is
 //   emptied.
 // - A new file that replaces an old one has the same owner and permissions.

@@ -150,7 +150,7 @@ constexpr const auto& fields_of() {
   using Fields = std::remove_cvref_t<decltype(StateOf<T>::fields)>;
   static_assert(
       std::is_aggregate_v<T> || requires { StateOf<T>::members; },
-      "the members of a class cannot be counted: StateOf must say how many there are");
+      "the members of a class cannot be counted; StateOf must give their number");
   static_assert(state_fields::has_members<T, Fields::count + state_fields::apart_of<T>()>(),
                 "StateOf does not list the fields that the type has");
   return StateOf<T>::fields;

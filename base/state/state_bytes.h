@@ -202,8 +202,8 @@ class StateReader {
     } else if constexpr (std::is_same_v<T, bool>) {
       require_state(bits <= 1, "a boolean must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
-      static_assert(is_last<StateOf<T>::last>(), "StateOf has another last value than the enumeration");
-      require_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
+      static_assert(is_last<StateOf<T>::last>(), "StateOf's last value differs from the enumeration's");
+      require_state(bits <= as_bits(StateOf<T>::last), "an enumeration has a value that does not exist");
     }
     return static_cast<T>(bits);
   }
@@ -238,7 +238,7 @@ inline void StateReader::read_shared(SharedText& value) {
   std::uint64_t digest = 0;
   read(digest);
   require_state(!shared_->empty(), "the texts end too early");
-  require_state(shared_->front().digest() == digest, "a text is not the one that was saved");
+  require_state(shared_->front().digest() == digest, "a text differs from the one that was saved");
   value = shared_->front();
   shared_ = shared_->subspan(1);
 }

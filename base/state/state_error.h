@@ -16,7 +16,7 @@ inline void require_state(bool holds, const char* what) {
 }
 
 inline void require_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
-  require_state(value >= least && value <= greatest, "a number is beyond its range");
+  require_state(value >= least && value <= greatest, "a number is out of range");
 }
 
 /// Throws StateError if a count of pulses, ticks or nanoseconds is so large that sums and differences of a

@@ -50,7 +50,7 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
     device.settings.nv = image;
     return;
   }
-  throw UsageError("--from: " + from + ": is of " + quoted(image->model) +
+  throw UsageError("--from: " + from + ": is for " + quoted(image->model) +
                    ", but the line has no device of that model; expected an image of one of them");
 }
 

@@ -39,11 +39,11 @@ inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
       ->check(kNotEmpty);
   command.add_option("--line", compare.line, "The line, if the bench or a capture has several")
       ->check(kNotEmpty);
-  command.add_option("--from", compare.from, "NV image with what the controller held at the beginning")
+  command.add_option("--from", compare.from, "NV image of the controller's memory at the beginning")
       ->check(kNotEmpty);
-  command.add_option("--tolerance", compare.tolerance, "By how much times may differ")->capture_default_str();
+  command.add_option("--tolerance", compare.tolerance, "How much times may differ")->capture_default_str();
   command.add_flag("--power-up", compare.power_up,
-                   "The captures' time 0 is the power-up of the controller, so everything it held is known");
+                   "Time 0 of the captures is the controller's power-up, so its whole state is known");
 }
 
 }  // namespace understudy::emulator::command_line

@@ -96,7 +96,7 @@ void print_unexplained_calibration(const BoxBench& box, const box::Calibration& 
   std::printf("no options explain %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
               format_duration(exchange.at).c_str());
   std::printf("the furthest: %s\n", hypothesis_text(box.bench, found.explanations.front()).c_str());
-  std::printf("next: understudy compare with these options shows the difference\n");
+  std::printf("next: run understudy compare with these options to see the difference\n");
 }
 
 void print_calibration(const BoxBench& box, const box::Calibration& found) {
@@ -110,7 +110,7 @@ void print_calibration(const BoxBench& box, const box::Calibration& found) {
     const bool is_new = finding.state == RowState::measured && !finding.remaining.contains(finding.before);
     std::printf("  %-12s %s: %s%s\n", name_of_state(finding.state),
                 choice_name(box.bench, finding.key).c_str(), options.c_str(),
-                is_new ? "  (the bench has another)" : "");
+                is_new ? "  (the bench has a different option)" : "");
   }
   std::string text;
   for (const auto& [state, name] : kRowStates)
@@ -138,7 +138,7 @@ void print_measured_choices(const BoxBench& box, const box::Calibration& found) 
 int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   FileClaims claims;
   claims.add({arguments.compare.bench, "the bench itself"});
-  for (const std::string& path : arguments.compare.captures) claims.add({path, "a capture that is read"});
+  for (const std::string& path : arguments.compare.captures) claims.add({path, "an input capture"});
   ResultFile output("--output", require_output(claims, "--output", arguments.output), ContentKind::evidence);
   const BoxBench box = read_box_bench(models, "calibrate", arguments.compare);
   // Settings that the model refuses are reported before any other option is tried.

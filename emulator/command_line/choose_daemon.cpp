@@ -108,7 +108,7 @@ std::string find_by(const WhichDaemon& which) {
     if (running.has_answered && fits) fitting.push_back(running);
   }
   if (!fitting.empty()) {
-    return only_one(fitting, "daemons fit " + flags_of(which),
+    return only_one(fitting, "daemons match " + flags_of(which),
                     which.port.empty() ? "--port LINK as well, or --control SOCKET," : "--control SOCKET");
   }
   const std::string what = which.port.empty()    ? which.bench

@@ -92,7 +92,7 @@ void print_difference(const box::Capture& capture, const Compared& compared) {
   std::printf("    controller:     %s\n", one_line(judgement.box).c_str());
   std::printf("    bench:          %s\n", one_line(judgement.bench).c_str());
   for (const std::string& remedy : compared.remedies) std::printf("    it agrees with  %s\n", remedy.c_str());
-  if (compared.remedies.empty()) std::printf("    it agrees with no other option of a single choice\n");
+  if (compared.remedies.empty()) std::printf("    no other option of a single choice agrees with it\n");
 }
 
 void print_comparison(const box::Capture& capture, const Compared& compared) {
@@ -100,8 +100,7 @@ void print_comparison(const box::Capture& capture, const Compared& compared) {
   std::printf("%s: %zu exchanges: %s\n", capture.path.c_str(), capture.exchanges.size(),
               verdicts_text(verdict_counts(comparison)).c_str());
   if (comparison.usual_delay.count() != 0)
-    std::printf("  replies come %s after the bench's, as a rule\n",
-                delay_text(comparison.usual_delay).c_str());
+    std::printf("  replies usually come %s after the bench's\n", delay_text(comparison.usual_delay).c_str());
   if (!comparison.first_difference) return;
   print_difference(capture, compared);
   std::map<std::string, std::pair<std::size_t, std::size_t>> by_kind;  // different, all

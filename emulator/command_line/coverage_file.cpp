@@ -63,7 +63,7 @@ void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::s
   const bool is_known = wish.path.ends_with(".info") || is_xml(wish.path) || is_page(wish.path);
   if (!wish.path.empty() && !is_known) {
     throw UsageError(flag + ": " + wish.path +
-                     " is not a kind of coverage; expected FILE.info (lcov), FILE.xml (Cobertura) or "
+                     " has an unknown format; expected FILE.info (lcov), FILE.xml (Cobertura) or "
                      "FILE.html (a page)");
   }
   if (wish.min_percent && !(*wish.min_percent >= 0 && *wish.min_percent <= 100)) {

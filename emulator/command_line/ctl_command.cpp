@@ -181,7 +181,7 @@ void add_command(const ControlArguments& arguments, Json& message) {
 }
 
 void add_fault(const ControlArguments& arguments, Json& message) {
-  if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
+  if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and its place");
   message["fault"] = fault_of(arguments.operands);
 }
 
@@ -249,7 +249,7 @@ void print_status(const Json& status) {
               lateness.at("p50_us").get<double>(), lateness.at("p99_us").get<double>(),
               lateness.at("max_us").get<double>(), lateness.at("wakes").get<unsigned long long>(),
               lateness.at("slips").get<unsigned long long>());
-  std::printf("ticks %llu stepped, %llu crossed in bulk\n",
+  std::printf("ticks %llu stepped, %llu fast-forwarded\n",
               status.at("ticks").at("stepped").get<unsigned long long>(),
               status.at("ticks").at("crossed").get<unsigned long long>());
   for (const Json& line : status.at("lines")) {
@@ -335,7 +335,7 @@ int control(const ControlArguments& arguments) {
   const std::string path = choose_daemon(arguments.which);
   if (!arguments.trace.empty()) {
     if (!arguments.operands.empty())
-      throw UsageError("ctl scope: --trace writes what was kept; expected no names with it");
+      throw UsageError("ctl scope: --trace writes the recorded values; expected no names with it");
     write_scope(path, arguments.trace);
     return kExitWell;
   }
@@ -383,8 +383,7 @@ int control(const ControlArguments& arguments) {
     return accepted ? kExitWell : kExitBadInput;
   } catch (const Json::exception&) {
     throw serve::ControlError(
-        path +
-        ": this is not the socket of an understudy; expected the control socket of `understudy serve`");
+        path + ": this is not an Understudy socket; expected the control socket of `understudy serve`");
   }
 }
 

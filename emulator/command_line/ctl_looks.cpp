@@ -119,7 +119,7 @@ void add_break_words(const ControlArguments& arguments, Json& message) {
       "log=TEXT";
   const std::vector<std::string>& words = arguments.operands;
   if (!words.empty() && words[0] == "delete") {
-    if (words.size() != 2) throw UsageError("ctl break: expected a number behind delete, or all");
+    if (words.size() != 2) throw UsageError("ctl break: expected a number after delete, or all");
     message["delete"] = words[1];
     if (words[1] != "all") message["delete"] = require_whole(arguments, words[1], "a number, or all");
     return;
@@ -248,7 +248,7 @@ void print_registers(const Json& reply) {
     std::printf("%s\n", one_line(text).c_str());
   }
   if (reply.contains("next")) {
-    std::printf("... of %s; from=%s goes on\n", reply.at("of").dump().c_str(),
+    std::printf("... of %s; from=%s continues\n", reply.at("of").dump().c_str(),
                 reply.at("next").dump().c_str());
   }
 }

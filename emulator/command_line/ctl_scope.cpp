@@ -38,7 +38,7 @@ Json samples_from(const std::string& socket, std::uint64_t from) {
   if (!reply.at("ok").get<bool>()) throw UsageError("ctl scope: " + reply.at("error").get<std::string>());
   if (reply.at("scope").is_null() || reply.at("scope").at("count") == 0) {
     throw UsageError(
-        "ctl scope: --trace: nothing is kept; expected a scope that was armed and has run: ctl scope "
+        "ctl scope: --trace: nothing was recorded; expected a scope that was armed and has run: ctl scope "
         "NAME...");
   }
   return reply;
@@ -64,7 +64,7 @@ void print_scope(const Json& scope) {
 
 void write_scope(const std::string& socket, const std::string& path) {
   if (!path.ends_with(".csv"))
-    throw UsageError("--trace: " + path + ": is not a kind of trace of a scope; expected FILE.csv");
+    throw UsageError("--trace: " + path + ": has an unknown format; expected FILE.csv");
   Json reply = samples_from(socket, 0);
   const Json scope = reply.at("scope");
   std::string text = "time_ms";

@@ -102,10 +102,10 @@ DebuggedBench::DebuggedBench(std::vector<std::string> words, const std::string& 
   while (!serve::is_answered(socket)) {
     if (program_.ended()) {
       const std::string why = last_line(program_.news());
-      throw dap::RequestError(why.empty() ? "the bench has ended before it was served" : why);
+      throw dap::RequestError(why.empty() ? "the bench ended before it was ready" : why);
     }
     if (is_interrupted() || std::chrono::steady_clock::now() > end_of_patience)
-      throw dap::RequestError("the bench has not started within 60 s");
+      throw dap::RequestError("the bench did not start within 60 s");
     std::this_thread::sleep_for(kAgain);
   }
 }
@@ -113,7 +113,7 @@ DebuggedBench::DebuggedBench(std::vector<std::string> words, const std::string& 
 RecordedScenario::RecordedScenario(const std::string& scenario)
     : folder_((std::filesystem::temp_directory_path() / "understudy-dap-XXXXXX").string()) {
   if (mkdtemp(folder_.data()) == nullptr)
-    throw dap::RequestError(folder_ + ": cannot be made; expected a folder for recordings");
+    throw dap::RequestError(folder_ + ": cannot be created; expected a folder for recordings");
   try {
     QuietProgram run({"run", scenario, "--record", folder_});
     std::optional<int> code;
@@ -140,11 +140,11 @@ void RecordedScenario::find_recording() {
     if (entry.path().extension() != ".jsonl") continue;
     if (!recording_.empty())
       throw dap::RequestError(
-          "scenario: there are several; expected a file of one, or `run --record` and then "
+          "scenario: there are several; expected a file with one, or `run --record` and then "
           "one of its recordings");
     recording_ = entry.path().string();
   }
-  if (recording_.empty()) throw dap::RequestError("scenario: it has left no recording; expected one");
+  if (recording_.empty()) throw dap::RequestError("scenario: it left no recording; expected one");
 }
 
 }  // namespace understudy::emulator::command_line

@@ -40,7 +40,7 @@ class DeviceObserver final : public play::Observer {
 void require_device_coverage(FileClaims& claims, const std::string& path) {
   if (!path.empty() && !path.ends_with(".json") && !is_device_page(path)) {
     throw UsageError("--device-coverage: " + path +
-                     " is not a kind of coverage of devices; expected FILE.json or FILE.html (a page)");
+                     " has an unknown format; expected FILE.json or FILE.html (a page)");
   }
   require_output(claims, "--device-coverage", path);
 }

@@ -80,8 +80,8 @@ int tell_of(const CourseEnd& end, const play::Scenario& scenario) {
 int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   const std::string command = one_line(arguments.host.command[0]);
   if (end.has_timed_out) {
-    std::fprintf(stderr, "understudy: exec: %s: was ended because it took longer than %s\n", command.c_str(),
-                 arguments.timeout.c_str());
+    std::fprintf(stderr, "understudy: exec: %s: was stopped because it took longer than %s\n",
+                 command.c_str(), arguments.timeout.c_str());
     return kExitTimedOut;
   }
   if (!end.was_reached) {

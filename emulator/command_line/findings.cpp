@@ -27,7 +27,7 @@ constexpr FindingRule kFindingRules[] = {
     {"scenario", "A scenario file asks for something impossible."},
     {"steps", "An included file of steps asks for something impossible."},
     {"program", "The model does not accept the text of a program."},
-    {"file", "The file cannot be read, or is not one of ours."},
+    {"file", "The file cannot be read, or has an unknown format."},
 };
 
 std::string rule_of(const CheckedFile& checked) { return "understudy/" + checked.kind; }

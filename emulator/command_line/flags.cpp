@@ -198,7 +198,8 @@ struct CommandLine {
         ->check(kNotEmpty)
         ->excludes(socket);
     command
-        .add_option("--port", control.which.port, "Choose the daemon that has this port, or the link to it")
+        .add_option("--port", control.which.port,
+                    "Choose the daemon that serves this port, or the link to it")
         ->check(kNotEmpty)
         ->excludes(socket);
     command.add_flag("--json", control.json, "Print the reply unchanged: one JSON object");
@@ -365,7 +366,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"exec", "Run a command against a bench, or in each case of a scenario: exec FILE -- COMMAND",
      &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
-    {"hunt", "Search for what breaks a scenario, and shrink it to the least that does",
+    {"hunt", "Search for disturbances that break a scenario, and reduce them to the fewest that do",
      &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
@@ -373,10 +374,10 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"page", "Show running benches in a browser", &CommandLine::add_page},
     {"dap", "Debug controllers' programs from an editor (Debug Adapter Protocol)", &CommandLine::add_dap},
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
-    {"photograph", "Read everything that a real controller tells, into an NV image",
+    {"photograph", "Read everything that a real controller reports, into an NV image",
      &CommandLine::add_photograph},
     {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
-    {"calibrate", "Find the choices with which a bench replies as a real controller",
+    {"calibrate", "Find the choices with which a bench replies like a real controller",
      &CommandLine::add_calibrate},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},

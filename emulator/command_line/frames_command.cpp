@@ -74,8 +74,7 @@ int follow_frames(const FramesArguments& arguments) {
     }
   } catch (const Json::exception&) {
     throw serve::ControlError(
-        path +
-        ": this is not the socket of an understudy; expected the control socket of `understudy serve`");
+        path + ": this is not an Understudy socket; expected the control socket of `understudy serve`");
   }
   return kExitWell;
 }

@@ -126,8 +126,8 @@ std::string why_failed(const CourseEnd& end, const play::Scenario& scenario, con
            "LD_PRELOAD";
   }
   if (end.has_timed_out)
-    return "the command was ended because it took longer than " + (timeout.empty() ? "60s" : timeout);
-  if (end.was_given_up) return "the scenario did not run to its end, because the run was ended";
+    return "the command was stopped because it took longer than " + (timeout.empty() ? "60s" : timeout);
+  if (end.was_given_up) return "the scenario did not run to its end, because the run was stopped";
   if (end.exit_code == 0 || std::ranges::any_of(scenario.steps, is_command_end)) return {};
   return "the command ended with exit code " + std::to_string(end.exit_code) + "; expected 0";
 }

@@ -72,7 +72,8 @@ void require_hunted(const play::Scenario& scenario) {
                     "`hunt: { may: [ inject: { drop: feeder } ] }`");
   }
   if (!scenario.saved.empty()) {
-    throw FileError(scenario.file + ": save: cannot be hunted, since courses would write the same file");
+    throw FileError(scenario.file +
+                    ": save: cannot be used in a hunt, because its courses would write the same file");
   }
 }
 
@@ -178,7 +179,7 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
                             .corpus = corpus.courses(),
                             .is_guided = !arguments.unguided};
   if (arguments.unguided && corpus.is_wanted())
-    throw UsageError("--unguided: goes on from no course; expected it without --corpus");
+    throw UsageError("--unguided: uses no earlier courses; expected no --corpus");
   play::CaseList cases(models, {});
   FileClaims claims;
   cases.add(arguments.scenario, [&](const play::Scenario& scenario) {

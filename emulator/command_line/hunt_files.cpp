@@ -125,7 +125,7 @@ void FoundFiles::play(const hunt::Finding& finding, const std::string& path) {
     fails = fails || result.branch == finding.shrunk.outcome.failed->branch;
     result.failure->led_to = what_led_to_it(models_, recording);
   }
-  if (!fails) log_line("hunt: " + path + kScenarioEnding + " does not fail; this is a fault of understudy");
+  if (!fails) log_line("hunt: " + path + kScenarioEnding + " does not fail; this is a bug in understudy");
   write(path + kPageEnding, play::report_page(results, arguments_.version), ContentKind::page);
 }
 

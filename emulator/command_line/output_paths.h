@@ -34,7 +34,7 @@ inline std::string require_trace(FileClaims& claims, const std::string& path,
                                  const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
   if (!path.empty() && !world::is_trace_name(path)) {
-    throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
+    throw UsageError("--trace: " + path + ": has an unknown format; expected FILE.csv or FILE.vcd");
   }
   return require_output(claims, "--trace", path);
 }

@@ -120,7 +120,7 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
               in_milliseconds(latencies.median).c_str());
   if (photo.is_echoing) std::printf("the adapter echoes: on a bench, the line has `echo: on`\n");
   for (const auto& [name, why] : photo.left_out)
-    std::printf("not in the image: %s: %s\n", one_line(name).c_str(), one_line(why).c_str());
+    std::printf("not in the image, %s: %s\n", one_line(name).c_str(), one_line(why).c_str());
   const std::size_t entries = photo.image.registers.size() + photo.image.reals.size();
   std::printf("wrote %s: %zu values that differ from the factory's%s\n", image.c_str(), entries,
               photo.image.program.empty() ? "" : ", and the program");

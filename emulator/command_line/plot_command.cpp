@@ -65,7 +65,7 @@ int run_gnuplot(WorkFolder& folder) {
   pid_t child = -1;
   const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, words, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw_error(error, "plot: gnuplot cannot be started (Debian's package is gnuplot-nox)");
+  if (error != 0) throw_error(error, "plot: gnuplot cannot be started (the Debian package is gnuplot-nox)");
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -89,7 +89,7 @@ int plot_trace(const PlotArguments& arguments) {
   const bool is_svg = output.extension() == ".svg";
   if (!is_svg && output.extension() != ".png") {
     throw UsageError("--output: " + output.string() +
-                     ": is not a kind of picture; expected FILE.png or FILE.svg");
+                     ": has an unknown format; expected FILE.png or FILE.svg");
   }
   FileClaims claims;
   claims.add({arguments.trace, "the trace itself"});

@@ -84,7 +84,7 @@ void require_story_flags(const ReplayArguments& arguments) {
     throw UsageError("replay: --panel: expected --picture as well");
   if (!arguments.picture.empty() && !is_svg(arguments.picture) && !arguments.picture.ends_with(".png"))
     throw UsageError("replay: --picture: " + arguments.picture +
-                     ": is not a kind of picture; expected FILE.svg or FILE.png");
+                     ": has an unknown format; expected FILE.svg or FILE.png");
   const auto& panels = page::kPicturePanels;
   if (!arguments.panel.empty() && std::find(panels.begin(), panels.end(), arguments.panel) == panels.end())
     throw UsageError("replay: --panel: " + understudy::quoted(arguments.panel) +

@@ -43,7 +43,7 @@ void print(const play::ScenarioResult& result, bool with_hash, std::FILE* to) {
 std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool goes_on) {
   if (path.ends_with(play::kJsonLinesEnding)) return play::open_json_lines(path, goes_on);
   if (path.ends_with(play::kSqliteEnding)) return play::open_sqlite(path, goes_on);
-  throw UsageError("--results: " + path + ": is not a kind of results; expected FILE.jsonl or FILE.sqlite");
+  throw UsageError("--results: " + path + ": has an unknown format; expected FILE.jsonl or FILE.sqlite");
 }
 
 }  // namespace

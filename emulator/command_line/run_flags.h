@@ -71,26 +71,26 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
 }
 
 inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
-  command.add_option("SCENARIO", hunt.scenario, "A scenario file with `hunt`, which says what may happen")
-      ->required();
+  command.add_option("SCENARIO", hunt.scenario, "A scenario file with a `hunt` section")->required();
   command.add_option("--for", hunt.time, "End after this much real time [60s, unless --courses is given]")
       ->check(kNotEmpty);
   command.add_option("--courses", hunt.courses, "End after this many courses [any number]");
-  command.add_option("--seed", hunt.seed, "Draw other courses: any whole number")
+  command.add_option("--seed", hunt.seed, "Seed of the courses: any whole number")
       ->check(kSeed)
       ->capture_default_str();
   command.add_option("--jobs", hunt.jobs, "Number of courses to play at a time [one for each core]");
   command.add_option("--shard", hunt.shard, "I/N: play the I-th of all courses, and every N-th after it")
       ->check(kNotEmpty);
-  command.add_flag("--unguided", hunt.unguided,
-                   "Draw each course alone, instead of going on from courses that reached something new");
-  command.add_option("--corpus", hunt.corpus, "Keep such courses in this file, and go on from those in it")
+  command.add_flag(
+      "--unguided", hunt.unguided,
+      "Draw each course independently, instead of building on courses that reached something new");
+  command.add_option("--corpus", hunt.corpus, "Keep such courses in this file, and start from those in it")
       ->check(kNotEmpty);
   command.add_option("--coverage", hunt.coverage, kCoverageHelp)->check(kNotEmpty);
   command.add_option("--device-coverage", hunt.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   command
       .add_option("--found", hunt.found,
-                  "Folder for what is found: a scenario, a recording and a page for each kind of failure")
+                  "Folder for the findings: a scenario, a recording and a page for each kind of failure")
       ->capture_default_str()
       ->check(kNotEmpty);
 }
@@ -102,9 +102,9 @@ inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
   command.add_flag("--tty-shim", exec.host.tty_shim,
                    "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
   command.add_flag("--host-time", exec.host.host_time,
-                   "Put the command into simulated time as well; it includes --tty-shim");
+                   "Run the command in simulated time as well; implies --tty-shim");
   command.add_option("--repeat", exec.repeat,
-                     "Run it so many times, and compare the recordings (with --host-time)");
+                     "Run it this many times, and compare the recordings (with --host-time)");
   command.add_flag_callback(
       "--twice", [&exec] { exec.repeat = 2; }, "The same as --repeat 2");
   command

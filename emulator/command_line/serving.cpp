@@ -170,7 +170,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
     const auto ppm = world::parse_baud_tolerance(arguments.baud_tolerance);
     if (!ppm) {
       throw UsageError("--baud-tolerance: " + understudy::quoted(arguments.baud_tolerance) +
-                       " is not a share of the speed; " + std::string(world::kBaudToleranceExpected));
+                       " is not possible; " + std::string(world::kBaudToleranceExpected));
     }
     for (world::LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
   }

@@ -30,11 +30,11 @@ inline constexpr const char* kTraceAlsoHelp =
     "Also trace these: registers, or anything else that a condition can name, such as feeder.Cord_A";
 inline constexpr const char* kLintHelp = "At exit, report protocol violations by the host";
 inline constexpr const char* kCoverageHelp =
-    "Write which lines of the controllers' programs have run to this file: FILE.info for lcov, FILE.xml for "
+    "Write the line coverage of the controllers' programs to this file: FILE.info for lcov, FILE.xml for "
     "Cobertura, or FILE.html";
 
 inline constexpr const char* kDeviceCoverageHelp =
-    "Write what was exercised of the devices, and what never was, to this file: FILE.json or FILE.html";
+    "Write to this file which features of the devices were used, and which were not: FILE.json or FILE.html";
 
 /// Adds the flags that choose what is served: a bench, or a single device without one.
 inline void add_bench_flags(CLI::App& command, ServeArguments& serving) {

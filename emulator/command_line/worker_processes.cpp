@@ -122,7 +122,7 @@ std::vector<play::ScenarioResult> WorkerProcesses::play(std::size_t worker,
     bytes.resize(size);
     return take(wire, bytes.data(), bytes.size());
   };
-  if (!take_answer()) throw pty::PortError("a worker process has ended; expected it to run its cases");
+  if (!take_answer()) throw pty::PortError("a worker process ended early; expected it to run its cases");
   StateReader reader(bytes);
   Answer answer;
   reader.read(answer.error);

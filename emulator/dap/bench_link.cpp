@@ -33,7 +33,7 @@ Json judged_reply(const std::string& line) {
   Json reply = Json::parse(line, nullptr, false);
   if (!reply.is_object() || !reply.contains("ok"))
     throw RequestError(
-        "what answers is not an understudy; expected the control socket of `understudy serve`");
+        "the socket is not an Understudy socket; expected the control socket of `understudy serve`");
   if (reply["ok"] != true) throw RequestError(one_line(reply.value("error", std::string("refused"))));
   return reply;
 }
@@ -60,7 +60,7 @@ void SocketLink::begin(const Json& message) {
       send(awaited_.get(), line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
   if (is_sent) return;
   awaited_ = Descriptor();
-  throw GoneError(socket_ + ": nobody answers; expected a running `understudy serve`");
+  throw GoneError(socket_ + ": no daemon answers; expected a running `understudy serve`");
 }
 
 std::optional<Json> SocketLink::take_reply() {

@@ -46,8 +46,8 @@ std::string difference(const std::string& device, const std::string& file, const
       return i < lines.size() ? quoted(lines[i]) : std::string("nothing");
     };
     if (i < in_file.size() && i < in_device.size() && in_file[i] == in_device[i]) continue;
-    return "line " + std::to_string(i + 1) + " is " + line(in_file) + ", and " + line(in_device) +
-           " in what " + device + " has";
+    return "line " + std::to_string(i + 1) + " is " + line(in_file) + " in the file, and " + line(in_device) +
+           " in " + device;
   }
   return {};
 }
@@ -120,8 +120,8 @@ Json Session::set_one(const std::string& key, int id, Json message) {
     Json told{{"id", id}, {"verified", set.value("found", true)}};
     if (set.contains("line")) told["line"] = set["line"].get<int>() - line_offset_;
     if (set.contains("moved_from"))
-      told["message"] = "no instruction is on line " + set["moved_from"].dump() + "; it has moved to line " +
-                        set["line"].dump();
+      told["message"] = "there is no instruction on line " + set["moved_from"].dump() +
+                        "; the breakpoint has moved to line " + set["line"].dump();
     return told;
   } catch (const GoneError&) {
     throw;

@@ -31,7 +31,7 @@ std::size_t length_in(std::string_view head) {
                          std::to_string(kLongestMessage));
     return static_cast<std::size_t>(*length);
   }
-  throw FramingError("the head of a message has no Content-Length; expected \"Content-Length: N\"");
+  throw FramingError("the header of a message has no Content-Length; expected \"Content-Length: N\"");
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ std::optional<std::string> Unframer::take() {
   const std::size_t end = bytes_.find(kEnd);
   // After a head that is not too long, three of the end's four bytes may have arrived.
   if (std::min(end, bytes_.size()) > kLongestHead + (end == std::string::npos ? kEnd.size() - 1 : 0))
-    throw FramingError("the head of a message has no end; expected at most 1024 bytes and an empty line");
+    throw FramingError("the header of a message has no end; expected at most 1024 bytes and an empty line");
   if (end == std::string::npos) return std::nullopt;
   const std::size_t begin = end + kEnd.size();
   const std::size_t length = length_in(std::string_view(bytes_).substr(0, end));

@@ -142,7 +142,8 @@ Json Session::restart(const Json& /*arguments*/) {
     stands(Json(), "entry");
     return nullptr;
   }
-  if (!launched_.end) throw RequestError("only a launched bench starts anew; expected a session by `launch`");
+  if (!launched_.end)
+    throw RequestError("only a launched bench can be restarted; expected a session by `launch`");
   link_->pause();
   phase_ = Phase::stopped;
   delete_from_bench();

@@ -31,8 +31,8 @@ constexpr unsigned kAny = kFresh | kReady | kThere | in(Phase::ended);
 
 std::string_view word_of(Phase phase) {
   switch (phase) {
-    case Phase::fresh: return "nothing is initialized; expected `initialize` first";
-    case Phase::ready: return "nothing is launched; expected `launch` or `attach` first";
+    case Phase::fresh: return "the session is not initialized; expected `initialize` first";
+    case Phase::ready: return "no bench is launched; expected `launch` or `attach` first";
     case Phase::configuring: return "the session is being configured; expected `configurationDone` first";
     case Phase::stopped: return "the bench has stopped; expected it to run";
     case Phase::running: return "the bench runs; expected it to be stopped, by `pause`";
@@ -51,8 +51,8 @@ struct Filter {
 constexpr std::array<Filter, 6> kFilters{
     {{"program-error", "A program fails", "A program stops because of an error"},
      {"exception", "A request is refused", "A device answers a host with a Modbus exception"},
-     {"dropped", "A frame is not heard", "A frame is dropped, or a fault meets it"},
-     {"fault", "A fault begins or ends", "An injected fault begins to be in force, or ends"},
+     {"dropped", "A frame is not received", "A frame is dropped, or a fault affects it"},
+     {"fault", "A fault begins or ends", "An injected fault takes effect, or ends"},
      {"alarm", "A drive has an alarm", "The drive of an axis reports its alarm"},
      {"limit", "A limit switch is reached", "A machine reaches a limit switch"}}};
 

@@ -88,7 +88,7 @@ class Planner {
     if (plan_.heading_row > 0) {
       remarks_.add("titles", {place_.file, rows_.front().line + place_.lines_before, 1},
                    "columns: the headings are in line " + std::to_string(row().line + place_.lines_before) +
-                       "; what stands before them is passed over");
+                       "; the lines before them are ignored");
     }
     take_named();
     std::vector<Claim> claims = claims_of_headings();
@@ -217,7 +217,7 @@ class Planner {
     }
     if (!first) return;
     remarks_.add("columns", place_of(*first),
-                 "columns: passed over: " + passed + "; --columns COLUMN=HEADING gives them a meaning");
+                 "columns: ignored: " + passed + "; --columns COLUMN=HEADING gives them a meaning");
   }
 
   const std::vector<CsvRow>& rows_;

@@ -42,7 +42,7 @@ inline constexpr std::array kIdentityKeys{
     Key{"application", "Object 6, the user application.", &world::kText}};
 inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
 inline constexpr std::array kLineKeys{
-    Key{"baud", "The speeds that it can be set to, the factory's first ([19200, 9600]).",
+    Key{"baud", "The speeds that it can be set to, the factory setting first ([19200, 9600]).",
         &kBaudOrBaudsSchema},
     Key{"parity", "none (default), even or odd.", &kParitySchema},
     Key{"stop_bits", "1 (default) or 2.", &kStopBitsSchema},
@@ -50,11 +50,12 @@ inline constexpr std::array kLineKeys{
         &world::kDuration},
     Key{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsSchema},
     Key{"station_in", "The register that holds the station number.", &world::kText},
-    Key{"functions", "The functions that it knows ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
+    Key{"functions", "The functions that it supports ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
         &kFunctionsSchema},
-    Key{"most", "The most registers or bits in one request, by function: { 3: 32 }.", &kMaxByFunctionSchema},
-    Key{"identity", "The answers of function 43 (read device identification).", &kIdentitySchema},
-    Key{"server_id", "The answer of function 17 (the model's name).", &world::kText},
+    Key{"most", "The maximum number of registers or bits in one request, by function: { 3: 32 }.",
+        &kMaxByFunctionSchema},
+    Key{"identity", "The replies to function 43 (read device identification).", &kIdentitySchema},
+    Key{"server_id", "The reply to function 17 (the model's name).", &world::kText},
     Key{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastSchema}};
 
 // --- the map ---------------------------------------------------------------------------------------
@@ -88,9 +89,9 @@ inline constexpr Schema kEncodingSchema = world::words_schema(kEncodings);
 inline constexpr std::array kListKeys{
     Key{"columns", "The headings of its columns, by the column's name: { address: Reg, name: Tag }.",
         &world::kTextByName},
-    Key{"addresses", "What its addresses count: wire (default), from_one or modicon (40001).",
+    Key{"addresses", "How its addresses are numbered: wire (default), from_one or modicon (40001).",
         &kAddressesSchema},
-    Key{"table", "The table of rows that do not say it: holding (default), input, coil or discrete.",
+    Key{"table", "The table of rows that do not name one: holding (default), input, coil or discrete.",
         &kTableSchema},
     Key{"encoding", "Its encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
 
@@ -148,16 +149,16 @@ inline constexpr std::array kAxisKeys{
     Key{"home_position", "The position at home (0).", &kCountsSchema},
     Key{"pulses_per_revolution", "Pulses per motor revolution, for encoders on a bench.",
         &kPerRevolutionSchema},
-    Key{"while_busy", "What a start does while it moves: replace (default), ignore or refuse.",
+    Key{"while_busy", "What a start does while the axis moves: replace (default), ignore or refuse.",
         &kWhileBusySchema},
-    Key{"while_disabled", "What a start does while it is not enabled: ignore (default) or refuse.",
+    Key{"while_disabled", "What a start does while the axis is not enabled: ignore (default) or refuse.",
         &kWhileDisabledSchema}};
 inline constexpr std::size_t kFirstCommandKey = models::imported::kNumbers;
 inline constexpr std::size_t kFirstViewKey = kFirstCommandKey + models::imported::kCommands;
 static_assert(kAxisKeys[kFirstCommandKey].key == "stop_at_once" &&
                   kAxisKeys[kFirstViewKey].key == "position" &&
                   kAxisKeys[kFirstViewKey + models::imported::kViews].key == "pulses_per_count",
-              "keys stand in the order of Number, Command and View");
+              "keys must be in the order of Number, Command and View");
 constexpr std::string_view key_of(models::imported::Number number) {
   return kAxisKeys[static_cast<std::size_t>(number)].key;
 }
@@ -174,7 +175,7 @@ inline constexpr std::array kFollowKeys{
     Key{"while", "Only while this holds: CONTROL.RUN, or MODE == 2 (always).", &world::kText},
     Key{"rest", "The value that it follows otherwise: a register, or a number (its default).", &world::kText},
     Key{"time_constant", "The time for 63.2 % of a change: 30s.", &world::kDuration},
-    Key{"rate", "The largest change per second, in counts.", &world::kText},
+    Key{"rate", "The maximum change per second, in counts.", &world::kText},
     Key{"every", "The interval of its updates (100ms).", &world::kDuration}};
 inline constexpr Schema kLineSchema = world::keys_schema(kLineKeys);
 inline constexpr Schema kListSchema = world::keys_schema(kListKeys);
@@ -188,13 +189,13 @@ inline constexpr std::array kModelKeys{
     Key{"understudy", "The version of the format.", &kVersionSchema, true},
     Key{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
     Key{"title", "A short description.", &world::kText},
-    Key{"firmware", "Its firmware versions, the oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
+    Key{"firmware", "Its firmware versions, oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
     Key{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText, true},
-    Key{"list", "How that list is to be read, if it is not as `import` has them.", &kListSchema},
+    Key{"list", "How to read that list, if it differs from the defaults of `import`.", &kListSchema},
     Key{"line", "Its settings on the serial line.", &kLineSchema},
     Key{"map", "How it answers requests that the list leaves open.", &kMapSchema},
     Key{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesSchema},
-    Key{"inputs", "Its inputs, and where they are shown: { DI1: INPUTS.0, HOME: nowhere }.",
+    Key{"inputs", "Its inputs, and the bits that show them: { DI1: INPUTS.0, HOME: nowhere }.",
         &world::kTextByName},
     Key{"outputs", "Its outputs, and the registers that switch them: { DO1: OUTPUTS.0 }.",
         &world::kTextByName},

@@ -153,7 +153,7 @@ class ListReader {
     const auto as_modicon = wire_address(first, AddressReading::modicon);
     if (!guessed && reading_.guesses_addresses) {
       return diagnostics_.attempt([&] {
-        row.fail(Column::address, "the addresses can be Modicon's numbers or those on the wire: " +
+        row.fail(Column::address, "the addresses can be Modicon numbers or addresses on the wire: " +
                                       quoted(row.text(Column::address)) + " is " +
                                       std::string(to_string(as_modicon->table.value_or(Table::holding))) +
                                       " register " + std::to_string(as_modicon->address) + ", or register " +
@@ -163,15 +163,17 @@ class ListReader {
     }
     if (list_.addresses == AddressReading::modicon && as_modicon) {
       row.remark("addresses", Column::address,
-                 "read as Modicon's numbers: " + quoted(row.text(Column::address)) + " is " +
-                     std::to_string(as_modicon->address) + " on the wire (--addresses wire: as they are)");
+                 "read as Modicon numbers: " + quoted(row.text(Column::address)) + " is " +
+                     std::to_string(as_modicon->address) +
+                     " on the wire (--addresses wire takes them unchanged)");
     } else if (!guessed) {
+      row.remark("addresses", Column::address,
+                 "read as addresses on the wire, although all may be Modicon numbers (`list: { addresses: "
+                 "modicon }`)");
+    } else if (evidence_.lowest == 1 && reading_.guesses_addresses) {
       row.remark(
           "addresses", Column::address,
-          "read as on the wire, although all may be Modicon's numbers (`list: { addresses: modicon }`)");
-    } else if (evidence_.lowest == 1 && reading_.guesses_addresses) {
-      row.remark("addresses", Column::address,
-                 "read as on the wire: 1 is the second register (--addresses from_one: the first)");
+          "read as addresses on the wire: 1 is the second register (with --addresses from_one, the first)");
     }
     return true;
   }
@@ -200,8 +202,7 @@ class ListReader {
 
   static void add_part(const ListRow& row, ListedRegister& whole, const BitName& part) {
     if (whole.type == Type::f32)
-      row.fail(Column::address,
-               quoted(whole.name) + " is there, a real number; expected a register with bits");
+      row.fail(Column::address, quoted(whole.name) + " is a real number; expected a register with bits");
     try {
       auto all = whole.bits;
       all.push_back(part);

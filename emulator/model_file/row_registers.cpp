@@ -71,8 +71,8 @@ void read_name(const ListRow& row, ListedRegister& listed) {
   }
   if (listed.name.empty() || table_called(listed.name))
     row.fail(Column::name, quoted(name) +
-                               " cannot be used as a name; expected one with a letter in it that is "
-                               "not a table");
+                               " cannot be used as a name; expected one that has a letter and is "
+                               "not the name of a table");
 }
 
 Access access_of(const ListRow& row, Table table) {
@@ -82,7 +82,7 @@ Access access_of(const ListRow& row, Table table) {
     const auto answer = yes_or_no_called(row.text(Column::writable));
     if (!word && !answer)
       row.remark("writable", Column::writable,
-                 quoted(row.text(Column::writable)) + " is unknown; taken as read only");
+                 quoted(row.text(Column::writable)) + " is unknown; treated as read-only");
     const bool is_written = word ? *word != Access::read : answer.value_or(false);
     return is_written && !is_read_only ? Access::read_write : Access::read;
   }
@@ -156,7 +156,7 @@ class RowReader {
         row_.fail(Column::address, shape.words * shape.count == 2
                                        ? std::string("has no room for 32 bits; expected 0xFFFE or below")
                                        : "has no room for " + std::to_string(shape.words * shape.count) +
-                                             " registers behind it");
+                                             " registers after it");
       });
     }
     if (is_wrong_) return {};

@@ -129,7 +129,7 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
     if (said == 0)
       row.remark(
           "no length", Column::type,
-          quoted(row.text(Column::type)) + " has no length; one word is taken (a column `words` gives it)");
+          quoted(row.text(Column::type)) + " has no length; one word is assumed (a column `words` gives it)");
     shape.words = std::max(said, 1);
     return shape;
   }
@@ -149,7 +149,7 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
   } else {
     row.remark("length", Column::words,
                quoted(row.text(Column::words)) + " is not what the type " + quoted(row.text(Column::type)) +
-                   " has; the type is taken");
+                   " has; the type is used");
   }
   return shape;
 }

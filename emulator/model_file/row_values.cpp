@@ -187,7 +187,7 @@ void read_values(const ListRow& row, const RowShape& shape, ListedRegister& list
     listed = std::move(tried);
   } catch (const FileError&) {
     row.remark("values", Column::values,
-               quoted(text) + " is neither a range nor an enumeration; it is passed over");
+               quoted(text) + " is neither a range nor an enumeration; it is ignored");
   }
 }
 

@@ -40,7 +40,7 @@ constexpr std::array<Guess, 9> kGuesses{
       {"target", "setpos", "position_set", "destination"},
       "",
       "TARGET",
-      "where `start` goes to"},
+      "the target of `start`"},
      {"speed", true, {"speed", "velocity", "frequency", "rpm"}, "", "SPEED", "how fast"},
      {"acceleration_time", true, {"acc", "ramp"}, "", "250ms", "a register of a time, or a duration"},
      {"start",
@@ -50,7 +50,7 @@ constexpr std::array<Guess, 9> kGuesses{
       "CONTROL.0",
       "a bit that comes on, or COMMAND == 1"},
      {"stop", true, {"stop", "control", "command"}, ".1", "CONTROL.1", "slows down to a stop"},
-     {"position", false, {"position", "pos", "count"}, "", "POSITION", "shows where it is"},
+     {"position", false, {"position", "pos", "count"}, "", "POSITION", "shows its position"},
      {"busy", false, {"busy", "status", "moving", "running"}, ".0", "STATUS.0", "1 while it moves"},
      {"arrived", false, {"arrived", "in_position", "status", "done"}, ".1", "STATUS.1", "1 at the target"},
      {"actual_speed",
@@ -58,7 +58,7 @@ constexpr std::array<Guess, 9> kGuesses{
       {"speed", "velocity", "frequency", "rpm"},
       "",
       "ACTUAL_SPEED",
-      "shows how fast it is"}}};
+      "shows its speed"}}};
 
 const ListedRegister* find_likely(const std::vector<ListedRegister>& registers, const Guess& guess) {
   for (const std::string_view word : guess.words) {
@@ -124,14 +124,14 @@ std::string starter_model(const RegisterList& list, const ListReading& reading, 
       "registers: " +
       quoted_yaml(list_path) + "\n" + firmwares_of(registers) + list_section(reading, list.addresses) +
       "line:\n"
-      "  baud: [19200, 9600]  # the factory's first\n"
+      "  baud: [19200, 9600]  # the factory setting first\n"
       "  parity: none\n"
       "  stop_bits: 1\n"
       "  stations: [1, 247]\n"
       "map:\n"
       "  out_of_range: refused  # or clamped, stored\n"
       "  holes: refused         # or zero\n";
-  if (has_pairs) text += "  first_word: high       # of 32 bits; or low\n";
+  if (has_pairs) text += "  first_word: high       # of 32-bit values; or low\n";
   text +=
       "\n"
       "# An axis that moves: remove the # signs, and put in your registers.\n"

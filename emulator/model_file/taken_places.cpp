@@ -64,8 +64,8 @@ void TakenPlaces::place(const ListRow& row, std::vector<ListedRegister>& registe
     for (int more = 2; line_of_name(listed) != 0; ++more) listed.name = begin + "_" + std::to_string(more);
     if (is_reserved(row.text(Column::name))) continue;
     row.remark("repeated", Column::name,
-               quoted(before) + " is a name of line " + std::to_string(line) + " already; it is called " +
-                   quoted(listed.name) + " here");
+               quoted(before) + " is already a name in line " + std::to_string(line) +
+                   "; here it is called " + quoted(listed.name));
   }
 }
 

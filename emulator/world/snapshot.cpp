@@ -127,7 +127,7 @@ void check_turns(const World& world, const WorldValues& values) {
     const auto place = static_cast<std::size_t>(turn.terminal);
     const bool is_counted = turn.terminal >= 0 && place < terminals.size() &&
                             terminals[place].kind == TerminalRow::Kind::counted_in;
-    require_state(is_counted, "a turn is of no counted input");
+    require_state(is_counted, "a turn belongs to no counted input");
     require_reach(turn.counts);
     require_within(turn.ticks, 1, tick_at(kForever));
     require_within(turn.ticks_left, 1, turn.ticks);
@@ -171,7 +171,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   check_turns(world, values);
   const SimTime now = std::get<kNow>(values);
   require_state(now >= SimTime{0} && now <= kHorizon, "its time is after the end of simulated time");
-  require_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
+  require_state(std::get<kDone>(values) == tick_at(now), "its ticks do not match its time");
   return values;
 }
 
@@ -198,11 +198,11 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
                          : "was saved with tolerant framing; expected a bench without strict framing");
   }
   if (hearing.enforces_settings != ours.enforces_settings) {
-    throw StateError(
-        hearing.enforces_settings
-            ? "was saved by a bench that ignores hosts of another speed; expected a bench that ignores them "
-              "too"
-            : "was saved by a bench that accepts hosts of any speed; expected a bench that accepts them too");
+    throw StateError(hearing.enforces_settings ? "was saved by a bench that ignores hosts with another "
+                                                 "speed; expected a bench that ignores them "
+                                                 "too"
+                                               : "was saved by a bench that accepts hosts with any speed; "
+                                                 "expected a bench that accepts them too");
   }
 }
 

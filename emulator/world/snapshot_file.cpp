@@ -140,7 +140,7 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     throw SnapshotError("understudy: is missing; expected a snapshot");
   }
   if (!file["understudy"].is_number_integer() || file["understudy"] != kSnapshotFormat) {
-    throw SnapshotError("understudy: is in another format; expected " + std::to_string(kSnapshotFormat));
+    throw SnapshotError("understudy: has a different format; expected " + std::to_string(kSnapshotFormat));
   }
   if (text_of(file, "kind") != kSnapshotKind) {
     throw SnapshotError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " +

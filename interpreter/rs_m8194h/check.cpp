@@ -218,8 +218,8 @@ std::string expected_of(const Command& command, std::size_t parameter) {
       return row.most == 3 ? "X, Y or XY" : "axes, X to XYZU";
     case Kind::setting_axes:
       return command.is_macro_line() ? "axes, X to XYZU" : "axes, X to XYZU, or INITIAL_X to INITIAL_XYZU";
-    case Kind::axis: return "X, Y, Z or U, and none of them twice";
-    case Kind::axis_or_none: return "X, Y, Z, U or 0, and none of them twice";
+    case Kind::axis: return "X, Y, Z or U, each at most once";
+    case Kind::axis_or_none: return "X, Y, Z, U or 0, each at most once";
     case Kind::variable: return "VAR0 to VAR511";
     case Kind::byte_variable: return "bVAR0 to bVAR127";
     case Kind::memory: return "MD0 to MD2047";

@@ -79,7 +79,7 @@ inline constexpr auto kFaults = std::to_array<FaultRow>({
     {Fault::address, 0x02, 0x02, 2, 0, "not an address of this table"},
     {Fault::fifo_full, 0xC1, 0xC1, 6, 0, "no free block in the FIFO"},
     {Fault::no_module, 0xC2, 0xC2, 4, 0, "the i-8094H does not answer"},
-    {Fault::macro_runs, 0xC3, 0xC3, 6, 0, "a macro runs"},
+    {Fault::macro_runs, 0xC3, 0xC3, 6, 0, "a macro is running"},
 });
 static_assert([] {
   for (std::size_t i = 0; i < kFaults.size(); ++i) {

@@ -35,7 +35,7 @@ inline constexpr auto kAxes = std::to_array<CommandRow>({
       byte("nStep3", 0, 2, "0 none, 1 +, 2 -"), byte("nStep4", 0, 2, "0 none, 1 +, 2 -"),
       unsigned_range("data", 0, kMax)},
      "6.3",
-     "ways of the four homing steps, distance of the fourth"},
+     "directions of the four homing steps, distance of the fourth"},
     {Verb::home_start,
      "RSM_HOME_START",
      "RSM_MACRO_HOME_START",
@@ -43,7 +43,7 @@ inline constexpr auto kAxes = std::to_array<CommandRow>({
      1,
      {axes("axis")},
      "6.4",
-     "start automatic homing"},
+     "starts automatic homing"},
     {Verb::normal_speed,
      "RSM_NORMAL_SPEED",
      "RSM_MACRO_NORMAL_SPEED",
@@ -123,7 +123,7 @@ inline constexpr auto kAxes = std::to_array<CommandRow>({
      1,
      {axes("axis"), position("data")},
      "7.1.10",
-     "new total of the running move"},
+     "new total distance of the running move"},
     {Verb::abs_fixed_move,
      "RSM_ABS_FIXED_MOVE",
      "RSM_ABS_MACRO_FIXED_MOVE",
@@ -139,7 +139,7 @@ inline constexpr auto kAxes = std::to_array<CommandRow>({
      1,
      {axes("axis"), signed_speed("data")},
      "7.1.12",
-     "endless move at a speed; its sign is the way"},
+     "endless move at a speed; its sign is the direction"},
 });
 
 }  // namespace understudy::interpreter::rs_m8194h::rows

@@ -173,7 +173,7 @@ inline constexpr auto kPaths = std::to_array<CommandRow>({
       long_range("Wp", 1, kMax), long_range("Rp", 1, kMax), speed("RSV"), speed("RV"), speed("RA"),
       speed("RD")},
      "7.4.1",
-     "rectangle with round corners"},
+     "rectangle with rounded corners"},
     {Verb::line_2d_initial,
      "RSM_LINE_2D_INITIAL",
      "RSM_MACRO_LINE_2D_INITIAL",

@@ -35,7 +35,7 @@ void StateOf<lang::Command>::read(lang::Command& command, StateReader& reader) {
   const bool is_whole =
       lang::read_registers(registers, lang::WordOrder::high_first, command) == lang::Fault::none;
   require_state(is_whole && !lang::bad_parameter(command, {.rectangle_corners_must_fit = false}),
-                "a command is not one of the manual's");
+                "a command is not in the manual");
 }
 
 std::string StateOf<lang::Command>::told(const lang::Command& command) {
@@ -43,7 +43,7 @@ std::string StateOf<lang::Command>::told(const lang::Command& command) {
 }
 
 void StateOf<lang::Download>::check(const lang::Download& download) {
-  require_state(lang::exists(download.name), "a macro has no such number");
+  require_state(lang::exists(download.name), "a macro has a number that does not exist");
   lang::Download again{.name = download.name};
   for (const lang::Command& line : download.lines) {
     const bool is_line = line.is_macro_line() && lang::add(again, line) == lang::Fault::none;

@@ -129,8 +129,7 @@ class Assembler {
 
   void mark_with_flag(const Token& token, std::uint8_t flag) {
     if (pending_.flag && *pending_.flag != flag) {
-      return fail(token, "label", "a line has one flag, and this is its second",
-                  flag_text(*pending_.flag) + " alone");
+      return fail(token, "label", "the line has a flag already", flag_text(*pending_.flag) + " alone");
     }
     pending_.flag = flag;
     if (!pending_.flag_token) pending_.flag_token = token;
@@ -189,8 +188,7 @@ class Assembler {
     }
     if (fields.size() != operands.size()) {
       const Token& token = operands.size() > fields.size() ? operands[fields.size()] : word;
-      fail(token, "operands",
-           std::string(instruction->mnemonic) + " is given " + std::to_string(operands.size()),
+      fail(token, "operands", std::string(instruction->mnemonic) + " has " + std::to_string(operands.size()),
            wanted_operands(*instruction, fields));
     }
     const int number = put(word, code);
@@ -254,8 +252,8 @@ class Assembler {
     const auto place = static_cast<std::size_t>(number);
     if (text_line_[place] != 0) {
       fail(word, "line",
-           "line " + std::to_string(number) + " of the program comes from line " +
-               std::to_string(text_line_[place]) + " already",
+           "line " + std::to_string(number) + " of the program is already defined in line " +
+               std::to_string(text_line_[place]),
            "a free line");
       return number;
     }

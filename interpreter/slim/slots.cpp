@@ -318,8 +318,8 @@ constexpr bool Matching::rules_are_in_order() {
   }
   return true;
 }
-static_assert(Matching::rules_are_in_order(), "rules stand in the order of Slot, one each");
-static_assert(is_last<Slot::text>(), "rules stand in the order of Slot, one each");
+static_assert(Matching::rules_are_in_order(), "rules must be in the order of Slot, one for each");
+static_assert(is_last<Slot::text>(), "rules must be in the order of Slot, one for each");
 
 }  // namespace
 

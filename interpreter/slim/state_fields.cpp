@@ -40,7 +40,7 @@ void StateOf<lang::Event>::check(const lang::Event& event) {
   // The number of operands depends on the condition.
   const bool compares = event.condition >= lang::Condition::equal;
   require_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
-                "an event looks at something else");
+                "an event checks something else");
 }
 
 void StateOf<lang::Execution>::check(const lang::Execution& execution) {

@@ -83,7 +83,8 @@ class Checker {
     if (word == "FILE") return begin_file(tokens);
     std::size_t at = 0;
     if (is_decimal_digit(tokens[0].text.front())) read_step(tokens[at++]);
-    if (at == tokens.size()) return fail(tokens[0], Code::unknown, "a step stands alone", "an instruction");
+    if (at == tokens.size())
+      return fail(tokens[0], Code::unknown, "a step has no instruction", "an instruction");
     read_instruction(tokens, at);
   }
 
@@ -162,8 +163,8 @@ class Checker {
                   quoted(token.text) + " is not an instruction" + nearest_instruction(token.text));
     }
     if (row->group == Group::undocumented || (row->op == Op::mset && !options_.knows_mset)) {
-      return fail(token, Code::unknown, quoted(row->mnemonic) + " is a name without a description",
-                  "a described instruction");
+      return fail(token, Code::unknown, quoted(row->mnemonic) + " is only named in the manual",
+                  "an instruction that the manual describes");
     }
     Instruction instruction{row->op};
     const std::size_t errors = checked_.errors.size();
@@ -256,7 +257,7 @@ class Checker {
     const bool lacks_one = std::any_of(instruction.fields.begin(), instruction.fields.end(),
                                        [](const Operand& field) { return !field.is_set(); });
     if (row.op == Op::c3p && lacks_one && !options_.c3p_may_lack_fields) {
-      fail(tokens[at], Code::unknown, "C3P lacks a field", "all four");
+      fail(tokens[at], Code::unknown, "C3P needs all four fields", "all four");
     }
     if (row.op == Op::zrst && checked_.errors.size() == errors) look_at_range(instruction, tokens[at]);
   }
@@ -278,7 +279,7 @@ class Checker {
     const bool is_swapped = first.number > last.number && options_.swapped == Options::Swapped::is_refused;
     if (first.letter != last.letter || is_swapped || block_of(first) != block_of(last)) {
       fail(token, Code::out_of_range, text_of(first) + " to " + text_of(last) + " is not a range",
-           "two of one kind, the lower one first, without a hole between them");
+           "two of the same kind, the lower one first, with no gap between them");
     }
   }
 

@@ -267,7 +267,9 @@ constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, i
 }
 /// Makes the row of an instruction without a description, which is refused when it is loaded.
 constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
-  return {op, mnemonic, Group::undocumented, 0, 1, {}, InPlc::nothing, "Named only; refused", section};
+  return {op,     mnemonic, Group::undocumented, 0,
+          1,      {},       InPlc::nothing,      "Only named in the manual; refused",
+          section};
 }
 
 }  // namespace understudy::interpreter::super_40nc

@@ -77,22 +77,22 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
             "ORB , ANB 指令"),
       logic(Op::mps, "MPS", kPlc, 1, kNoField, InPlc::contact, "Begins a branch: keeps the result so far",
             "MPS , MRD , MPP 指令"),
-      logic(Op::mrd, "MRD", kPlc, 1, kNoField, InPlc::contact, "Goes on from the branch's result",
+      logic(Op::mrd, "MRD", kPlc, 1, kNoField, InPlc::contact, "Continues from the branch's result",
             "MPS , MRD , MPP 指令"),
       logic(Op::mpp, "MPP", kPlc, 1, kNoField, InPlc::contact,
-            "Goes on from the branch's result and ends the branch", "MPS , MRD , MPP 指令"),
+            "Continues from the branch's result and ends the branch", "MPS , MRD , MPP 指令"),
       logic(Op::inv, "INV", kPlc, 1, kNoField, InPlc::contact, "Inverts the result so far", "INV 指令"),
-      logic(Op::nop, "NOP", kAll, 1, kNoField, InPlc::nothing, "Does nothing; has a step", "NOP 指令"),
+      logic(Op::nop, "NOP", kAll, 1, kNoField, InPlc::nothing, "Does nothing, but takes a step", "NOP 指令"),
       logic(Op::alt, "ALT", kPlc, 1, kBit, InPlc::rising_edge,
-            "Switches the device over when the condition turns ON", "ALT 指令"),
+            "Toggles the device when the condition turns ON", "ALT 指令"),
       logic(Op::pls, "PLS", kPlc, 1, kBit, InPlc::rising_edge,
             "Device ON for one scan when the condition turns ON", "PLS , PLF 指令"),
       logic(Op::plf, "PLF", kPlc, 1, kBit, InPlc::falling_edge,
             "Device ON for one scan when the condition turns OFF", "PLS , PLF 指令"),
-      logic(Op::set, "SET", kAll, 1, kBit, InPlc::every_scan, "Switches the device ON; it stays",
+      logic(Op::set, "SET", kAll, 1, kBit, InPlc::every_scan, "Switches the device ON until it is reset",
             "SET , RST 指令"),
       logic(Op::rst, "RST", kAll, 1, kResettable, InPlc::every_scan,
-            "Switches the device OFF; a timer or counter to 0", "SET , RST 指令"),
+            "Switches the device OFF; sets a timer or counter to 0", "SET , RST 指令"),
       logic(Op::out, "OUT", kPlc, 1, kBit, InPlc::every_scan_on_or_off, "The device follows the condition",
             "LD , LDI , OUT , OUTtc 指令"),
       logic(Op::out_tc, "OUTtc", kPlc, 2, kTimer, InPlc::every_scan_on_or_off,
@@ -107,9 +107,9 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
            "FMV 指令"),
       data(Op::add, "ADD", 3, kSum, InPlc::every_scan, "Adds", "ADD , SUB , MUL , DIV 指令"),
       data(Op::sub, "SUB", 3, kSum, InPlc::every_scan, "Subtracts", "ADD , SUB , MUL , DIV 指令"),
-      data(Op::mul, "MUL", 3, kSum, InPlc::every_scan, "Multiplies; low 32 bits",
+      data(Op::mul, "MUL", 3, kSum, InPlc::every_scan, "Multiplies; keeps the low 32 bits",
            "ADD , SUB , MUL , DIV 指令"),
-      data(Op::div, "DIV", 3, kSum, InPlc::every_scan, "Divides; the remainder goes to the next register",
+      data(Op::div, "DIV", 3, kSum, InPlc::every_scan, "Divides; stores the remainder in the next register",
            "ADD , SUB , MUL , DIV 指令"),
       data(Op::ld_equal, "LD=", 2, kTwoSources, InPlc::contact,
            "Begins a block: ON while the first value equals the second",
@@ -166,14 +166,14 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
            "In parallel: ON while the first value is at least the second",
            "OR= , OR> , OR< , OR<> , OR<= , OR>= 指令"),
       data(Op::inc, "INC", 1, kTarget, InPlc::every_scan, "Adds 1", "INC , DEC 指令"),
-      data(Op::dec, "DEC", 1, kTarget, InPlc::every_scan, "Takes 1 away", "INC , DEC 指令"),
+      data(Op::dec, "DEC", 1, kTarget, InPlc::every_scan, "Subtracts 1", "INC , DEC 指令"),
       data(Op::abs, "ABS", 1, kTarget, InPlc::every_scan, "Takes the absolute value", "ABS 指令"),
       // Sequence
-      sequence(Op::lab, "LAB", 1, kLabel, Waits::no, "A place to jump to", "LAB 指令"),
+      sequence(Op::lab, "LAB", 1, kLabel, Waits::no, "Marks a place to jump to", "LAB 指令"),
       sequence(Op::if_, "IF", 1, kNoField, Waits::no,
-               "Goes on here if the condition holds, else at ELSE or ENDI", "IF , ELSE , ENDI 指令"),
+               "Continues here if the condition holds, otherwise at ELSE or ENDI", "IF , ELSE , ENDI 指令"),
       sequence(Op::else_, "ELSE", 1, kNoField, Waits::no,
-               "Where IF goes on without its condition; met from above: jumps to ENDI",
+               "IF continues here if its condition does not hold; reached from above, it jumps to ENDI",
                "IF , ELSE , ENDI 指令"),
       sequence(Op::endi, "ENDI", 1, kNoField, Waits::no, "Ends an IF", "IF , ELSE , ENDI 指令"),
       sequence(Op::cal, "CAL", 3, kCall, Waits::no,
@@ -198,12 +198,12 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("the axis does not take part"),
-      motion(Op::cw, "CW", kC, 4, kFourAmounts, InPlc::nothing, "Arc, clockwise, around a centre",
+      motion(Op::cw, "CW", kC, 4, kFourAmounts, InPlc::nothing, "Clockwise arc around a centre",
              "CW , CCW 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("end: unchanged; centre: 0"),
-      motion(Op::ccw, "CCW", kC, 4, kFourAmounts, InPlc::nothing, "Arc, counter-clockwise, around a centre",
+      motion(Op::ccw, "CCW", kC, 4, kFourAmounts, InPlc::nothing, "Counter-clockwise arc around a centre",
              "CW , CCW 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
@@ -213,11 +213,12 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("unchanged"),
-      motion(Op::cwr, "CWR", kC, 4, kRadius, InPlc::nothing, "Arc, clockwise, of a radius", "CWR , CCWR 指令")
+      motion(Op::cwr, "CWR", kC, 4, kRadius, InPlc::nothing, "Clockwise arc of a given radius",
+             "CWR , CCWR 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("unchanged"),
-      motion(Op::ccwr, "CCWR", kC, 4, kRadius, InPlc::nothing, "Arc, counter-clockwise, of a radius",
+      motion(Op::ccwr, "CCWR", kC, 4, kRadius, InPlc::nothing, "Counter-clockwise arc of a given radius",
              "CWR , CCWR 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
@@ -232,21 +233,21 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
       motion(Op::rpm, "RPM", kAll, 4, kFourAmounts, InPlc::every_scan, "Speeds of DRV and MRK, in rpm",
              "RPM 指令")
           .without("the axis keeps its speed"),
-      motion(Op::drv, "DRV", kAll, 4, kFourAmounts, InPlc::rising_edge, "Moves axes, each by itself",
+      motion(Op::drv, "DRV", kAll, 4, kFourAmounts, InPlc::rising_edge, "Moves axes independently",
              "DRV 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("the axis does not take part"),
-      motion(Op::hom, "HOM", kAll, 4, kFourAmounts, InPlc::rising_edge, "Searches the home of axes",
+      motion(Op::hom, "HOM", kAll, 4, kFourAmounts, InPlc::rising_edge, "Searches for the home of axes",
              "HOM 指令")
           .waits_for(Waits::for_home)
           .is_motion()
-          .without("the axis is left alone"),
+          .without("the axis is not affected"),
       motion(Op::mpg, "MPG", kSteps, 4, kFourAmounts, InPlc::nothing,
-             "Lets axes follow the hand-wheel, this far for each count", "MPG 指令")
+             "Makes axes follow the hand wheel, this far for each count", "MPG 指令")
           .without("the axis keeps its ratio"),
       motion(Op::mrk, "MRK", kSteps, 4, kFourAmounts, InPlc::nothing,
-             "Moves axes, then searches a mark at creep speed", "MRK 指令")
+             "Moves axes, then searches for a mark at creep speed", "MRK 指令")
           .waits_for(Waits::for_arrival)
           .is_motion()
           .without("the axis does not take part"),
@@ -254,28 +255,29 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
              "VDRV 指令")
           .waits_for(Waits::for_standstill)
           .is_motion()
-          .without("the axis is left alone"),
+          .without("the axis is not affected"),
       motion(Op::pjg, "PJG", kAll, 4, kFourAmounts, InPlc::level, "Jogs axes in the positive direction",
              "PJG , MJG 指令")
           .is_void_in(kSteps)
-          .without("the axis is left alone"),
+          .without("the axis is not affected"),
       motion(Op::mjg, "MJG", kAll, 4, kFourAmounts, InPlc::level, "Jogs axes in the negative direction",
              "PJG , MJG 指令")
           .is_void_in(kSteps)
-          .without("the axis is left alone"),
-      motion(Op::chk, "CHK", kAll, 1, kNeeded, InPlc::nothing, "Whether DRV waits for arrival", "CHK 指令")
+          .without("the axis is not affected"),
+      motion(Op::chk, "CHK", kAll, 1, kNeeded, InPlc::nothing, "Sets whether DRV waits for arrival",
+             "CHK 指令")
           .is_void_in(kPlcAndC),
       motion(Op::stp, "STP", kAll, 4, kFourAmounts, InPlc::every_scan,
              "Stops step programs and their motors at once", "STP 指令")
           .without("no action; all four: C"),
       motion(Op::str, "STR", kAll, 4, kFourAmounts, InPlc::rising_edge, "Starts step programs", "STR 指令")
           .without("no action; all four: C"),
-      motion(Op::pset, "PSET", kAll, 4, kFourAmounts, InPlc::every_scan, "Says where axes are; nothing moves",
-             "PSET 指令")
-          .without("the axis is left alone"),
+      motion(Op::pset, "PSET", kAll, 4, kFourAmounts, InPlc::every_scan,
+             "Sets the coordinates of axes; nothing moves", "PSET 指令")
+          .without("the axis is not affected"),
       motion(Op::mset, "MSET", kAll, 4, kFourAmounts, InPlc::every_scan,
-             "Says where axes are in the machine's system; nothing moves", "指令一覽表")
-          .without("the axis is left alone"),
+             "Sets the machine coordinates of axes; nothing moves", "指令一覽表")
+          .without("the axis is not affected"),
       // Names without a description
       undescribed(Op::m, "M", "Motion指令一覽表"),
       undescribed(Op::brk, "BRK", "Motion指令一覽表"),
@@ -292,7 +294,7 @@ constexpr const InstructionRow& row_of(Op op) { return kInstructions[static_cast
 consteval bool table_makes_sense() {
   for (std::size_t i = 0; i < kInstructions.size(); ++i) {
     const InstructionRow& row = kInstructions[i];
-    if (row.op != static_cast<Op>(i)) throw "rows stand in the order of Op";
+    if (row.op != static_cast<Op>(i)) throw "rows must be in the order of Op";
     const bool has_target = row.op == Op::jmp || row.op == Op::cj || row.op == Op::cjn || row.op == Op::cal;
     const bool has_four = row.op == Op::cwr || row.op == Op::ccwr;
     const int fields = has_four ? 4 : row.fields() + (has_target ? 1 : 0);

@@ -171,7 +171,7 @@ class Structure {
     line_ = static_cast<int>(program_.lines.size()) - 1;
     const bool is_open = area_ != Area::plc && (is_contact(before_) || joins_blocks(before_));
     if (is_open && !is_loose_allowed())
-      fault(Code::logic, "is the last of contacts", "CJ, CJN or IF after it");
+      fault(Code::logic, "is a contact without a jump", "CJ, CJN or IF after it");
     if (!has_end_ && !options_.end_may_be_missing) fault(Code::no_end, "is the last line", "END");
     for (const OpenIf& open : ifs_) {
       faults_.push_back({open.line, Code::pairing, "has no partner", "ENDI after it"});

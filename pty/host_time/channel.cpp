@@ -163,9 +163,9 @@ __attribute__((constructor)) void begin() {
   strcpy(bench_address.sun_path, path);
   const Page* const mapped = map_page(path);
   if (mapped == nullptr)
-    return complain("the bench cannot be reached; expected a command of `understudy exec --host-time`");
+    return complain("the bench cannot be reached; expected to be started by `understudy exec --host-time`");
   if (mapped->version != kVersion)
-    return complain("the preloaded library and the bench are of different versions");
+    return complain("the preloaded library and the bench have different versions");
   page = mapped;
   pthread_key_create(&at_end_of_thread, close_connection);
   pthread_atfork(nullptr, nullptr, begin_anew_in_child);

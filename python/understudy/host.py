@@ -10,7 +10,7 @@ def exec(bench: str, command: Sequence[str], *flags: str, host_time: bool = Fals
          timeout_s: Optional[float] = None, record: Optional[str] = None, env: Optional[Mapping[str, str]] = None,
          program: Optional[str] = None) -> "subprocess.CompletedProcess[str]":
     """Serves a bench file while the command runs, and returns what it printed and its exit code. `host_time` puts the
-    command into simulated time; `repeat` runs it so many times and compares the recordings; `timeout_s` is real time.
+    command into simulated time; `repeat` runs it this many times and compares the recordings; `timeout_s` is real time.
     Further flags are `exec`'s. The command finds its port in UNDERSTUDY_PORT."""
     if isinstance(command, str):
         raise TypeError("command: expected a list of words, such as ['./my_host', '--verbose']")

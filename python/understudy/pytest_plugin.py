@@ -27,11 +27,11 @@ NUMBERS = itertools.count(1)
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.getgroup("understudy").addoption("--understudy-real-time", action="store_true",
-                                            help="benches run in real time, not by hand")
+                                            help="run benches in real time instead of advancing time by hand")
     parser.getgroup("understudy").addoption("--understudy-coverage", metavar="FILE",
-                                            help="write which lines of the controllers' programs have run to this "
+                                            help="write the line coverage of the controllers' programs to this "
                                                  "file: FILE.info for lcov, FILE.xml for Cobertura, or FILE.html")
-    parser.addini("understudy_host_time", "run_host puts host programs into simulated time", type="bool", default=True)
+    parser.addini("understudy_host_time", "whether run_host puts host programs into simulated time", type="bool", default=True)
 
 
 def pytest_configure(config: pytest.Config) -> None:

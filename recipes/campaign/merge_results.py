@@ -18,7 +18,7 @@ def require_own(path):
     with open(path, "rb") as there:
         head = there.read(100)
     if head and (head[:16] != b"SQLite format 3\0" or int.from_bytes(head[68:72], "big") != ID):
-        raise sqlite3.DatabaseError(f"{path} is not a file of results; expected one to replace, or a free path")
+        raise sqlite3.DatabaseError(f"{path} is not a results file; expected one to replace, or a free path")
 
 
 def merge(target, sources):

@@ -328,11 +328,11 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
   for (const Row& row : std::vector<Row>{
            {{"--resume"}, "--resume: expected --results FILE as well, which lists the cases that ran", 2},
            {{"--results", "rows.csv"},
-            "--results: rows.csv: is not a kind of results; expected FILE.jsonl or FILE.sqlite",
+            "--results: rows.csv: has an unknown format; expected FILE.jsonl or FILE.sqlite",
             2},
            {{"--results", scenario}, "the scenario itself", 2},
            {{"--results", folder_ / "other.jsonl", "--resume"},
-            "other.jsonl cannot be written: it is not a file of results; expected one to replace, or a free "
+            "other.jsonl cannot be written: it is not a results file; expected one to replace, or a free "
             "path",
             3},
            {{"--results", folder_ / "no/rows.jsonl"}, "cannot be written: No such file or directory", 3},

@@ -169,7 +169,7 @@ TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesGoOn) {
     capturing.exchange(kReadHardwareCode, kHardwareCodeReply);
     return !capturing.daemon().errors().empty();
   }));
-  EXPECT_NE(capturing.daemon().errors().find("a.pcapng: the capture has ended early: File too large\n"),
+  EXPECT_NE(capturing.daemon().errors().find("a.pcapng: the capture ended early: File too large\n"),
             std::string::npos)
       << capturing.daemon().errors();
   const std::string file = capturing.stop();
@@ -268,8 +268,8 @@ TEST(Capture, TellsWhatFaultsDid) {
     EXPECT_NE(status.find("\nfault 1 drop device nth=1: seen 2, matched 2, hit 1\n"), std::string::npos)
         << status;
     const std::string file = capturing.stop();
-    for (const char* comment : {"fault 1 drop: not said", "fault 2 corrupt_checksum: last byte inverted",
-                                "fault 3 drop: not heard"}) {
+    for (const char* comment : {"fault 1 drop: not sent", "fault 2 corrupt_checksum: last byte inverted",
+                                "fault 3 drop: not received"}) {
       EXPECT_NE(file.find(comment), std::string::npos) << name << ": " << comment;
     }
     if (name == "a.txt") continue;

@@ -114,7 +114,7 @@ TEST_F(SeveralDaemons, OfTwoThatServeOneBenchAPortTells) {
   const Finished refused = ctl({"--bench", bench("feeder"), "status"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors.find(
-                "understudy: ctl: 2 daemons fit --bench " + bench("feeder") +
+                "understudy: ctl: 2 daemons match --bench " + bench("feeder") +
                 "; expected --port LINK as well, or --control SOCKET, of one of: " + folder_.path()),
             0U)
       << refused.errors;

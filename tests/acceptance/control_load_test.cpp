@@ -127,7 +127,7 @@ TEST(ControlLoad, ABadSnapshotCostsNoHostAReply) {
   };
   for (const Case& bad : {Case{"nested", std::string(std::size_t{20} << 20, '['), "nested too deeply"},
                           Case{"long", "{\"understudy\":\"" + std::string(std::size_t{60} << 20, 'x') + "\"}",
-                               "understudy: is in another format"}}) {
+                               "understudy: has a different format"}}) {
     const std::string file = daemon->folder().write(bad.name, bad.text);
     std::atomic<bool> is_over = false;
     Finished finished;

@@ -148,13 +148,13 @@ TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
   };
   constexpr Case kCases[] = {
       {"broken.info", "broken.info:3: 'one,1' is not understood; expected a line's number\n"},
-      {"bench.yaml", "bench.yaml: is a bench; expected a file of coverage\n"},
+      {"bench.yaml", "bench.yaml: is a bench; expected a coverage file\n"},
       {"none.info",
        "none.info: cannot be read (No such file or directory); expected a tracefile (FILE.info)\n"},
       {"broken.info -o broken.info",
        "understudy: --output: broken.info: is a file to add; expected another path\n"},
       {"broken.info -o sum.txt",
-       "understudy: --output: sum.txt is not a kind of coverage; expected FILE.info (lcov), FILE.xml "
+       "understudy: --output: sum.txt has an unknown format; expected FILE.info (lcov), FILE.xml "
        "(Cobertura) or FILE.html (a page)\n"},
   };
   for (const Case& one : kCases) {

@@ -188,7 +188,7 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
        "--capture: " + recording + ": is the recording itself; expected another path"},
       {{"replay", recording, "--trace", recording},
        2,
-       "--trace: " + recording + ": is not a kind of trace; expected FILE.csv or FILE.vcd"},
+       "--trace: " + recording + ": has an unknown format; expected FILE.csv or FILE.vcd"},
       {{"replay", recording, "--trace", csv, "--capture", csv},
        2,
        "--trace: " + csv + ": is what --capture writes; expected another path"},

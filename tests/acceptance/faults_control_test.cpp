@@ -88,8 +88,8 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
                  "inject: 'level' is not understood; expected NAME=VALUE");
   expect_refused(daemon, {"inject", "stuck", "AIN_A", "level=1"},
                  "inject: 'AIN_A' cannot be stuck; expected a digital input");
-  expect_refused(daemon, {"inject", "stall"}, "inject: expected a fault and where");
-  expect_refused(daemon, {"inject"}, "inject: expected a fault and where");
+  expect_refused(daemon, {"inject", "stall"}, "inject: expected a fault and its place");
+  expect_refused(daemon, {"inject"}, "inject: expected a fault and its place");
   expect_refused(daemon, {"clear"}, "clear: expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "1", "2"}, "clear: expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "one"},

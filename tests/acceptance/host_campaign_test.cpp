@@ -192,7 +192,7 @@ TEST_F(HostCampaign, JudgesTheEndOfTheCommand) {
       {"- assert: feeder.STATUS.4 == 1", {"sh", "-c", forever}, "'feeder.STATUS.4 == 1' does not hold"},
       {"- advance: 1ms",
        {"/usr/bin/python3", "-c", "while True: pass"},
-       "the command was ended because it took longer than 2s"},
+       "the command was stopped because it took longer than 2s"},
   };
   for (const Row& row : rows) {
     const bool is_late = std::string(row.said).ends_with("longer than 2s");

@@ -294,7 +294,7 @@ TEST_F(HostTime, RefusesWhatCannotLoadTheLibrary) {
   };
   for (const Case& each :
        {Case{{still}, still + " is statically linked"}, Case{{script}, still + " is statically linked"},
-        Case{{narrow}, narrow + " is for another kind of processor (32 bits)"},
+        Case{{narrow}, narrow + " is for a different processor (32 bits)"},
         Case{{"env", "-i", "sleep", "0.3"}, "did not load our library"}}) {
     const Finished refused = exec(each.command);
     EXPECT_EQ(refused.exit_code, 125) << refused.errors;
@@ -316,7 +316,7 @@ TEST_F(HostTime, RefusesFlagsThatDisagree) {
   const Finished twice =
       exec({"true"}, {"--listen", "rtu://localhost:5020", "--listen", "rtu://127.0.0.1:5020"});
   EXPECT_EQ(twice.exit_code, 3);
-  EXPECT_NE(twice.errors.find("are one address for a host on this machine"), std::string::npos)
+  EXPECT_NE(twice.errors.find("are the same address for a host on this machine"), std::string::npos)
       << twice.errors;
 }
 

@@ -201,10 +201,10 @@ TEST(ImportCommand, TakesWhatItIsTold) {
   const Finished told =
       understudy({"import", list, "--columns", "address=Where,name=B", "--addresses", "modicon"});
   EXPECT_EQ(told.exit_code, 0) << told.errors;
-  EXPECT_NE(told.errors.find(":1:12: columns: passed over: Role; "), std::string::npos) << told.errors;
+  EXPECT_NE(told.errors.find(":1:12: columns: ignored: Role; "), std::string::npos) << told.errors;
   const Finished checked = understudy({"check", folder / "p.yaml"});
   EXPECT_EQ(checked.exit_code, 0) << checked.errors;
-  EXPECT_NE((checked.output + checked.errors).find("warning: columns: passed over: Role"), std::string::npos)
+  EXPECT_NE((checked.output + checked.errors).find("warning: columns: ignored: Role"), std::string::npos)
       << checked.output << checked.errors;
   const std::string registers = understudy({"describe", folder / "p.yaml", "registers"}).output;
   EXPECT_NE(registers.find("0x0044"), std::string::npos) << registers;

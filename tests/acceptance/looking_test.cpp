@@ -132,7 +132,7 @@ TEST(TraceFlag, RefusesWhatItCannotDo) {
   const std::tuple<Words, int, std::string> kCases[] = {
       {{"--trace", "t.txt"},
        2,
-       "understudy: --trace: t.txt: is not a kind of trace; expected FILE.csv or FILE.vcd\n"},
+       "understudy: --trace: t.txt: has an unknown format; expected FILE.csv or FILE.vcd\n"},
       {{"--trace-also", "Cord_A"}, 2, "understudy: --trace-also: expected --trace FILE as well\n"},
       {{"--trace", folder / "t.csv", "--trace-also", "Cord_AA"},
        2,
@@ -177,7 +177,7 @@ TEST(Plot, TellsInALineWhatIsWrong) {
        (folder / "none.csv") + ": cannot be read (No such file or directory); expected a trace\n"},
       {{"plot", csv, "-o", "p.pdf"},
        2,
-       "understudy: --output: p.pdf: is not a kind of picture; expected FILE.png or FILE.svg\n"},
+       "understudy: --output: p.pdf: has an unknown format; expected FILE.png or FILE.svg\n"},
       {{"plot", csv, "-o", folder / "no/p.png"},
        3,
        "understudy: --output: " + (folder / "no/p.png") + " cannot be written: No such file or directory\n"},
@@ -189,9 +189,10 @@ TEST(Plot, TellsInALineWhatIsWrong) {
   }
   const Finished without = understudy({"plot", csv}, {{"PATH", folder.path()}});
   EXPECT_EQ(without.exit_code, 3);
-  EXPECT_EQ(without.errors,
-            "understudy: plot: gnuplot cannot be started (Debian's package is gnuplot-nox): No such file or "
-            "directory\n");
+  EXPECT_EQ(
+      without.errors,
+      "understudy: plot: gnuplot cannot be started (the Debian package is gnuplot-nox): No such file or "
+      "directory\n");
 }
 
 /// The daemon's count of stalls that it left out of simulated time.

@@ -177,12 +177,13 @@ TEST_F(Mistakes, OfValuesAreQuotedWithWhatIsExpected) {
           {{"advance", "5"}, 2, "understudy: ctl advance: expected one duration with a unit, such as 250ms"},
           {{"scope", "--trace", "@shot.csv"},
            2,
-           "understudy: ctl scope: --trace: nothing is kept; expected a scope that was armed and has run: "
+           "understudy: ctl scope: --trace: nothing was recorded; expected a scope that was armed and has "
+           "run: "
            "ctl scope "
            "NAME..."},
           {{"scope", "--trace", "@shot.vcd"},
            2,
-           "understudy: --trace: @shot.vcd: is not a kind of trace of a scope; expected FILE.csv"},
+           "understudy: --trace: @shot.vcd: has an unknown format; expected FILE.csv"},
       });
   ASSERT_EQ(daemon.ctl({"inject", "stall", "A"}).exit_code, 0);
   ASSERT_EQ(daemon.ctl({"inject", "alarm", "B"}).exit_code, 0);
@@ -316,7 +317,7 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
     const Finished finished = understudy({"import", at(name + ".csv")});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     const std::string said = finished.errors + finished.output;
-    EXPECT_EQ(said.find("read as Modicon's numbers: '40001' is 0 on the wire") != std::string::npos,
+    EXPECT_EQ(said.find("read as Modicon numbers: '40001' is 0 on the wire") != std::string::npos,
               list.is_remarked)
         << list.text << said;
   }

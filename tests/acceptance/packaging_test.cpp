@@ -309,7 +309,7 @@ TEST(DebianPackages, AreListedWhereTheyCannotBeInstalled) {
   const Finished listed = with_programs({"id"}, "install_missing g++ no-such-package; echo on we go");
   EXPECT_EQ(listed.exit_code, 0) << listed.errors;
   EXPECT_EQ(listed.output,
-            "nothing can be installed here (no apt-get); needed, by Debian 12's names: g++ "
+            "nothing can be installed here (no apt-get); needed (Debian 12 names): g++ "
             "no-such-package\non we go\n");
   EXPECT_EQ(listed.errors, "");
 }
@@ -320,7 +320,7 @@ TEST(DebianPackages, ThatAreThereAreNotListed) {
   const std::string user = "id() { echo 1000; }; apt-get() { false; }; ";
   const Finished one = with_programs({"dpkg-query"}, user + "install_missing dpkg no-such-package bash");
   EXPECT_EQ(one.output,
-            "nothing can be installed here (not root, and no sudo); needed, by Debian 12's names: "
+            "nothing can be installed here (not root, and no sudo); needed (Debian 12 names): "
             "no-such-package\n")
       << one.errors;
   EXPECT_EQ(with_programs({"dpkg-query"}, user + "install_missing dpkg bash").output, "");

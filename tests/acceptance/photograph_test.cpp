@@ -204,7 +204,7 @@ TEST(Photograph, RemovesTheEchoOfAnAdapter) {
   const FakeBox only_echo([](const Bytes& request) { return request; });
   const std::string told =
       diagnostic(photograph(only_echo.path(), "simple2-r3", folder / "none.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("the adapter sends back what it is given"), std::string::npos) << told;
+  EXPECT_NE(told.find("the adapter echoes the request"), std::string::npos) << told;
 }
 
 Bytes with_checksum(Bytes frame) {
@@ -231,7 +231,7 @@ TEST(Photograph, SaysThatBytesAreNoAnswer) {
   const PrivateFolder folder;
   const FakeBox noise([](const Bytes&) { return Bytes{0xFC, 0x00, 0x7F}; });
   const std::string told = diagnostic(photograph(noise.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("bytes came that are not an answer"), std::string::npos) << told;
+  EXPECT_NE(told.find("bytes arrived that are not a reply"), std::string::npos) << told;
 }
 
 TEST(Photograph, SaysWhenABoxStopsAnswering) {

@@ -96,7 +96,7 @@ TEST_F(SizeLimits, DoNotStopDevicesThatRun) {
                UNDERSTUDY_BINARY + " ctl get HW_Code"});
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_NE(finished.output.find("HW_Code 49153"), std::string::npos) << finished.output;
-  EXPECT_NE(finished.errors.find("the trace has ended early: File too large"), std::string::npos)
+  EXPECT_NE(finished.errors.find("the trace ended early: File too large"), std::string::npos)
       << finished.errors;
 }
 

@@ -133,7 +133,7 @@ TEST(MoveRefusal, WhatNoDoubleCanHoldIsRefused) {
            [&] { slow_to_stop({.speed_u_s = 1e300}, law); },
            [&] { change_target({.speed_u_s = 1e300}, 5, law); },
        }) {
-    expect_refused(act, Refusal::out_of_range, "move: quantities must make a profile that doubles hold");
+    expect_refused(act, Refusal::out_of_range, "move: quantities must give a profile that fits in doubles");
   }
 }
 

@@ -149,11 +149,11 @@ TEST(PathRefusal, OfPlanesThatAreNone) {
 TEST(PathRefusal, OfCentresAndRadiiThatFitNoArc) {
   expect_refused({
       {[] { return arc_by_centre(kTen, kTen, kUp, kLeft); }, Refusal::no_such_arc,
-       "arc_by_centre: centre must be off begin and end, is on begin"},
+       "arc_by_centre: centre must differ from begin and end, is on begin"},
       {[] { return arc_by_centre(kTen, kUp, kUp, kLeft, off(OffCircle::blend, 0)); }, Refusal::no_such_arc,
-       "arc_by_centre: centre must be off begin and end, is on end"},
+       "arc_by_centre: centre must differ from begin and end, is on end"},
       {[] { return arc_by_sweep(kTen, kTen, 1); }, Refusal::no_such_arc,
-       "arc_by_sweep: centre must be off begin, is on it"},
+       "arc_by_sweep: centre must differ from begin, is on it"},
       {[] {
          return arc_by_centre(kTen, kOrigin, {0, 10.5, 0, 0}, kLeft);
        },
@@ -168,7 +168,7 @@ TEST(PathRefusal, OfCentresAndRadiiThatFitNoArc) {
       {[] {
          return arc_by_radius(kTen, {10, 0, 5, 0}, 20, kLeft);
        },
-       Refusal::no_such_arc, "arc_by_radius: end must be off begin in the plane, is on it"},
+       Refusal::no_such_arc, "arc_by_radius: end must differ from begin in the plane, is on it"},
       {[] {
          return arc_by_radius(kTen, {-20, 0, 0, 0}, 5, kLeft);
        },
@@ -176,7 +176,7 @@ TEST(PathRefusal, OfCentresAndRadiiThatFitNoArc) {
       {[] { return spiral(kTen, kOrigin, 4 * kPi, -10); }, Refusal::no_such_arc,
        "spiral: radius must be 0 or above, is -10 at the end"},
       {[] { return spiral(kTen, kTen, 7, -10); }, Refusal::no_such_arc,
-       "spiral: centre must be off begin, is on it"},
+       "spiral: centre must differ from begin, is on it"},
   });
   EXPECT_NO_THROW(arc_by_centre(kTen, kOrigin, {0, 10 + 9e-7, 0, 0}, kLeft));
   EXPECT_THROW(arc_by_centre(kTen, kOrigin, {0, 10 + 1.1e-6, 0, 0}, kLeft), BadMotion);
@@ -222,16 +222,16 @@ TEST(PathRefusal, OfPointsOnOneLineOrTheSame) {
 TEST(PathRefusal, OfSpiralsByTheLongestAxis) {
   expect_refused({
       {[] { return spiral(kTen, kOrigin, 1, 3, kOrigin, longest(OffCircle::refuse)); }, Refusal::out_of_range,
-       "spiral: growth of the radius must be 0 where the longest axis is the measure, is 0.477464829275686"},
+       "spiral: growth of the radius must be 0 if the longest axis is the measure, is 0.477464829275686"},
       {[] { return spiral(kOrigin, kOrigin, 1, 1e-9, kOrigin, longest(OffCircle::refuse)); },
        Refusal::out_of_range,
-       "spiral: growth of the radius must be 0 where the longest axis is the measure, is "
+       "spiral: growth of the radius must be 0 if the longest axis is the measure, is "
        "1.5915494309189535e-10"},
       {[] {
          return arc_by_centre(kTen, kOrigin, {0, 12, 0, 0}, kLeft, longest(OffCircle::blend));
        },
        Refusal::out_of_range,
-       "arc_by_centre: growth of the radius must be 0 where the longest axis is the measure, is 2"},
+       "arc_by_centre: growth of the radius must be 0 if the longest axis is the measure, is 2"},
   });
 }
 

@@ -123,7 +123,7 @@ TEST_F(CaptureFileTest, AFullDiskEndsTheCaptureWithWholePacketsAndOneLine) {
   EXPECT_LT(read.packets.size(), 60U);
   EXPECT_EQ(file->lost(), 100 - read.packets.size());
   ASSERT_EQ(logged_.size(), 2U);
-  EXPECT_EQ(logged_[0], (folder_ / "a.pcapng") + ": the capture has ended early: File too large");
+  EXPECT_EQ(logged_[0], (folder_ / "a.pcapng") + ": the capture ended early: File too large");
   EXPECT_EQ(logged_[1], (folder_ / "a.pcapng") + ": " + std::to_string(file->lost()) +
                             " packets are missing from the capture");
 }

@@ -150,7 +150,7 @@ TEST(CaptureFrames, AReplyThatNobodyWaitsForSaysSo) {
   rig.send(kRequest, 0s);
   rig.line.host_closed();
   rig.run(1s);
-  EXPECT_EQ(rig.lines, (Lines{kRequestLine, kReplyLine + "  # to nobody: no host has the line open"}));
+  EXPECT_EQ(rig.lines, (Lines{kRequestLine, kReplyLine + "  # discarded: no host has the line open"}));
 }
 
 TEST(CaptureFrames, AStoppedClockDropsAPartialFrameWhenStationsDo) {

@@ -41,12 +41,12 @@ TEST(CaptureText, HasWhatFaultsDid) {
   EXPECT_EQ(line_of(packet), "0.000000001 out rs485 01 03 02  # fault 1 truncate: cut\n");
   packet.remark = Remark::to_nobody;
   EXPECT_EQ(line_of(packet, 3),
-            "0.000000001 out rs485 01 03 02  # to nobody: no host has the line open; fault 1 truncate: cut; "
+            "0.000000001 out rs485 01 03 02  # discarded: no host has the line open; fault 1 truncate: cut; "
             "3 packets are missing before this one\n");
-  const std::vector<Strike> strikes{{1, "drop", "not said"}, {12, "delay", "said later"}};
+  const std::vector<Strike> strikes{{1, "drop", "not sent"}, {12, "delay", "sent late"}};
   const std::string told = text_of(strikes);
   EXPECT_EQ(line_of({.line = 0, .way = Way::to_host, .time = SimTime{1}, .bytes = {}, .faults = told}),
-            "0.000000001 out rs485  # fault 1 drop: not said; fault 12 delay: said later\n");
+            "0.000000001 out rs485  # fault 1 drop: not sent; fault 12 delay: sent late\n");
 }
 
 }  // namespace capture_text_test

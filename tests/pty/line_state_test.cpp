@@ -216,16 +216,18 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
     EXPECT_EQ(rig.wire.line.save().input.size(), 5u);
   };
   refused("its stations are different", [](Line::State& s) { s.members.pop_back(); });
-  refused("its settings are not those of a line", [](Line::State& s) { s.settings.baud = 0; });
-  refused("its settings are not those of a line", [](Line::State& s) { s.settings.stop_bits = 3; });
-  refused("its settings are not those of a line", [](Line::State& s) { s.settings.data_bits = 9; });
-  refused("more bytes wait than it holds", [](Line::State& s) { s.input.resize(Line::kInputCapacity + 1); });
-  refused("more bytes wait than it holds",
+  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.baud = 0; });
+  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.stop_bits = 3; });
+  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.data_bits = 9; });
+  refused("more bytes are waiting than it can hold",
+          [](Line::State& s) { s.input.resize(Line::kInputCapacity + 1); });
+  refused("more bytes are waiting than it can hold",
           [](Line::State& s) { s.edge.output.resize(Line::kOutputCapacity + 1); });
-  refused("its characters take no time", [](Line::State& s) { s.input[0].end = SimTime::max(); });
-  refused("its characters take no time", [](Line::State& s) { s.arriving.count = 19'200; });
-  refused("its characters take no time", [](Line::State& s) { s.members[1].speech.count = -1; });
-  refused("its characters take no time", [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
+  refused("its characters have impossible times", [](Line::State& s) { s.input[0].end = SimTime::max(); });
+  refused("its characters have impossible times", [](Line::State& s) { s.arriving.count = 19'200; });
+  refused("its characters have impossible times", [](Line::State& s) { s.members[1].speech.count = -1; });
+  refused("its characters have impossible times",
+          [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
   refused("its clock is after the end of simulated time",
           [](Line::State& s) { s.edge.clock = SimTime::max(); });
 }

@@ -27,8 +27,9 @@ class Joiner {
                              quoted(piece.line) + "; expected --line with one of them");
     if (piece.is_from_host) {
       if (piece.at < last_)
-        throw CaptureReadError(capture_.path + ":" + std::to_string(piece.place) +
-                               ": the time of this request is before the last one; expected times that rise");
+        throw CaptureReadError(
+            capture_.path + ":" + std::to_string(piece.place) +
+            ": the time of this request is before the last one; expected increasing times");
       last_ = piece.at;
       capture_.exchanges.push_back({.at = piece.at, .request = std::move(piece.bytes), .place = piece.place});
       return;
@@ -48,7 +49,7 @@ class Joiner {
     if (!others_.empty())
       throw CaptureReadError(path + ": has no line called " + quoted(wanted_) + "; expected one such as " +
                              quoted(others_));
-    throw CaptureReadError(path + ": has no request of a host; expected a capture of both directions");
+    throw CaptureReadError(path + ": has no request from a host; expected a capture of both directions");
   }
 
  private:

@@ -100,7 +100,7 @@ class PcapngReader {
   }
 
   void take_line(Body& body) {
-    if (body.little(2) != kUpperPdu) throw refuse("is of another kind of link than a serial line");
+    if (body.little(2) != kUpperPdu) throw refuse("is from a link other than a serial line");
     body.skip(6);
     std::string name = "line";
     bool is_in_nanoseconds = false;

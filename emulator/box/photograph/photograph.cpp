@@ -45,9 +45,9 @@ std::string silence_text(const PortName& port, const std::string& who,
   if (!port.has_settings()) at.clear();
   std::string text = one_line(port.place) + ": " + who + " did not answer" + at;
   if (is_echoing) {
-    text += "; the adapter sends back what it is given, but nothing else comes";
+    text += "; the adapter echoes the request, but nothing else arrives";
   } else if (is_noisy) {
-    text += "; bytes came that are not an answer: another speed, or another protocol";
+    text += "; bytes arrived that are not a reply: the speed or the protocol may differ";
   }
   return text + "; expected a controller that is on, wired, and set to one of them";
 }

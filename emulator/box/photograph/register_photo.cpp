@@ -39,7 +39,7 @@ constexpr int kTries = 3;
 std::string why_refused(const play::HostReply& reply) {
   switch (reply.kind) {
     case Kind::exception: return "exception " + std::to_string(reply.exception);
-    case Kind::garbled: return "no valid answer";
+    case Kind::garbled: return "no valid reply";
     case Kind::silence:
     case Kind::good: break;
   }
@@ -103,7 +103,7 @@ class RegisterPhoto {
     if (other_station >= 0)
       throw BoxError(one_line(work_.port.place) + ": station " + std::to_string(other_station) +
                      " answered a request to " + who +
-                     "; expected a line with one controller of each number");
+                     "; expected each station number to belong to one controller");
     throw BoxError(silence_text(work_.port, who, tried, is_noisy, work_.photo.is_echoing));
   }
 

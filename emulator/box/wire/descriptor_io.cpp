@@ -49,7 +49,7 @@ void write_all(const Descriptor& to, std::span<const std::uint8_t> bytes, const 
       continue;
     }
     if (size < 0 && !is_only_waiting(errno)) say_lost(place, std::strerror(errno));
-    if (serve::wall_now() >= deadline) say_lost(place, "takes no more bytes");
+    if (serve::wall_now() >= deadline) say_lost(place, "accepts no more bytes");
     wait_for(to.get(), POLLOUT, std::min(deadline, serve::wall_now() + std::chrono::milliseconds(100)));
   }
 }

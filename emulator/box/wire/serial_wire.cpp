@@ -72,7 +72,7 @@ void SerialWire::set_line(const pty::LineSettings& settings) {
   port.c_cflag &= ~static_cast<tcflag_t>(PARENB | PARODD);
   if (errno == EINVAL && tcsetattr(port_.get(), TCSANOW, &port) == 0) return;
   throw WireError(one_line(path_) + ": cannot be set to " + pty::to_string(settings) + ": " +
-                  std::strerror(errno) + "; expected a serial port that can");
+                  std::strerror(errno) + "; expected a serial port that supports this");
 }
 
 void SerialWire::send(std::span<const std::uint8_t> bytes) { write_all(port_, bytes, path_); }

@@ -94,7 +94,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
     return a == b || (!lasts(a) && !lasts(b));
   };
   require_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
-                "it is the memory of other registers");
+                "it holds other registers");
   // A waiting register has exactly one job. A job that writes everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
@@ -112,7 +112,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
                 "the memory's writes are out of order");
   const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
   require_state(rewrites || rewriting_.empty(), "the memory cannot be writing everything");
-  require_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");
+  require_state(jobs_.empty() == (done_at_ == kNever), "the memory never stops writing");
   if (done_at_ != kNever) require_reach(done_at_);
 }
 

@@ -272,7 +272,7 @@ NvImage parse_nv_image(const std::string& text) {
     throw NvError("understudy: is missing; expected an NV image");
   }
   if (!file["understudy"].is_number_integer() || file["understudy"] != kFormat) {
-    throw NvError("understudy: is in another format; expected " + std::to_string(kFormat));
+    throw NvError("understudy: has a different format; expected " + std::to_string(kFormat));
   }
   if (text_of(file, "kind") != kKind) {
     throw NvError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " + kKind);

@@ -71,7 +71,7 @@ void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps
 void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
                               std::span<const std::uint32_t> kept) {
   const auto slots = static_cast<std::size_t>(bank.map().slot_count());
-  require_state(image.size() == slots && kept.size() == slots, "the image has another size");
+  require_state(image.size() == slots && kept.size() == slots, "the image has a different size");
   // This is the model's own policy: a choice of the bench may restrict what hosts write, but not programs.
   const MapPolicy& policy = bank.map().policy();
   std::size_t slot = 0;

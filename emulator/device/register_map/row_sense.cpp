@@ -41,7 +41,7 @@ void validate_names(const RegisterRow& row, const Require& require) {
   require(row.count == 1 || row.name.find("{}") != std::string_view::npos,
           "has several registers, and no {} in its name");
   require(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
-          "has another number of labels");
+          "has a different number of labels");
   require(row.first_axis >= 0 && (row.first_axis == 0 || !row.labels.empty()),
           "begins with another axis, and is not for each of several");
 }

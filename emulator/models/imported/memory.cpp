@@ -20,12 +20,13 @@
 namespace understudy::emulator::models::imported {
 
 void ImportedDevice::check_restored(State& restored) const {
-  require_state(restored.held.size() == state_.held.size(), "there are other commands");
-  require_state(restored.axes.size() == state_.axes.size(), "there are other axes");
-  require_state(restored.followed.size() == state_.followed.size(), "other values follow");
+  require_state(restored.held.size() == state_.held.size(), "its commands are different");
+  require_state(restored.axes.size() == state_.axes.size(), "its axes are different");
+  require_state(restored.followed.size() == state_.followed.size(), "its followers are different");
   for (const double value : restored.followed) require_state(std::isfinite(value), "a value is not a number");
   for (const AxisState& axis : restored.axes) {
-    require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0, "a speed is not one");
+    require_state(std::isfinite(axis.run_pps) && axis.run_pps >= 0,
+                  "a speed is not a number, or is negative");
     require_state(axis.wanted_direction >= -1 && axis.wanted_direction <= 1,
                   "a direction is not forward, backward or none");
   }

@@ -25,7 +25,7 @@ namespace understudy::emulator::models::imported {
 namespace {
 
 constexpr std::array<std::string_view, 1> kGaps{
-    "It is what a file describes: registers that nothing is bound to only store what is written.",
+    "A file describes it. Registers without a binding only store the values that hosts write.",
 };
 
 constexpr std::size_t kMaxStateRegisters = 12;

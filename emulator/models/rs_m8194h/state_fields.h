@@ -41,7 +41,7 @@ struct StateOf<emulator::models::rs_m8194h::HeldPath> {
   static void check(const Value& held) {
     for (const std::uint8_t code : held.codes) {
       require_state(code == 0 || emulator::models::rs_m8194h::axis_of_code(code) >= 0,
-                    "a path has no such axis");
+                    "a path has an axis that does not exist");
     }
   }
 };
@@ -62,7 +62,7 @@ struct StateOf<emulator::models::rs_m8194h::IsrMark> {
                                            field<&Value::source>(), field<&Value::number>()};
   static void check(const Value& mark) {
     require_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
-                  "an interrupt has no such source");
+                  "an interrupt has a source that does not exist");
   }
 };
 
@@ -70,7 +70,7 @@ namespace emulator::models::rs_m8194h {
 
 template <class Part, std::size_t count>
 consteval std::size_t counted() {
-  static_assert(state_fields::has_members<Part, count>(), "a part of the state has other members");
+  static_assert(state_fields::has_members<Part, count>(), "a part of the state has different members");
   return count;
 }
 /// The members of the state are those of its parts, which are counted one by one.
@@ -135,16 +135,17 @@ struct StateOf<emulator::models::rs_m8194h::State> {
     constexpr std::size_t kMaxHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
     require_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");
     for (const auto& held : state.held_paths) {
-      require_state(emulator::models::rs_m8194h::is_path(held.command), "what is held is not a path");
+      require_state(emulator::models::rs_m8194h::is_path(held.command), "a held path is not a path");
     }
     require_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more is loaded than there is room for");
     for (const auto& segment : state.loaded) {
       require_state(emulator::models::rs_m8194h::is_path(segment.command) &&
                         emulator::models::rs_m8194h::is_segment(segment),
-                    "the loaded segment is not one");
+                    "the loaded segment is not a segment");
     }
     for (const std::uint8_t channel : state.queued_triggers) {
-      require_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
+      require_state(channel < interpreter::rs_m8194h::kTriggerCount,
+                    "a trigger has a channel that does not exist");
     }
     for (std::size_t i = 0; i < state.enabled.size(); ++i) {
       const auto begin = state.enabled.begin();
@@ -152,7 +153,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                           begin + static_cast<std::ptrdiff_t>(i);
       const bool exists = state.enabled[i] >> 4 < static_cast<int>(emulator::models::rs_m8194h::kAxes) &&
                           (state.enabled[i] & 0xF) <= emulator::models::rs_m8194h::IsrMark::kSynchronous;
-      require_state(is_new && exists, "an interrupt that is enabled has no such source");
+      require_state(is_new && exists, "an enabled interrupt has a source that does not exist");
     }
     for (const auto& scan : state.scans) require_reach(scan.begin);
     require_reach(state.powered_at);

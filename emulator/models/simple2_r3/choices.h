@@ -115,7 +115,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"aclr_output", "運動相關", "How long is the ACLR output on?", "200ms", kFollows,
      "The register returns to 0 after 200 ms, and the output follows it."},
     {"aclr_again", "運動相關", "What does a second ACLR within the 200 ms do?", "restarts|ignored", kProposal,
-     "Each command requests 200 ms from its own moment."},
+     "Each command starts its own 200 ms."},
     {"analog_scaling", "附錄 C",
      "How are Analog_A and Analog_B (200 per volt) computed from the ADC and its calibration?",
      "line_through_both_points|line_through_zero", kProposal,

@@ -7,8 +7,8 @@ namespace understudy::emulator::models::simple2_r3 {
 
 inline constexpr FirstFiles kFirstFiles{
     .bench =
-        R"(# One Simple2-R3 on a serial line, with a machine on axis A; the memory gives the inputs of its switches their
-# functions. `understudy serve bench.yaml` opens its port.
+        R"(# One Simple2-R3 on a serial line, with a machine on axis A; the memory assigns functions to the inputs of its
+# switches. `understudy serve bench.yaml` opens its port.
 understudy: 1
 lines:
   rs485:

@@ -27,7 +27,7 @@ std::string_view why_of(interpreter::simple2::Ending ending) {
     case interpreter::simple2::Ending::unknown_command: return "an unknown command";
     case interpreter::simple2::Ending::undefined_operand: return "an operand that does not exist";
     case interpreter::simple2::Ending::stopped: return "stopped from outside";
-    case interpreter::simple2::Ending::wait_cut_short: return "a wait was cut short";
+    case interpreter::simple2::Ending::wait_cut_short: return "a wait ended early";
   }
   return "";
 }

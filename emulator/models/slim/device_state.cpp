@@ -48,7 +48,7 @@ void settle_programs(State& state, const lang::FlowOptions& options) {
                 "a kept line is not a command of a program");
   require_within(state.editor.line, 0, options.program.capacity);
   require_within(state.execution.line, 0, options.program.capacity);
-  require_state(is_sound(state.execution, state.program, options), "the program does what no program can");
+  require_state(is_sound(state.execution, state.program, options), "the program is in an impossible state");
 }
 
 }  // namespace

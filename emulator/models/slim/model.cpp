@@ -126,7 +126,7 @@ constexpr std::array<std::string_view, 5> kGaps{
      "and ?IC show 0, because nothing electrical is modelled. ?VER and ?MT do not belong to a "
      "particular version."),
     "The servo loop has no following error: ?FLE shows 0, and EL and LL are stored without effect.",
-    ("FT pushes against something that does not give way. TpSYN and one of PN44 to PN46 are stored "
+    ("FT pushes against something that does not move. TpSYN and one of PN44 to PN46 are stored "
      "without effect."),
     ("PWM has a resolution of whole milliseconds. Above 500 Hz, the output stays at the prevailing "
      "level."),

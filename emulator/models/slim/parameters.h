@@ -48,7 +48,7 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"PN37", "", ParameterDefinition::Type::integer, 0, 65535, false, 0x8888, "", true,
      "module of each axis at power-up, a nibble for x, y, z and w; 8: none"},
     {"PN44", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "", false,
-     "user coordinate unit", "coordinates go by PN45 and PN46"},
+     "user coordinate unit", "coordinates use PN45 and PN46"},
     {"PN45", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "pulse", false,
      "user coordinate unit: this many pulses ..."},
     {"PN46", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "unit", false,

@@ -57,7 +57,7 @@ void StateOf<AxisState>::check(const AxisState& axis) {
   }
   require_within(axis.order, 0, 4);
   require_state(std::abs(axis.arc_backlash_part) <= 1, "more than a pulse");
-  require_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "no step of the chip's speeds");
+  require_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "not a step of the chip's speeds");
 }
 
 void StateOf<State>::check(const State& state) {
@@ -71,7 +71,7 @@ void StateOf<State>::check(const State& state) {
   require_state(parameters == 0 || parameters == kParameterCount, "the number of parameters is wrong");
   const std::size_t words = state.table.words.size();
   require_state(words % kWordsOfATableLine == 0 && words <= std::size_t{kTableLines} * kWordsOfATableLine,
-                "no lines of the user table");
+                "the lines do not belong to the user table");
   require_within(state.file, 0, 30'000);
   require_within(state.recipe, 0, kRecipeCount - 1);
   require_within(state.homing_by_key.order, 0, 4);

@@ -23,7 +23,7 @@ function dropNext(frame) {
 }
 
 function Frame({ frame }) {
-  const kind = frame.exception || /drop|not heard|not said|cut|corrupt/.test(frame.remark ?? '') ? 'bad' : frame.remark ? 'odd' : '';
+  const kind = frame.exception || /drop|not received|not sent|cut|corrupt/.test(frame.remark ?? '') ? 'bad' : frame.remark ? 'odd' : '';
   const latency = frame.latency_ns !== undefined ? `${(frame.latency_ns / 1e6).toFixed(2)} ms` : '';
   const isRequest = frame.way === 'in';
   return html`<tr class=${`${frame.way} ${kind}`} title=${frame.bytes}>
@@ -102,7 +102,7 @@ function Traffic() {
     <p><b>${name}</b> ${grouped(line.requests)} requests, ${grouped(line.replies)} replies, ${grouped(line.exceptions)} with an exception, ${grouped(line.dropped)} dropped or with a remark</p>
     <${Bars} title="latency" counts=${line.latency} least=${line.least.latency} greatest=${line.greatest.latency} />
     <${Bars} title="from a reply to the next request" counts=${line.gaps} least=${line.least.gaps} greatest=${line.greatest.gaps} /></section>`)}
-    <small>since the page was opened, and in what the daemon had kept by then</small></details>`;
+    <small>since the page was opened, and in the traffic that the daemon still had then</small></details>`;
 }
 
 export function Bus() {

@@ -17,7 +17,7 @@ function Time({ ns }) {
 
 export function EventList({ fits = () => true, most = kShown }) {
   const shown = withHoles(store.events, fits);
-  return html`${store.events.length === 0 ? html`<p>Nothing yet.</p>` : shown.length === 0 ? html`<p>Nothing that matches.</p>` : ''}
+  return html`${store.events.length === 0 ? html`<p>Nothing yet.</p>` : shown.length === 0 ? html`<p>Nothing matches.</p>` : ''}
     <div class="scroll"><table class="events"><tbody>${shown.slice(-most).reverse().map((event) => event.missed && event.key ? html`<${Missed}
       key=${event.key} count=${event.missed} what="events" columns="4" />` : html`<tr key=${event.number}
       class=${event.what === 'exception' || event.what === 'dropped' ? 'bad' : ''}>

@@ -73,8 +73,8 @@ function Time() {
 
 function Said() {
   const isStranger = store.link.includes('token');
-  const bench = { gone: 'The daemon is gone; the page waits for it.', silent: 'The daemon does not answer.' }[store.states[store.number]];
-  const lost = (isStranger ? 'This address is not complete, or of an earlier run: open the whole address that was printed, with all that follows #.' : store.link) || bench;
+  const bench = { gone: 'The daemon has stopped; the page waits for it to return.', silent: 'The daemon does not answer.' }[store.states[store.number]];
+  const lost = (isStranger ? 'This address is incomplete, or from an earlier run: open the whole address that was printed, including the part after #.' : store.link) || bench;
   const text = lost || (store.said && performance.now() - store.said.at < 6000 ? store.said.text : '');
   return html`<div class=${`said ${lost ? 'lost' : ''} ${text ? '' : 'nothing'}`} role="status" aria-live="polite">${text}</div>`;
 }
@@ -151,7 +151,7 @@ function Page() {
       onClick=${() => setPanel(name)}>${name}</button>`)}</nav><${Beside} panel=${panel} beside=${beside} /></div></div>
     <${Said} /><${Story} />
     <div class=${`panels n${1 + beside.length} ${isLost ? 'stale' : ''}`}><div id="panel" role="tabpanel" aria-labelledby=${`tab_${panel}`}>
-      ${store.bench ? html`<${panelOf(panel)} key=${`${store.number}/${panel}`} />` : html`<p>${store.link.includes('too many') ? 'Too many browsers look at this page: close one of them, and this one comes by itself.' : 'Looking for the bench...'}</p>`}</div>
+      ${store.bench ? html`<${panelOf(panel)} key=${`${store.number}/${panel}`} />` : html`<p>${store.link.includes('too many') ? 'Too many browsers have this page open: close one of them, and this one will load.' : 'Looking for the bench...'}</p>`}</div>
       ${store.bench && beside.map((name) => html`<section key=${`${store.number}/${name}`} aria-label=${name}><h2>${name}</h2><${panelOf(name)} /></section>`)}</div>`;
 }
 

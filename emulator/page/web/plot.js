@@ -252,7 +252,7 @@ function Scope({ shot, show }) {
     <${Choice} label="time before and after the trigger" value=${side} options=${['100ms', '500ms', '1s', '2s', '5s'].map((it) => [it, `± ${it}`])} takes=${setSide} />
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
             : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isLocked()}>arm<//>`}
-    <output>${state}${state === 'armed' && store.look?.paused ? ': time stands' : ''}</output>
+    <output>${state}${state === 'armed' && store.look?.paused ? ': time is stopped' : ''}</output>
     ${state === 'done' && !shot && html`<${Button} title="show what the scope has kept" does=${async () => {
       const { scope } = await askQuietly({ do: 'scope' });
       if (scope) await showShot(scope);

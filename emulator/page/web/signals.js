@@ -96,7 +96,7 @@ export function Signals() {
   return html`<div class="bar">${choice}<input type="search" aria-label="find a signal" placeholder="find a signal" value=${filter}
       onInput=${(event) => setFilter(event.target.value)} />
       <${Choice} label="which signals" value=${which} takes=${setWhich} options=${[['all', 'all signals'], ['wired', 'wired or used'], ['changed', 'changed since the page was opened']]} />
-      <small>A click holds an input on, another lets it go. Stuck levels are faults.</small></div>
+      <small>Click an input to hold it on; click again to release it. Stuck levels are faults.</small></div>
     ${devices.map((device) => html`<section class="device" key=${device.name}><h2>${device.name}</h2>
       ${Object.keys(kTitles).map((kind) => [kind, device.terminals.filter((it) => it.kind === kind && fits(it, device.name))])
         .filter(([, terminals]) => terminals.length > 0)

@@ -87,7 +87,7 @@ const wire = new (isTold ? Told : Wire)({
     draw();
   },
   lost: (why) => {
-    store.link = why ? `closed: ${why}` : 'the page has lost its server; retrying';
+    store.link = why ? `closed: ${why}` : 'the page has lost the connection to its server; retrying';
     draw();
   },
   dead: () => {

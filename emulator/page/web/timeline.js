@@ -179,7 +179,7 @@ export function Timeline() {
       <span class="joined"><${Button} title="earlier (a)" does=${keys.a}>◀<//><${Button} title="zoom in (w)" does=${keys.w}>+<//>
         <${Button} title="zoom out (s)" does=${keys.s}>−<//><${Button} title="later (d)" does=${keys.d}>▶<//></span>
       <${Button} title=${isRecording ? 'show the whole recording (0)' : 'follow the present (0)'} pressed=${chosen === null} does=${keys[0]}>${isRecording ? 'whole' : 'follow'}<//>
-      <${Button} title="drags mark a stretch, to see its sums; without it they move the view (with the shift key, the other)" pressed=${marks} does=${() => setMarks(!marks)}>mark<//>
+      <${Button} title="dragging marks a stretch and shows its totals; otherwise it moves the view (the shift key swaps the two)" pressed=${marks} does=${() => setMarks(!marks)}>mark<//>
       <input type="search" aria-label="find in the timeline" placeholder="find" size="14" value=${find} onInput=${(event) => setFind(event.target.value)} />
       ${find.trim() !== '' && html`<span class="joined"><${Button} kind="small" title="previous match (p)" does=${() => next(-1)}>‹<//>
         <${Button} kind="small" title="next match (n)" does=${() => next(1)}>›<//></span><small>${grouped(found.length)} found</small>`}

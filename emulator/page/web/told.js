@@ -117,9 +117,9 @@ export class Told {
       }
       case 'get': {
         const missing = message.names.find((name) => !data.courses[0].curves[name]);
-        return missing ? { ok: false, error: `this file does not hold ${missing}` } : {};
+        return missing ? { ok: false, error: `this file does not contain ${missing}` } : {};
       }
-      default: return { ok: false, error: 'this file does not hold that; open the recording itself: understudy replay FILE --page' };
+      default: return { ok: false, error: 'this file does not contain that; open the recording itself: understudy replay FILE --page' };
     }
   }
 

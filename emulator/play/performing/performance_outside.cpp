@@ -62,7 +62,7 @@ void compare_values(const Values& present, const Values& wanted, std::vector<std
 void compare_lines(const std::string& what, const std::vector<std::string>& present,
                    const std::vector<std::string>& wanted, std::vector<std::string>& lines) {
   const auto text = [](const std::vector<std::string>& all, std::size_t i) {
-    return i < all.size() ? quoted(all[i]) : std::string("not there");
+    return i < all.size() ? quoted(all[i]) : std::string("missing");
   };
   for (std::size_t i = 0; i < std::max(present.size(), wanted.size()); ++i) {
     if (i < present.size() && i < wanted.size() && present[i] == wanted[i]) continue;

@@ -81,7 +81,8 @@ HuntPlan::HuntPlan(const world::YamlFields& hunt, const world::YamlFields& head,
       if (last_ >= first_) return;
       first_ = 0;
       last_ = steps_.size() - 1;  // so that the entries can be read
-      hunt.at(hunt.has("to") ? "to" : "from").fail("leaves no step; expected `from` before `to`");
+      hunt.at(hunt.has("to") ? "to" : "from")
+          .fail("leaves no step between `from` and `to`; expected `from` before `to`");
     });
     all.attempt([&] { read_spans(hunt, reader); });
     all.attempt([&] {
@@ -148,7 +149,7 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   if (const auto from = field.find("from")) entry.first = std::max(first_, step_called(*from) + 1);
   if (const auto to = field.find("to")) entry.last = std::min(last_, step_called(*to));
   if (entry.last < entry.first)
-    field.fail("has no room between its `from` and `to`, and those of the hunt; expected some");
+    field.fail("has no time between its `from` and `to` and those of the hunt; expected some");
   if (only_value(entry.step).is_map() && only_value(entry.step).has("name"))
     only_value(entry.step).at("name").fail("cannot be given here, since the fault may come several times");
   drawn_step(entry.step, [&](const world::YamlFields& drawn, std::size_t) {

@@ -141,7 +141,7 @@ std::string PlayReader::written_name() const {
   if (own_.has("name")) return own_.at("name").text();
   if (!cases_.choice().empty()) return cases_.choice() + ": ${" + std::string(kOptionParameter) + "}";
   if (is_one_of_several_)
-    own_.fail("'name' is missing; expected a sentence that tells this play from others");
+    own_.fail("'name' is missing; expected a sentence that distinguishes this play from the others");
   return "";
 }
 

@@ -98,7 +98,7 @@ class ScenarioFile::Reader {
         PlayReader read(play, common, file_);
         if (!names.insert(read.written_name()).second) {
           play.fail("is called " + understudy::quoted(read.written_name()) +
-                    ", as another play is; expected a name of its own");
+                    ", like another play; expected a different name");
         }
         plays_.push_back(std::move(read));
         first_.push_back(first_.back() + plays_.back().cases().size());

@@ -75,13 +75,13 @@ inline constexpr world::Key kChoiceKey{
 inline constexpr world::Key kVaryKey{
     "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};
 
-inline constexpr world::Key kHuntKey{"hunt", "What may happen to it, and what must hold, for `hunt`.",
+inline constexpr world::Key kHuntKey{"hunt", "The disturbances that `hunt` tries, and what must hold.",
                                      &kHuntSchema};
 
 /// A play has the keys of a scenario. It can omit `bench`, and everything else that the file gives to all of
 /// them.
 inline constexpr std::array kPlayKeys{
-    world::Key{kNameKey.key, "What it is about, as a sentence; no two plays share one.", &world::kText},
+    world::Key{kNameKey.key, "A sentence that describes it, different in each play.", &world::kText},
     world::Key{kBenchKey.key, "The bench; if the file also has one, the differences from it.",
                &kBenchOrPartSchema},
     kNvKey,

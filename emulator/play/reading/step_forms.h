@@ -15,8 +15,8 @@ inline constexpr world::Key kViaKey{"via", "The line, if the device is on severa
                                     &world::kLineName};
 inline constexpr std::array kAnswerKeys{
     world::Key{"exception", "The Modbus exception that the device must return.", &kExceptionSchema},
-    world::Key{"reply", "`nothing`: no reply may arrive.", &kNothingSchema},
-    world::Key{"within", "How long no reply may arrive (500ms).", &world::kDuration}, kViaKey};
+    world::Key{"reply", "`nothing`: there must be no reply.", &kNothingSchema},
+    world::Key{"within", "How long there must be no reply (500ms).", &world::kDuration}, kViaKey};
 
 inline constexpr std::array kProgramBesideKeys{world::Key{
     "refused", "The device must refuse it: `true`, or a part of the message about its first mistake.",

@@ -36,7 +36,7 @@ struct StepRow;
 /// Reads the time limit of a wait.
 inline SimTime read_within(const world::YamlFields& field) {
   const SimTime within = field.duration();
-  if (within <= SimTime{0}) field.fail("takes no time; expected some");
+  if (within <= SimTime{0}) field.fail("takes no time; expected a duration above 0");
   return within;
 }
 

@@ -230,7 +230,7 @@ world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Ta
         (value.high && *value.high < world::Number(limits.low))) {
       const bool has_range = target.place && target.place->bit < 0 && target.place->place.row->ranged &&
                              target.place->place.part == Place::Part::whole;
-      field.fail(target.name + " is never " + value.text + "; expected something in " +
+      field.fail(target.name + " is never " + value.text + "; expected a value in " +
                  (has_range ? range_text(*target.place->place.row) : to_text(limits)));
     }
     return value;

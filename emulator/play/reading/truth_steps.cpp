@@ -24,7 +24,7 @@ namespace {
 
 SimTime read_some_time(const world::YamlFields& field) {
   const SimTime time = field.duration();
-  if (time <= SimTime{0}) field.fail("takes no time; expected some");
+  if (time <= SimTime{0}) field.fail("takes no time; expected a duration above 0");
   return time;
 }
 

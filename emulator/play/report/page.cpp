@@ -81,7 +81,7 @@ std::string failure_text(const Failure& failure) {
               "</td></tr>\n";
   };
   row("expected", failure.expected);
-  row("came", failure.came);
+  row("got", failure.came);
   for (const std::string& detail : failure.details) row("also", detail);
   text += "</table>\n";
   const auto fold = [&](const char* title, const std::vector<std::string>& lines, bool is_open = false) {

@@ -56,7 +56,7 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   if (!result.steps.empty()) add(place_of(result.steps.back()) + ": " + result.steps.back().text);
   add("  " + failure.what);
   if (!failure.expected.empty()) add("  expected: " + failure.expected);
-  if (!failure.came.empty()) add("  came:     " + failure.came);
+  if (!failure.came.empty()) add("  got:      " + failure.came);
   for (const std::string& detail : failure.details) add("  also:     " + detail);
   if (!failure.led_to.empty()) add("  what led to it:");
   for (const std::string& moment : failure.led_to) add("    " + moment);

@@ -228,7 +228,7 @@ Json curves_message(const Json& message, const world::Timeline& timeline, world:
     names.push_back(name.get<std::string>());
   }
   if (names.size() * stretch.dots > kMaxPoints)
-    throw MessageError("dots: too many for so many names; expected at most " +
+    throw MessageError("dots: too many for this many names; expected at most " +
                        std::to_string(kMaxPoints / names.size()));
   world::Curves curves(other, names, stretch.from, stretch.to, stretch.dots);
   const Tick ticks = (stretch.to - stretch.from) / kTickLength;

@@ -96,7 +96,7 @@ world::BreakpointSetup setup_of(const Daemon& daemon, const Json& message) {
   for (const std::string_view kind : {kKinds[0], kKinds[1], kKinds[3], kKinds[4]}) {
     if (!message.contains(kind)) continue;
     if (!chosen.empty())
-      throw MessageError(std::string(kind) + ": stands beside " + std::string(chosen) +
+      throw MessageError(std::string(kind) + ": cannot be combined with " + std::string(chosen) +
                          "; expected one of them");
     chosen = kind;
   }
@@ -119,12 +119,12 @@ world::BreakpointSetup setup_of(const Daemon& daemon, const Json& message) {
   const bool is_of_program = setup.kind == PointKind::line || setup.kind == PointKind::instruction;
   if (message.contains("by")) setup.by = require_text(message, "by");
   if (!setup.by.empty() && setup.kind != PointKind::write)
-    throw MessageError("by: stands without write; expected both, or neither");
+    throw MessageError("by: needs write; expected both, or neither");
   if (message.contains("program")) setup.program = require_text(message, "program");
   if (!setup.program.empty() && setup.kind != PointKind::instruction)
-    throw MessageError("program: stands without instruction; expected both, or neither");
+    throw MessageError("program: needs instruction; expected both, or neither");
   if (message.contains("device") && !is_of_program)
-    throw MessageError("device: stands without line or instruction; expected one of them");
+    throw MessageError("device: needs line or instruction; expected one of them");
   return setup;
 }
 

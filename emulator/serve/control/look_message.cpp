@@ -56,7 +56,7 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
 /// Returns the number of the first entry of a list: the one after "since", or the first of the last ones.
 std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t most) {
   if (message.contains("since") && message.contains("last")) {
-    throw MessageError("since: is given together with last; expected one of them");
+    throw MessageError("since: cannot be combined with last; expected one of them");
   }
   if (message.contains("since")) return require_count(message, "since");
   const std::uint64_t last = message.contains("last") ? require_count(message, "last") : most;
@@ -158,7 +158,7 @@ namespace {
 std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json& message) {
   if (message.contains("look")) {
     if (message.contains("names"))
-      throw MessageError("look: is given together with names; expected one of them");
+      throw MessageError("look: cannot be combined with names; expected one of them");
     const std::uint64_t list = require_count(message, "look");
     if (!known.is_kept(list)) throw MessageError("look: these names are no longer stored; expected names");
     return list;

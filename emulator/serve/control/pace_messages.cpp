@@ -98,7 +98,7 @@ Json snapshot_by_name(Daemon& daemon, const Json& message) {
   auto& kept = daemon.observers().snapshots;
   if (kept.size() >= Observers::kMaxSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
-                       " snapshots already; expected one to be dropped first");
+                       " snapshots already; expected one of them to be dropped first");
   }
   daemon.catch_up();
   kept.insert_or_assign(name, Observers::Kept{daemon.world().now(), world::save(daemon.world())});

@@ -40,7 +40,7 @@ SimTime RecordingStops::now() const { return daemon_.world().now(); }
 Json RecordingStops::go_on(const Json& message) {
   require_keys(message, {"do", "within", "back"});
   if (is_way_back(message)) {
-    if (message.contains("within")) throw MessageError("within: is given together with back; expected one");
+    if (message.contains("within")) throw MessageError("within: cannot be combined with back; expected one");
     go_back([this](SimTime until) { return play_on(until); }, [](const world::DebugStop&) { return true; });
     return time_and_stop(daemon_);
   }
@@ -67,7 +67,7 @@ Json RecordingStops::step(const Json& message) {
     return time_and_stop(daemon_);
   }
   if (wanted.kind == world::StepKind::stand)
-    throw MessageError("what: stand goes on only; expected instruction, line, over or out with back");
+    throw MessageError("what: stand cannot go back; expected instruction, line, over or out with back");
   // A step back over a routine goes to the last earlier line with at most as many callers; a step back out of
   // it, to the last one with fewer.
   const world::DebugStop* const stop = debugger().stop();

@@ -92,7 +92,7 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   const int error = errno;
   umask(before);
   if (!bound || listen(listener.get(), 64) < 0) {
-    throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
+    throw ControlError(path_ + ": cannot be created: " + std::strerror(bound ? errno : error) +
                        "; expected a free path in a writable folder");
   }
   struct stat status {};
@@ -170,7 +170,7 @@ void ControlServer::send(const std::shared_ptr<Client>& client, const std::strin
   if (!client->socket) return;
   // A device may hold more than a reply can carry.
   const bool is_too_long = line.size() >= kMaxUnread;
-  client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
+  client->output += is_too_long ? R"({"ok":false,"error":"the reply is longer than 8388608 bytes"})" : line;
   client->output += "\n";
   if (!write_out(*client) || client->output.size() - client->sent > kMaxUnread) drop(client->socket.get());
 }

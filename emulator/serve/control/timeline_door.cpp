@@ -104,7 +104,8 @@ class Travel {
   Json seek(const Json& message) {
     require_keys(message, {"do", "to_ns", "by", "steps"});
     if (altered_at())
-      throw MessageError("the recording is altered (what-if); expected `seek` after the way back");
+      throw MessageError(
+          "the recording is altered (what-if); expected `seek` after the return to the recording");
     if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `seek` after that");
     if (message.contains("to_ns")) {
       go_to(SimTime{static_cast<std::int64_t>(require_count(message, "to_ns", INT64_MAX))});

@@ -18,7 +18,7 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr const char* kNoUnderstudy =
-    "ctl watch: this is not the socket of an understudy; expected the control socket of `understudy serve`";
+    "ctl watch: this is not an Understudy socket; expected the control socket of `understudy serve`";
 
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
   std::array<char, 256> text{};

@@ -193,7 +193,7 @@ void Daemon::judge_stall(WallTime now) {
   // rarely.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
   if (left_out > WallTime{0} && worth_a_line) {
-    log_("stalled: " + format_duration(left_out) + " of simulated time were skipped (stall number " +
+    log_("stalled: " + format_duration(left_out) + " of simulated time was skipped (stall number " +
          std::to_string(pacer_.slips()) + ")");
   }
 }

@@ -52,7 +52,7 @@ void make_folder(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   if (std::filesystem::is_directory(folder)) return;
   if (std::filesystem::exists(folder)) throw NvError("--nv: " + folder + " is not a folder; expected one");
-  throw std::system_error(error, "--nv: " + folder + " cannot be made");
+  throw std::system_error(error, "--nv: " + folder + " cannot be created");
 }
 
 /// Reads a memory and reports all errors in it.

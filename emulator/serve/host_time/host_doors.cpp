@@ -82,7 +82,7 @@ HostDoors::HostDoors(Daemon& daemon, const std::string& place, HostPage& page) :
       if (other.port != door->address().port || address_of(other) != address) continue;
       throw pty::PortError("--host-time: " + world::to_string(door->address()) + " and " +
                            world::to_string(other) +
-                           " are one address for a host on this machine; expected another port");
+                           " are the same address for a host on this machine; expected another port");
     }
     std::string path = place + host_time::kDoorEnding + std::to_string(number);
     Descriptor listening = listen_locally(path, SOCK_STREAM);

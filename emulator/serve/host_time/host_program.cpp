@@ -65,8 +65,8 @@ std::string why_not(const std::string& file, int depth) {
       head[EI_CLASS] == own[EI_CLASS] &&
       head.compare(offsetof(Elf64_Ehdr, e_machine), 2, own, offsetof(Elf64_Ehdr, e_machine), 2) == 0;
   if (!is_ours) {
-    return name + " is for another kind of processor" + (head[EI_CLASS] == ELFCLASS32 ? " (32 bits)" : "") +
-           " and cannot load our library; expected a program like this one";
+    return name + " is for a different processor" + (head[EI_CLASS] == ELFCLASS32 ? " (32 bits)" : "") +
+           " and cannot load our library; expected a program for this one";
   }
   if (!is_dynamic(head))
     return name +

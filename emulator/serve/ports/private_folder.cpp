@@ -77,7 +77,7 @@ const std::string& PrivateFolder::path() {
   if (path_.empty()) {
     std::string folder = std::string(kPrivateFolders) + "XXXXXX";
     if (mkdtemp(folder.data()) == nullptr) {
-      throw pty::PortError(folder + ": cannot be made; expected a writable /tmp");
+      throw pty::PortError(folder + ": cannot be created; expected a writable /tmp");
     }
     path_ = folder;
     lock_ = locked(folder);

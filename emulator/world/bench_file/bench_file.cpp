@@ -103,7 +103,7 @@ class BenchReader {
     require_name(field, name);
     if (name == kTime) field.fail("is the name of the time in conditions; expected another name");
     if (names_.find_device(name) >= 0)
-      field.fail("two devices are called " + understudy::quoted(name) + "; expected a new name");
+      field.fail("two devices are called " + understudy::quoted(name) + "; expected a different name");
   }
 
   // --- lines ---------------------------------------------------------------------------------

@@ -97,8 +97,8 @@ inline constexpr std::array kHomeKeys{
     Key{"width", "The number of positions for which it is on.", &kWidthSchema, true}, kHysteresisKey,
     kContactKey, Key{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr std::array kLimitKeys{
-    Key{"lower", "The lower switch is on there and below.", &kPositionSchema},
-    Key{"upper", "The upper switch is on there and above.", &kPositionSchema},
+    Key{"lower", "The lower switch is on at this position and below.", &kPositionSchema},
+    Key{"upper", "The upper switch is on at this position and above.", &kPositionSchema},
     kHysteresisKey,
     kContactKey,
     Key{"lower_input", "The input that the lower one is wired to; by default the controller's own.", &kText},

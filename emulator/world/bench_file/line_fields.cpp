@@ -36,7 +36,7 @@ pty::Timing read_timing(const YamlFields& timing) {
 
 std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
   if (const auto ppm = parse_baud_tolerance(tolerance.text())) return *ppm;
-  tolerance.fail(understudy::quoted(tolerance.text()) + " is not a share of the speed; " +
+  tolerance.fail(understudy::quoted(tolerance.text()) + " is not possible; " +
                  std::string(kBaudToleranceExpected));
 }
 

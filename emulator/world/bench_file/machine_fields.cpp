@@ -113,7 +113,7 @@ void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, 
   if (span.first == span.last) travel.fail("has no length; expected two positions that differ");
   const std::int64_t start = setup.position_pulses;
   if (knows_start && (span.first > start || span.last < start)) {
-    travel.fail("does not hold position " + std::to_string(start) +
+    travel.fail("does not include position " + std::to_string(start) +
                 ", where the machine starts; expected it inside");
   }
   setup.travel = span;

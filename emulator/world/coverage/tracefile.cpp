@@ -53,7 +53,7 @@ class TracefileReader {
 
   CoverageReport finish() {
     if (lines_ != nullptr) {
-      fail("the file breaks off; expected end_of_record");
+      fail("the file ends too early; expected end_of_record");
     }
     return std::move(report_);
   }

@@ -64,7 +64,7 @@ Debugger::~Debugger() {
 const Breakpoint& Debugger::add(const BreakpointSetup& setup) {
   if (points_.size() == kMaxBreakpoints)
     throw BreakpointError("there are " + std::to_string(kMaxBreakpoints) +
-                          " breakpoints; expected one to be deleted");
+                          " breakpoints already; expected one of them to be deleted first");
   auto point = std::make_unique<Point>();
   point->told.setup = setup;
   if (!setup.condition.empty()) {
@@ -129,7 +129,8 @@ void Debugger::parse_log(Point& point) const {
     if (open != 0) point.log.emplace_back(std::string(rest.substr(0, open)));
     if (open == std::string_view::npos) return;
     const std::size_t close = rest.find('}', open);
-    if (close == std::string_view::npos) throw BreakpointError("log: '{' has no end; expected '}' behind it");
+    if (close == std::string_view::npos)
+      throw BreakpointError("log: '{' is not closed; expected '}' after it");
     Expression piece = parse_expression(rest.substr(open + 1, close - open - 1), probes_);
     require_values(piece);
     point.log.emplace_back(std::move(piece));
@@ -165,7 +166,7 @@ void Debugger::require_place(const Point& point) const {
   if (lines.last_line() == 0)
     throw BreakpointError(world_.device(setup.device).name() + " has no program; expected one to be loaded");
   if (setup.kind == BreakpointSetup::Kind::line) {
-    throw BreakpointError("line: no instruction is on line " + std::to_string(setup.line) +
+    throw BreakpointError("line: there is no instruction on line " + std::to_string(setup.line) +
                           " or after it; expected at most " + std::to_string(lines.last_line()));
   }
   const ProgramPart* const part = lines.find_part(setup.program);

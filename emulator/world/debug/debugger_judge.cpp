@@ -240,7 +240,7 @@ void Debugger::judge_step() {
   }
   if (step.kind == StepKind::stand) {
     if (!stands(step.device)) return;
-    stop.text += "the axes of " + device.name() + " stand";
+    stop.text += "the axes of " + device.name() + " are at rest";
     return stop_with(std::move(stop));
   }
   const DeviceWatch& watch = *watches_.at(step.device);

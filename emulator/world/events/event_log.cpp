@@ -119,7 +119,7 @@ void EventLog::on_fault(std::size_t number, bool in_force) {
         .by = {},
         .device = device,
         .value = std::to_string(number),
-        .text = fault_text_of(number) + (in_force ? ": begins" : ": is over")});
+        .text = fault_text_of(number) + (in_force ? ": begins" : ": ends")});
 }
 
 void EventLog::on_write(std::size_t device, const PreparedWrite& write) {

@@ -70,21 +70,21 @@ constexpr std::array<FaultKindRow, 26> kKinds{{
     {"echo", Kind::echo, Where::line, {}, "begins"},
     {"lumps", Kind::lumps, Where::line, kLumps, "begins"},
     {"unplug", Kind::unplug, Where::line, {}, "begins"},
-    {"slow", Kind::slow, Where::device, kSlow, "carried out later"},
+    {"slow", Kind::slow, Where::device, kSlow, "executed late"},
     {"busy", Kind::busy, Where::device_or_line, {}, "refused"},
     {"exception", Kind::exception, Where::device_or_line, kException, "refused"},
-    {"early_reply", Kind::early_reply, Where::device_or_line, {}, "taken for over at once"},
-    {"drop", Kind::drop, Where::device_or_line, kSided, "not said", "not heard"},
-    {"delay", Kind::delay, Where::device_or_line, kDelay, "said later", "heard later"},
+    {"early_reply", Kind::early_reply, Where::device_or_line, {}, "treated as complete at once"},
+    {"drop", Kind::drop, Where::device_or_line, kSided, "not sent", "not received"},
+    {"delay", Kind::delay, Where::device_or_line, kDelay, "sent late", "received late"},
     {"corrupt_checksum", Kind::corrupt_checksum, Where::device_or_line, kSided, "last byte inverted"},
     {"truncate", Kind::truncate, Where::device_or_line, kTruncate, "cut"},
-    {"duplicate", Kind::duplicate, Where::device_or_line, kDuplicate, "said twice", "heard twice"},
-    {"noise", Kind::noise, Where::device_or_line, kNoise, "noise around it"},
-    {"collision", Kind::collision, Where::device_or_line, kCollision, "somebody else talked"},
-    {"split", Kind::split, Where::device_or_line, kSplit, "said in two pieces"},
+    {"duplicate", Kind::duplicate, Where::device_or_line, kDuplicate, "sent twice", "received twice"},
+    {"noise", Kind::noise, Where::device_or_line, kNoise, "surrounded by noise"},
+    {"collision", Kind::collision, Where::device_or_line, kCollision, "another sender collided"},
+    {"split", Kind::split, Where::device_or_line, kSplit, "sent in two pieces"},
     {"wrong_transaction", Kind::wrong_transaction, Where::device_or_line, {}, "wrong transaction over TCP"},
     {"wrong_unit", Kind::wrong_unit, Where::device_or_line, {}, "wrong unit over TCP"},
-    {"hang_up", Kind::hang_up, Where::device_or_line, kHangUp, "the connection ends"},
+    {"hang_up", Kind::hang_up, Where::device_or_line, kHangUp, "connection closed"},
 }};
 
 static_assert(
@@ -94,7 +94,7 @@ static_assert(
       }
       return is_last<kKinds.back().kind>();
     }(),
-    "rows stand in the order of Fault::Kind, one each");
+    "rows must be in the order of Fault::Kind, one for each");
 
 }  // namespace
 

@@ -77,7 +77,7 @@ std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t Statio
 }
 
 double Probes::peak_value(const Probe& probe) const {
-  if (peaks_ == nullptr) throw NameError(probe.name + " is kept in scenarios only");
+  if (peaks_ == nullptr) throw NameError(probe.name + " exists only in scenarios");
   const Peaks::Peak& peak = peaks_->peak(probe.device, probe.place);
   return probe.what == What::greatest_speed ? peak.greatest_pps : peak.greatest_pps2;
 }

@@ -110,7 +110,7 @@ std::int64_t number_at(const Json& object, const char* key, std::int64_t lowest,
   const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
   if (!value.is_number_integer() || huge || value.get<std::int64_t>() < lowest ||
       value.get<std::int64_t>() > highest) {
-    throw RecordingError(std::string(key) + ": is not a possible number; expected " + std::to_string(lowest) +
+    throw RecordingError(std::string(key) + ": is not a valid number; expected " + std::to_string(lowest) +
                          " to " + std::to_string(highest));
   }
   return value.get<std::int64_t>();

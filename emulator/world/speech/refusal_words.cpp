@@ -71,7 +71,7 @@ class Reason {
       if (wanted_.is_write() && place.row->access == Access::read) return name_of(place) + " is read-only";
       if (!wanted_.is_write() && place.row->access == Access::write) return name_of(place) + " is write-only";
       if (is_pair_whole && is_cut(place, i))
-        return name_of(place) + " has 32 bits, and its two words come together";
+        return name_of(place) + " has 32 bits, and its two words must be in one request";
     }
     return "";
   }
@@ -192,7 +192,7 @@ std::string why_refused(const Device& device, std::span<const std::uint8_t> requ
     const int most = limit_of(rules, code);
     const std::string asked =
         std::to_string(wanted.count) + (is_table_of_bits(wanted.table) ? " bits" : " registers");
-    if (wanted.count == 0) return "it asks for no register";
+    if (wanted.count == 0) return "it requests no register";
     if (most > 0 && wanted.count > most)
       return asked + " at once are too many; " + device.name() + " takes " + std::to_string(most);
   }

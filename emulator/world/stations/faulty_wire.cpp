@@ -85,7 +85,7 @@ void FaultyWire::keep(Late message) {
 
 void FaultyWire::check(const std::vector<Late>& late) {
   const auto require = [](bool holds) {
-    if (!holds) throw std::invalid_argument("a station cannot hold such late messages");
+    if (!holds) throw std::invalid_argument("a station cannot hold messages back this long");
   };
   require(late.size() <= kMaxLate);
   pty::SimTime before{0};

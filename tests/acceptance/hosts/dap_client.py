@@ -490,7 +490,7 @@ def case_bad():
         assert adapter.refused("initialize", pathFormat="uri")
         adapter.ask("initialize", adapterID="understudy")
         assert adapter.refused("initialize")
-        assert adapter.refused("threads") == "threads: nothing is launched; expected `launch` or `attach` first"
+        assert adapter.refused("threads") == "threads: no bench is launched; expected `launch` or `attach` first"
         assert adapter.refused("launch") == "launch: expected one of bench, model, recording and scenario"
         assert "none.yaml" in adapter.refused("launch", bench="/none.yaml")
         assert "simple3" in adapter.refused("launch", model="simple3")

@@ -84,7 +84,7 @@ TEST_F(OutputFileTest, OfAnotherKindStays) {
     OutputFile file(path, ContentKind::results);
     ADD_FAILURE() << "taken";
   } catch (const OutputError& error) {
-    EXPECT_STREQ(error.what(), "it is a recording; expected a file of results to replace, or a free path");
+    EXPECT_STREQ(error.what(), "it is a recording; expected a results file to replace, or a free path");
   }
   EXPECT_EQ(pty::contents_of(path), R"({"understudy":1,"kind":"recording"})");
   OutputFile(path, ContentKind::recording).begin("new");

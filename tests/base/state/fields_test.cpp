@@ -173,7 +173,7 @@ TEST(Fields, WhatNoValueCanBeIsRefused) {
   std::vector<std::byte> no_colour = bytes_of(a_panel());
   const std::size_t at_colour = 1 + 4 + 1 + 4;
   no_colour[at_colour] = std::byte{2};
-  EXPECT_EQ(refusal_of(no_colour), "an enumeration has no such value");
+  EXPECT_EQ(refusal_of(no_colour), "an enumeration has a value that does not exist");
   Panel dark = a_panel();
   dark.lamps[1].brightness = -1;
   EXPECT_EQ(refusal_of(bytes_of(dark)), "a lamp must not be darker than dark");

@@ -147,12 +147,12 @@ TEST(StateBytes, AreLittleEndianAndWithoutPadding) {
 
 TEST(StateBytes, WhatATypeCannotBeIsRefused) {
   EXPECT_EQ(refusal<bool>(bytes({2})), "a boolean must be 0 or 1");
-  EXPECT_EQ(refusal<Colour>(bytes({3})), "an enumeration has no such value");
+  EXPECT_EQ(refusal<Colour>(bytes({3})), "an enumeration has a value that does not exist");
   EXPECT_EQ(refusal<Colour>(bytes({2})), "");
   EXPECT_EQ(refusal<Point>(bytes({100, 0, 0, 0})), "");
-  EXPECT_EQ(refusal<Point>(bytes({101, 0, 0, 0})), "a number is beyond its range");
+  EXPECT_EQ(refusal<Point>(bytes({101, 0, 0, 0})), "a number is out of range");
   EXPECT_EQ(refusal<Point>(bytes({0x9C, 0xFF, 0, 0})), "");  // -100
-  EXPECT_EQ(refusal<Point>(bytes({0x9B, 0xFF, 0, 0})), "a number is beyond its range");
+  EXPECT_EQ(refusal<Point>(bytes({0x9B, 0xFF, 0, 0})), "a number is out of range");
   EXPECT_EQ(refusal<std::uint32_t>(bytes({1, 2, 3, 4, 5})), "bytes are left over");
   // Four thousand million elements: refused before memory is allocated for them.
   EXPECT_EQ(refusal<std::vector<Point>>(bytes({0xFF, 0xFF, 0xFF, 0xFF, 0})), "the bytes end too early");

@@ -29,7 +29,7 @@ TEST(ReadCapture, JoinsRequestsAndReplies) {
       "0.100000000 in  pc (mill PC) 01 03\n"
       "0.105333333 out pc (mill PC) 01 83  # fault 2 corrupt_checksum: last byte inverted\n"
       "0.106000000 out pc (mill PC) 02\n"
-      "0.200000000 in  pc (mill PC)  # fault 1 drop: not heard\n"
+      "0.200000000 in  pc (mill PC)  # fault 1 drop: not received\n"
       "1.5 in  pc (mill PC) FF\n");
   EXPECT_EQ(capture.line, "pc (mill PC)");
   EXPECT_EQ(capture.unasked, 1U);
@@ -45,9 +45,9 @@ TEST(ReadCapture, JoinsRequestsAndReplies) {
 TEST(ReadCapture, SaysWhatIsWrongInOneLine) {
   const std::string good = "0.1 in a 01\n";
   EXPECT_EQ(diagnostic("0.1 out a 01\n"),
-            "c.txt: has no request of a host; expected a capture of both directions");
+            "c.txt: has no request from a host; expected a capture of both directions");
   EXPECT_EQ(diagnostic("0.2 in a 01\n" + good),
-            "c.txt:2: the time of this request is before the last one; expected times that rise");
+            "c.txt:2: the time of this request is before the last one; expected increasing times");
   EXPECT_EQ(diagnostic(good + "0.2 in b 01\n"),
             "c.txt: has several lines, 'a' and 'b'; expected --line with one of them");
   EXPECT_EQ(diagnostic(good, "b"), "c.txt: has no line called 'b'; expected one such as 'a'");
@@ -64,7 +64,7 @@ TEST(ReadCapture, RefusesABrokenPcapng) {
   EXPECT_NE(diagnostic(section + std::string("\6\0\0\0\4\0\0\0", 8)).find("has a broken block"),
             std::string::npos);
   const std::string ethernet("\1\0\0\0\x14\0\0\0\1\0\0\0\0\0\0\0\x14\0\0\0", 20);
-  EXPECT_NE(diagnostic(section + ethernet).find("is of another kind of link"), std::string::npos);
+  EXPECT_NE(diagnostic(section + ethernet).find("is from a link other than"), std::string::npos);
 }
 
 }  // namespace capture_test

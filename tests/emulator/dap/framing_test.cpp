@@ -74,9 +74,9 @@ TEST(Unframer, RefusesWrongLengths) {
               "Content-Length: '" + length + "' is not a length; expected 0 to 4194304");
   }
   EXPECT_EQ(unframed("Content-Type: 5\r\n\r\n12345").error,
-            "the head of a message has no Content-Length; expected \"Content-Length: N\"");
+            "the header of a message has no Content-Length; expected \"Content-Length: N\"");
   EXPECT_EQ(unframed("\r\n\r\n").error,
-            "the head of a message has no Content-Length; expected \"Content-Length: N\"");
+            "the header of a message has no Content-Length; expected \"Content-Length: N\"");
 }
 
 TEST(Unframer, RefusesAHeadThatIsTooLong) {
@@ -84,7 +84,7 @@ TEST(Unframer, RefusesAHeadThatIsTooLong) {
   for (const bool ends : {false, true}) {
     const std::string bytes = head + std::string(2000, 'x') + (ends ? "\r\n\r\n{}" : "");
     EXPECT_EQ(unframed(bytes).error,
-              "the head of a message has no end; expected at most 1024 bytes and an empty line");
+              "the header of a message has no end; expected at most 1024 bytes and an empty line");
   }
   const std::string longest = head + std::string(kLongestHead - head.size(), 'x');
   EXPECT_EQ(unframed(longest + "\r\n\r\n{}").messages, std::vector<std::string>{"{}"});

@@ -117,8 +117,8 @@ void bring_to(Client& client, char phase) {
 TEST(DapSession, AnswersEachRequestInItsPhases) {
   Running running(Speed{});
   const std::array<std::pair<char, const char*>, 6> phases{
-      {{'F', "nothing is initialized; expected `initialize` first"},
-       {'R', "nothing is launched; expected `launch` or `attach` first"},
+      {{'F', "the session is not initialized; expected `initialize` first"},
+       {'R', "no bench is launched; expected `launch` or `attach` first"},
        {'C', "the session is being configured; expected `configurationDone` first"},
        {'S', "the bench has stopped; expected it to run"},
        {'U', "the bench runs; expected it to be stopped, by `pause`"},

@@ -43,7 +43,7 @@ TEST(HuntPlanErrors, EachIsOneLineWithItsPlace) {
        "s.yaml:20:47: hunt.may[0].from: 'the press' is not the text of a `say` step; expected one of the "
        "operator presses, the contact rests"},
       {" { may: [ advance: 1ms ], from: the contact rests, to: the operator presses }\n",
-       "s.yaml:20:61: hunt.to: leaves no step; expected `from` before `to`"},
+       "s.yaml:20:61: hunt.to: leaves no step between `from` and `to`; expected `from` before `to`"},
       {" { may: [ inject: { drop: feeder, name: d } ] }\n",
        "s.yaml:20:46: hunt.may[0].inject.name: cannot be given here, since the fault may come several times"},
       {" { may: [ advance: 1ms ], never: feeder.Cuonter1_Value == 4 }\n",

@@ -105,7 +105,7 @@ TEST(ForeignList, HasColumnsByTheFlag) {
   parse_columns("address=B,name=C", letters);
   EXPECT_EQ(lines_in(list, letters), "10 A u16\n11 B u16\n");
   EXPECT_EQ(remarks_on(list, letters),
-            "l.csv:1:1: columns: passed over: No, How; --columns COLUMN=HEADING gives them a meaning\n");
+            "l.csv:1:1: columns: ignored: No, How; --columns COLUMN=HEADING gives them a meaning\n");
   ListReading wrong;
   parse_columns("address=Were,name=What", wrong);
   EXPECT_EQ(lines_in(list, wrong),
@@ -157,7 +157,7 @@ TEST(ForeignList, HasNamesAsManualsPrintThem) {
             "4 Reserved_4 u16\n5 Speed u16\n6 Speed_6 u16\n");
   EXPECT_EQ(remarks_on(list),
             "l.csv:2:3: name: 'P0.01' is called 'P0_01' here (and 2 more)\n"
-            "l.csv:8:3: name: 'Speed' is a name of line 7 already; it is called 'Speed_6' here\n");
+            "l.csv:8:3: name: 'Speed' is already a name in line 7; here it is called 'Speed_6'\n");
 }
 
 TEST(ForeignList, HasAddressesAsManualsPrintThem) {
@@ -192,15 +192,14 @@ TEST(ForeignList, SaysHowItsAddressesAreRead) {
   };
   EXPECT_EQ(remark("0"), "");
   EXPECT_EQ(remark("1"),
-            "l.csv:2:1: address: read as on the wire: 1 is the second register (--addresses from_one: the "
-            "first)\n");
-  EXPECT_EQ(
-      remark("40001"),
-      "l.csv:2:1: address: read as Modicon's numbers: '40001' is 0 on the wire (--addresses wire: as they "
-      "are)\n");
+            "l.csv:2:1: address: read as addresses on the wire: 1 is the second register (with --addresses "
+            "from_one, the first)\n");
+  EXPECT_EQ(remark("40001"),
+            "l.csv:2:1: address: read as Modicon numbers: '40001' is 0 on the wire (--addresses wire takes "
+            "them unchanged)\n");
   EXPECT_EQ(
       lines_in("address,name\n40069,A\n"),
-      "l.csv:2:1: address: the addresses can be Modicon's numbers or those on the wire: '40069' is holding "
+      "l.csv:2:1: address: the addresses can be Modicon numbers or addresses on the wire: '40069' is holding "
       "register 68, or register 40069; expected --addresses modicon, or --addresses wire");
   EXPECT_EQ(lines_in("address,name\n40069,A\n", {.addresses = AddressReading::wire}), "40069 A u16\n");
   EXPECT_EQ(lines_in("address,name\n40069,A\n", {.addresses = AddressReading::modicon}), "68 A u16\n");
@@ -247,7 +246,7 @@ TEST(ForeignList, HasValuesWithNames) {
   EXPECT_EQ(of("0~100"), "0 X u16 0..100\n");
   EXPECT_EQ(of("see chapter 4"), "0 X u16\n");
   EXPECT_EQ(remarks_on("address,name,values\n0,X,as set\n"),
-            "l.csv:2:5: values: 'as set' is neither a range nor an enumeration; it is passed over\n");
+            "l.csv:2:5: values: 'as set' is neither a range nor an enumeration; it is ignored\n");
   EXPECT_EQ(lines_in("address,name,type\n10,A,8bit\n10.b8,B,4bit\n"), "10 A u16 B:8+4\n");
 }
 

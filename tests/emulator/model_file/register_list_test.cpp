@@ -54,8 +54,8 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,width\n0,A,32\n1,B,16\n",
        "l.csv:3:1: address: '1' is taken by A in line 2; expected a free one in the table holding"},
       {"address,name\n0,coil\n",
-       "l.csv:2:3: name: 'coil' cannot be used as a name; expected one with a letter in it that is not a "
-       "table"},
+       "l.csv:2:3: name: 'coil' cannot be used as a name; expected one that has a letter and is not "
+       "the name of a table"},
       {"address,name,table\n0,A,holdings\n",
        "l.csv:2:5: table: 'holdings' is not a table; expected holding, input, coil or discrete"},
       {"address,name,access\n0,A,RX\n", "l.csv:2:5: access: 'RX' is unknown; expected R, W or R/W"},

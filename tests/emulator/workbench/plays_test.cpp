@@ -224,7 +224,7 @@ TEST(Plays, WhatCannotBeWrittenIsAnErrorOfTheFile) {
       {"write: { it.Position_X: 2 }",
        "it: 'Position_X' is in several tables; expected one of holding.Position_X, input.Position_X"},
       {"expect: { it.coil.0x10000: 1 }", "'0x10000' is not a register number; expected 0 to 0xFFFF"},
-      {"expect: { it.Output_1: 2 }", "it.Output_1 is never 2; expected something in 0 to 1"},
+      {"expect: { it.Output_1: 2 }", "it.Output_1 is never 2; expected a value in 0 to 1"},
   };
   for (const auto& [step, wanted] : cases) {
     EXPECT_NE(diagnostic_of(step).find(wanted), std::string::npos) << step << ": " << diagnostic_of(step);

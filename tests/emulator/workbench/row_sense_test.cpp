@@ -54,7 +54,7 @@ const Case kCases[] = {
     {word("input"), "is not a name of a register"},
     {word().also("B.C"), "has an alias that is not a name of a register"},
     {word("W").times(2, 1, 0), "has several registers, and no {} in its name"},
-    {word("W{}").each(kTwo, 1).times(3, 1, 0), "has another number of labels"},
+    {word("W{}").each(kTwo, 1).times(3, 1, 0), "has a different number of labels"},
     {word("W{}").each(kTwo, 1, -1), "begins with another axis, and is not for each of several"},
     {word().from_factory(0x10000), "has a factory value that it cannot hold"},
     {word().from_factory(-1), "has a factory value that it cannot hold"},

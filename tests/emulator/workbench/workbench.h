@@ -251,7 +251,7 @@ class Workbench final : public DeviceOf<Workbench>,
   std::function<void()> read_own_state(StateReader& reader) override {
     const auto restored = std::make_shared<WorkbenchState>();
     reader.read(*restored);
-    require_state(restored->image.size() == state.image.size(), "the image has another size");
+    require_state(restored->image.size() == state.image.size(), "the image has a different size");
     restored->kept.eeprom.check_restored(state.kept.eeprom);
     restored->kept.blocks.check_restored(state.kept.blocks);
     require_state(restored->fifo.size() <= kFifo, "the FIFO exceeds its capacity");

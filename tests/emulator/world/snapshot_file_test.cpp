@@ -19,7 +19,7 @@ std::string diagnostic(const std::string& text, std::uint64_t bench = 0) {
 }
 
 TEST(SnapshotFile, OfAnotherFormatIsRefused) {
-  const std::string another = "understudy: is in another format; expected 1";
+  const std::string another = "understudy: has a different format; expected 1";
   for (const char* const format : {"2", "0", "\"1\"", "1.0", "true", "null", "[1]"}) {
     EXPECT_EQ(diagnostic("{\"understudy\": " + std::string(format) + "}"), another) << format;
   }
@@ -39,7 +39,7 @@ TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
     changed.replace(changed.find(what), what.size(), other);
     return diagnostic(changed, 7);
   };
-  EXPECT_EQ(with("\"understudy\": 1", "\"understudy\": 2"), "understudy: is in another format; expected 1");
+  EXPECT_EQ(with("\"understudy\": 1", "\"understudy\": 2"), "understudy: has a different format; expected 1");
   EXPECT_EQ(with("snapshot", "nv-image"), "kind: is 'nv-image'; expected snapshot");
   EXPECT_EQ(with("\"simulated_time_ns\": 0", "\"simulated_time_ns\": 1"),
             "checksum: does not match the state; expected the file as it was written");

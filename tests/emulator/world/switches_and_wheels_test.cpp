@@ -169,7 +169,7 @@ TEST(Machines, BeginWhereTheyAreSaidToStand) {
       "  - assert: [ x.A.position == 100, x.A.encoder == -1600 ]\n"));
   EXPECT_EQ(
       diagnostic_of("position: 500, travel: [ -5, 5 ]"),
-      "bench.plant.x.A.travel: does not hold position 500, where the machine starts; expected it inside");
+      "bench.plant.x.A.travel: does not include position 500, where the machine starts; expected it inside");
 }
 
 TEST(HandWheels, AreTurnedByHandAlone) {

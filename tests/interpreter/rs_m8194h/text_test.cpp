@@ -128,7 +128,7 @@ TEST(RsM8194hText, ErrorsHaveAPlaceAndWhatIsExpected) {
   EXPECT_EQ(error_of("RSM_FIXED_MOVE INITIAL_X 1"),
             "1:16: parameter axis: 'INITIAL_X' does not fit; expected axes, X to XYZU");
   EXPECT_EQ(error_of("RSM_AXIS_ASSIGN X X 0"),
-            "1:19: parameter axis2: 'X' does not fit; expected X, Y, Z or U, and none of them twice");
+            "1:19: parameter axis2: 'X' does not fit; expected X, Y, Z or U, each at most once");
   EXPECT_EQ(error_of("RSM_FIXED_MOVE X VAR1"),
             "1:18: parameter data: 'VAR1' does not fit; expected -2000000000 to 2000000000");
   EXPECT_EQ(

@@ -86,11 +86,11 @@ TEST(Simple2ListingError, TellsWhatAnOperandMayBe) {
 
 TEST(Simple2ListingError, TellsHowManyOperandsThereAre) {
   expect_messages({
-      {"Loop JMP1", std::string("1:1: operands: Loop is given 1; expected 2: ") + kFlag + ", then 0 to 255"},
-      {"Out DOUT_1 ON 5", "1:15: operands: Out is given 3; expected 2: DOUT_0 to DOUT_6, then ON or OFF"},
-      {"END 0", "1:5: operands: END is given 1; expected none"},
-      {"Delay_mSec", "1:1: operands: Delay_mSec is given 0; expected 1: 0 to 65535"},
-      {"Delay_mSec 1 0", "1:14: operands: Delay_mSec is given 2; expected 1: 0 to 65535"},
+      {"Loop JMP1", std::string("1:1: operands: Loop has 1; expected 2: ") + kFlag + ", then 0 to 255"},
+      {"Out DOUT_1 ON 5", "1:15: operands: Out has 3; expected 2: DOUT_0 to DOUT_6, then ON or OFF"},
+      {"END 0", "1:5: operands: END has 1; expected none"},
+      {"Delay_mSec", "1:1: operands: Delay_mSec has 0; expected 1: 0 to 65535"},
+      {"Delay_mSec 1 0", "1:14: operands: Delay_mSec has 2; expected 1: 0 to 65535"},
   });
 }
 
@@ -113,8 +113,8 @@ TEST(Simple2ListingError, FindsWhatIsWrongWithALabel) {
        "1:1: label: '5:' is not a label; expected a name of letters, digits and '_' before ':', or @0 to "
        "@255"},
       {"NOP\nlast:", "2:1: label: 'last:' does not mark a line; expected an instruction"},
-      {"JMP4: @5 NOP", "1:7: label: a line has one flag, and this is its second; expected JMP4 alone"},
-      {"@5 .line 1 2 3 4", "1:16: label: a line has one flag, and this is its second; expected JMP5 alone"},
+      {"JMP4: @5 NOP", "1:7: label: the line has a flag already; expected JMP4 alone"},
+      {"@5 .line 1 2 3 4", "1:16: label: the line has a flag already; expected JMP5 alone"},
       {"a: @200 NOP", "1:1: label: 'a' is on a line without a flag; expected @1 to @64, or none"},
       {"JMP5: NOP\n@5 END",
        "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
@@ -129,7 +129,8 @@ TEST(Simple2ListingError, FindsWhatIsWrongWithAPlace) {
   expect_messages({
       {".at 256", "1:5: .at: 256 is out of range; expected a line from 0 to 255"},
       {".at", "1:1: .at: takes one number; expected a line from 0 to 255"},
-      {"NOP\n.at 0\nEND", "3:1: line: line 0 of the program comes from line 1 already; expected a free line"},
+      {"NOP\n.at 0\nEND",
+       "3:1: line: line 0 of the program is already defined in line 1; expected a free line"},
       {".line 1 2 3", "1:1: .line: takes four numbers; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 x 4", "1:11: .line: 'x' is not a number; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 3 256", "1:13: .line: 256 is out of range; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
@@ -167,7 +168,7 @@ TEST(Simple2ListingError, ReportsAllOfThemInTheOrderOfTheText) {
                 "3:5: operand 1: 'DOUT_9' does not exist; expected DOUT_0 to DOUT_6",
                 "3:12: operand 2: 'maybe' is not a level; expected ON or OFF",
                 "5:1: label: 'a' appears twice; expected a different name from the one in line 4",
-                "5:8: operands: END is given 1; expected none",
+                "5:8: operands: END has 1; expected none",
             }));
 }
 

@@ -269,9 +269,10 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
   static void check(const Value& unit) {
     require_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)
-      require_state(since >= -kFar && since <= kFar, "a time is too far");
+      require_state(since >= -kFar && since <= kFar, "a time is too far ahead");
     require_state(unit.began_pulses >= -kFar && unit.began_pulses <= kFar, "a drive began too far away");
-    require_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar, "too many pulses wait");
+    require_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar,
+                  "too many pulses are waiting");
     require_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
     require_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
                       unit.encoder_zero <= kFar,

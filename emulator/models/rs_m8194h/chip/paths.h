@@ -93,8 +93,9 @@ struct StateOf<emulator::models::rs_m8194h::Paths> {
                 field<&Value::assigned>(), field<&Value::vector>(),       field<&Value::streams>(),
                 field<&Value::end>(),      field<&Value::constant_axis>()};
   static void check(const Value& paths) {
-    require_state(paths.constant_axis >= -1 && paths.constant_axis < 4, "a path has no such axis");
-    require_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "there is no such stream");
+    require_state(paths.constant_axis >= -1 && paths.constant_axis < 4,
+                  "a path has an axis that does not exist");
+    require_state(paths.broken >> emulator::models::rs_m8194h::kStreams == 0, "a stream does not exist");
   }
 };
 

@@ -7,10 +7,10 @@ namespace understudy::emulator::models::rs_m8194h {
 
 inline constexpr ChoiceRow kAxisChoices[] = {
     // --- axes ---
-    {"power_on_values", "7.1", "What are speeds and slopes that were never set?",
+    {"power_on_values", "7.1", "What values do speeds and slopes have that were never set?",
      "the_least_there_is|1000_pps|0_and_no_drive", kProposal, "Each is one count of the chip."},
     {"reclamp", "3.4", "When are the ranges of speeds applied?", "when_a_drive_starts|on_receipt", kProposal,
-     "Values are stored as sent, so a later MAX_V counts."},
+     "Values are stored as sent, so a later MAX_V applies to them."},
     {"speeds_at_new_max_v", "3.4", "What does SET_MAX_V do to speeds that are set?", "nothing|scales_them",
      kProposal, "The manual says that it affects the other speed parameters."},
     {"least_jerk", "7.1.6", "What are the minimum K and L, as a fraction of MAX_V?", "0.0119211|0.119211",

@@ -9,9 +9,9 @@ inline constexpr ChoiceRow kEventChoices[] = {
     // --- events ---
     {"factor_edges", "7.3.1", "What happens if a comparison is already true when it is armed?",
      "waits_for_the_next_change|fires_at_once", kFollows, "The examples write the factor before the value."},
-    {"constant_drive_c_sta", "4.15", "What are C-STA and C-END of a drive without ramps?",
+    {"constant_drive_c_sta", "4.15", "Where are C-STA and C-END in a drive without ramps?",
      "its_first_and_last_pulse|none", kFollows, "The whole drive is at constant speed."},
-    {"c_sta_in_interpolation", "4.15", "What are C-STA and C-END on a path?", "none|for_axis1", kProposal,
+    {"c_sta_in_interpolation", "4.15", "Where are C-STA and C-END on a path?", "none|for_axis1", kProposal,
      "The speed of one axis is not constant on a path."},
     {"pulse_factor", "4.15", "How often does PULSE fire?", "once_a_tick|each_pulse", kProposal,
      "Each source has one mark, so more events are lost unless isr_requests counts them."},

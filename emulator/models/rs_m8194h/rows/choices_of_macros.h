@@ -35,7 +35,7 @@ inline constexpr ChoiceRow kMacroChoices[] = {
      "stores_the_same_again|execution_error", kProposal, "SET_RVAR must follow the GET directly."},
     {"timer_negative", "9.8", "What does a negative time from a variable mean?", "is_0|execution_error",
      kProposal, "Constants begin at 0."},
-    {"call_too_deep", "9.1.3", "What happens after a call at the eighth level, which is not carried out?",
+    {"call_too_deep", "9.1.3", "What happens after a call at the eighth level, which is not executed?",
      "next_line|ends_the_macro", kProposal, "Calls can nest to the seventh level at most."},
     {"frnet_wait_level", "5.3", "What does FRNET_WAIT do if the input already has the level?",
      "passes|waits_for_the_change", kProposal, "It waits for the input to trigger."},

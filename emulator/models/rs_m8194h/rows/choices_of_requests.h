@@ -12,7 +12,7 @@ inline constexpr ChoiceRow kRequestChoices[] = {
     {"silent_time", "14.1", "How much silence ends a frame?", "3ms|10ms", kFollows,
      "The settings screen shows it as Silent Time. User Silent Time is 0 there."},
     {"response_delay", "14.1", "When does a reply begin?", "after_silent_time|5ms_later", kProposal,
-     "The manual gives no time of its own. A bench gets other delays from a line fault."},
+     "The manual gives no time. A bench can set another delay with a line fault."},
     {"line_speeds", "14.1", "Which speeds does the line have?", "1200_to_115200|115200_alone", kProposal,
      "The manual prints only 115200. The bench selects one of the usual speeds."},
     {"init_switch", "14.1", "What does the box do if the switch is at Init?", "deaf|runs_all_the_same",

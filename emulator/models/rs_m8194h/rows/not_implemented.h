@@ -20,20 +20,19 @@ struct NotImplementedRow {
 };
 inline constexpr std::string_view kShortPulses = "PulseWidth below 1 ms";
 inline constexpr std::string_view kWhyNoShortPulses =
-    "the levels of OUT_X and OUT_Y are those of ticks; such a pulse is counted, and has no length";
+    "OUT_X and OUT_Y change only at ticks, so such a pulse is counted but has no length";
 inline constexpr NotImplementedRow kNotImplementedRows[] = {
     {interpreter::rs_m8194h::Verb::set_filter, 2, 3, "a filter below 1.024 ms",
-     "inputs change at ticks, and edges of a machine lie at pulses; it does not delay, or a tick by the "
-     "choice "
-     "`filter_delay`"},
+     "inputs change at ticks, and a machine's edges are at pulses; it causes no delay or, with the choice "
+     "`filter_delay`, a delay of one tick"},
     {interpreter::rs_m8194h::Verb::set_out, 2, 4, kShortPulses, kWhyNoShortPulses},
     {interpreter::rs_m8194h::Verb::line_scan, 3, 4, kShortPulses, kWhyNoShortPulses},
 };
 /// The limits of the path kernel (motion/path.h).
 inline constexpr std::string_view kLongHelix =
-    "a helix of more than 159,154 turns, or that rises by more than 1,000,000,000,000 pulses";
+    "a helix of more than 159,154 turns, or with a rise of more than 1,000,000,000,000 pulses";
 inline constexpr std::string_view kWhyNoLongHelix =
-    "arcs end at 1,000,000 rad; it is void, with the module's error (RINT bit 7)";
+    "arcs are limited to 1,000,000 rad; such a helix is void, with the module's error (RINT bit 7)";
 
 constexpr bool is_meant(const NotImplementedRow& row, const interpreter::rs_m8194h::Command& command) {
   // A filter that is set for no input delays none.

@@ -130,7 +130,7 @@ void StateOf<Module>::check(const Module& module) {
   if (moves || module.activity == Activity::home) {
     const Job::Kind kind = moves ? Job::Kind::move : Job::Kind::home;
     require_state(!module.fifo.empty() && module.fifo[0].kind == kind,
-                  "a module runs what is not at the head of its FIFO");
+                  "a module runs a command that is not at the head of its FIFO");
   }
 }
 
@@ -156,7 +156,7 @@ void StateOf<ChainState>::check(const ChainState& chain) {
       const auto& fifo = modules[static_cast<std::size_t>(member)].fifo;
       require_state(group.paths <= fifo.size(), "a group has more paths than commands");
       for (std::size_t i = 0; i < group.paths; ++i) {
-        require_state(fifo[i].module_of == group.motion.axis_of, "a group runs another one's command");
+        require_state(fifo[i].module_of == group.motion.axis_of, "a group runs another group's command");
       }
     }
     require_state(group.paths <= group.motion.run.queued(), "a group has more commands than paths");

@@ -28,7 +28,7 @@ inline constexpr ChoiceRow kProgramChoices[] = {
      "The manual is silent. The FX clears them."},
     {"run_edges", "軟體架構", "Do edge-triggered outputs fire at RUN if their condition is ON?",
      "once|not_at_all", kProposal, "The FX fires them."},
-    {"run_resets_steps", "END 指令", "What happens to D8000 and D8x00 from STOP to RUN?",
+    {"run_resets_steps", "END 指令", "What happens to D8000 and D8x00 at the change from STOP to RUN?",
      "cleared_where_the_program_does_not_run|stay", kProposal,
      "The manual says \"cleared when the PLC initialises\"."},
     {"empty_program", "END 指令", "What does the start of an area without a program do?",

@@ -122,7 +122,7 @@ inline constexpr ChoiceRow kRegisterChoices[] = {
      kProposal, "C10 prints 10.000 mm/s. The table of D9 prints 5.000 in an impossible unit."},
     {"line_counts", "D9 參數暫存器的功用(一般用)", "What do D9036 to D9042 (\"lines of a program\") count?",
      "room_of_each_area|steps_of_the_programs", kProposal,
-     "D9045 beside them is \"lines that each path program takes\"."},
+     "D9045 next to them is \"lines that each path program takes\"."},
     {"motor_direction", "D9x 參數暫存器的功用(XYZU 軸用)", "Which half of D9x00 counts?",
      "low_half|whole_value", kProposal, "The command examples write X0 into its high half, in valid frames."},
     {"x30_unit", "X30.", "What is the unit of X30 \"1\"?",

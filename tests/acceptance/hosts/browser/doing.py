@@ -196,7 +196,7 @@ def bus(visit, stage):
         visit.press(f'drop the next {side} like this')
         visit.until(f'a drop of a {side} waits', lambda: len(browse.control(visit.arguments, 'list')['faults']) == 1)
         stage.host_tries(0x1002, 201)
-        words = 'not heard' if side == 'request' else 'not said'
+        words = 'not received' if side == 'request' else 'not sent'
         visit.until('the next one is dropped, and why is told', lambda: any(f'drop: {words}' in text for text in visit.texts('.frames .words')))
         if stage.value('feeder.Aaxis_Speed') != comes:
             browse.fail(f'a {side} was to be dropped: {stage.value("feeder.Aaxis_Speed")}')

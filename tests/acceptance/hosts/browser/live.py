@@ -220,9 +220,9 @@ def restart(options):
         visit = stage.visit()
         stage.daemon.terminate()
         stage.daemon.wait()
-        visit.until('the page says that the daemon is gone', lambda: 'gone' in visit.texts('.said')[0])
+        visit.until('the page says that the daemon has stopped', lambda: 'has stopped' in visit.texts('.said')[0])
         stage.start_daemon()
-        visit.until('and that it is back', lambda: 'gone' not in visit.texts('.said')[0] and visit.texts('.axis h3'))
+        visit.until('and that it is back', lambda: 'has stopped' not in visit.texts('.said')[0] and visit.texts('.axis h3'))
         before = visit.texts('.clock')[0]
         visit.until('with its time', lambda: visit.texts('.clock')[0] != before)
         stage.page.send_signal(signal.SIGSTOP)

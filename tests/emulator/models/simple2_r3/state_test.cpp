@@ -119,10 +119,10 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   refused("the bytes end too early", [](Saved& s) { s.pop_back(); });
   refused("bytes are left over", [](Saved& s) { s.push_back({}); });
   refused("its terminals are different", [](Saved& s) { s[0] = std::byte{kTerminalCount - 1}; });
-  refused("a number is beyond its range", [](Saved& s) { s[4] = std::byte{2}; });  // DIN 0
-  refused("a number is beyond its range", [](Saved& s) { s[7] = std::byte{0xFF}; });
+  refused("a number is out of range", [](Saved& s) { s[4] = std::byte{2}; });  // DIN 0
+  refused("a number is out of range", [](Saved& s) { s[7] = std::byte{0xFF}; });
   refused("a boolean must be 0 or 1", [](Saved& s) { s[kPower] = std::byte{2}; });
-  refused("a number is beyond its range", [](Saved& s) { s[kPower + 8] = std::byte{0x80}; });  // the tick
+  refused("a number is out of range", [](Saved& s) { s[kPower + 8] = std::byte{0x80}; });  // the tick
   EXPECT_EQ(state[kImage + 4], std::byte{0x01});
   EXPECT_EQ(state[kImage + 5], std::byte{0xC0});
   refused("MAIN_LINE0_CMD holds a value that is not possible", [](Saved& s) {
@@ -151,7 +151,7 @@ TEST(Simple2State, AMotorThatCannotBeIsRefused) {
   const Saved bad = device.save_state();
   device.state().axes[0].motor.last_direction = 1;
   const Saved good = device.save_state();
-  EXPECT_EQ(refusal_of(device, bad), "a number is beyond its range");
+  EXPECT_EQ(refusal_of(device, bad), "a number is out of range");
   EXPECT_EQ(device.save_state(), good);
 }
 
@@ -225,7 +225,7 @@ TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
     }
     for (const Number beyond : {field.least - 1, field.greatest + 1}) {
       const Saved state = with(beyond);
-      EXPECT_EQ(refusal_of(device, state), "a number is beyond its range") << field.what << " " << beyond;
+      EXPECT_EQ(refusal_of(device, state), "a number is out of range") << field.what << " " << beyond;
       EXPECT_EQ(device.save_state(), good) << field.what;
     }
   }

@@ -262,7 +262,7 @@ TEST(RunnerLine, AFailureTellsWhatFaultsDid) {
       "  - send: { bytes: 01 03 00 01 00 01 +crc, reply: 01 03 02 C0 01 +crc, within: 20ms }\n");
   ASSERT_EQ(failure.frames.size(), 2U);
   EXPECT_NE(failure.frames[0].find("-> read 0x0001 feeder.HW_Code"), std::string::npos) << failure.frames[0];
-  EXPECT_TRUE(failure.frames[1].ends_with("rs485 <- (fault 1 drop: not said)")) << failure.frames[1];
+  EXPECT_TRUE(failure.frames[1].ends_with("rs485 <- (fault 1 drop: not sent)")) << failure.frames[1];
   ASSERT_GE(failure.state.size(), 2U);
   EXPECT_EQ(failure.state.rbegin()[1], "fault 1 drop feeder function=3 nth=1: hit 1 of 1 that matched");
   EXPECT_EQ(failure.state.back(), "fault 2 stall feeder.A: in force");

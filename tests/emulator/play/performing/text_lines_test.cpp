@@ -165,7 +165,7 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
             "test.yaml:5: steps[0].send.text: has several lines; expected one, without its end");
   EXPECT_EQ(refusal("  - hear: { within: 1s }\n").substr(0, 28), "test.yaml:5: steps[0].hear: ");
   EXPECT_EQ(refusal("  - hear: { text: a, within: 0s }\n"),
-            "test.yaml:5: steps[0].hear.within: takes no time; expected some");
+            "test.yaml:5: steps[0].hear.within: takes no time; expected a duration above 0");
   EXPECT_NE(refusal("  - write: { robot.N0: 1 }\n").find("is not a register"), std::string::npos);
   EXPECT_NE(refusal("  - expect: { robot.N1: 1 }\n").find("robot has no value called 'N1'"),
             std::string::npos);

@@ -112,9 +112,9 @@ TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
       {head + "plays: []\n", "3: plays: is empty; expected at least one play"},
       {head + "plays: [ { name: a } ]\n", "3: plays[0]: 'steps' is missing; expected it here"},
       {head + "plays: [ { steps: [ advance: 1ms ] } ]\n",
-       "3: plays[0]: 'name' is missing; expected a sentence that tells this play from others"},
+       "3: plays[0]: 'name' is missing; expected a sentence that distinguishes this play from the others"},
       {head + "plays:\n  - { name: a, steps: [ advance: 1ms ] }\n  - { name: a, steps: [ advance: 1ms ] }\n",
-       "5: plays[1]: is called 'a', as another play is; expected a name of its own"},
+       "5: plays[1]: is called 'a', like another play; expected a different name"},
       {head + "plays: [ { name: a, stepz: 1 } ]\n",
        "3: plays[0].stepz: is not a key here; expected one of name, bench, nv, firmware, gap, seed, "
        "parameters, environment, cases, choice, vary, hunt, steps (the nearest is 'steps')"},

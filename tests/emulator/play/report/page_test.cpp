@@ -259,8 +259,8 @@ TEST(ReportPage, MarksWhatFaultsStruck) {
               "  - send: { bytes: 01 03 00 01 00 01 +crc, reply: nothing, within: 20ms }\n"
               "  - clear: all\n" +
               kExampleMove + "  - wait: { until: feeder.STATUS.4 == 0, within: 4s }\n");
-  EXPECT_NE(page.find("<span class=\"bad\">fault 1 drop: not said</span>"), std::string::npos);
-  EXPECT_NE(page.find("rs485: fault 1 drop: not said</title><line class=\"fault\""), std::string::npos);
+  EXPECT_NE(page.find("<span class=\"bad\">fault 1 drop: not sent</span>"), std::string::npos);
+  EXPECT_NE(page.find("rs485: fault 1 drop: not sent</title><line class=\"fault\""), std::string::npos);
   EXPECT_EQ(diagnostics_of_a_parser(page), "");
 }
 

@@ -142,7 +142,7 @@ TEST(RunLogger, SeesWhatFaultsDidToFrames) {
   EXPECT_TRUE(frames[1].is_struck);
   EXPECT_FALSE(frames[1].is_from_host);
   EXPECT_EQ(frames[1].text, "");
-  EXPECT_EQ(frames[1].remark, "fault 1 drop: not said");
+  EXPECT_EQ(frames[1].remark, "fault 1 drop: not sent");
   EXPECT_EQ(frames[3].text, "feeder.HW_Code = 49153") << "read by the request before it";
 }
 

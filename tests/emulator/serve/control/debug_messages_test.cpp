@@ -133,18 +133,18 @@ TEST(DebugMessages, RefuseWhatMakesNoSense) {
   };
   EXPECT_EQ(error(Json::object()), "nothing to stop at; expected line, instruction, when, write or on");
   EXPECT_EQ(error({{"line", 3}, {"write", "feeder.PROG_VAR0"}}),
-            "write: stands beside line; expected one of them");
+            "write: cannot be combined with line; expected one of them");
   EXPECT_EQ(error({{"line", -3}}).substr(0, 5), "line:");
   EXPECT_EQ(error({{"line", "x"}}).substr(0, 5), "line:");
   EXPECT_EQ(error({{"line", 1e18}}).substr(0, 5), "line:");
   EXPECT_EQ(error({{"line", 3}, {"nth", 0}}), "nth: 0 is too small; expected 1 or more");
   EXPECT_EQ(error({{"line", 3}, {"when", "PROG_VAR0 +"}}).substr(0, 5), "when:");
-  EXPECT_EQ(error({{"line", 3}, {"by", "host"}}), "by: stands without write; expected both, or neither");
+  EXPECT_EQ(error({{"line", 3}, {"by", "host"}}), "by: needs write; expected both, or neither");
   EXPECT_EQ(error({{"line", 3}, {"program", "MP1"}}),
-            "program: stands without instruction; expected both, or neither");
+            "program: needs instruction; expected both, or neither");
   EXPECT_EQ(error({{"line", 3}, {"colour", "red"}}).find('\n'), std::string::npos);
   EXPECT_EQ(debugged.error_of({{"do", "break"}, {"on", "exception"}, {"device", "feeder"}}),
-            "device: stands without line or instruction; expected one of them");
+            "device: needs line or instruction; expected one of them");
   EXPECT_EQ(debugged.error_of({{"do", "break"}, {"line", 3}}).substr(0, 10), "the device");
   EXPECT_EQ(debugged.error_of({{"do", "break"}, {"delete", 7}}),
             "delete: there is no breakpoint 7; expected one of `break`");

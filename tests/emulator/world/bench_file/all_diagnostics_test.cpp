@@ -93,7 +93,7 @@ bench.yaml:8: lines.a.stations[0].firmware: 'new' is unknown for simple2-r3; exp
 bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
 bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
-bench.yaml:12: plant.x.A.travel: does not hold position 0, where the machine starts; expected it inside
+bench.yaml:12: plant.x.A.travel: does not include position 0, where the machine starts; expected it inside
 bench.yaml:12: plant.x.A.home: 'width' is missing; expected it here
 bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive (the nearest is 'limits')
 bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
@@ -256,7 +256,7 @@ bench.yaml:5: lines.a.baud: '0' is not possible; expected a whole number from 1 
 bench.yaml:6: lines.a.pty: 'maybe' is neither on nor off; expected one of them
 bench.yaml:7: lines.a.echo: 'perhaps' is not possible; expected on or off
 bench.yaml:8: lines.a.byte_timeout: 'soon' is not possible; expected 10ms to 60s, as in 200ms
-bench.yaml:9: lines.a.baud_tolerance: 'lots' is not a share of the speed; expected 0% to 10%, as in 2%
+bench.yaml:9: lines.a.baud_tolerance: 'lots' is not possible; expected 0% to 10%, as in 2%
 bench.yaml:10: lines.a.timing: 'never' is not a timing; expected wire or instant
 bench.yaml:11: lines.a.link: is empty; expected a path
 bench.yaml:12: lines.a.listen[0]: 'modbus-tcp://:99999' has port 99999; expected 0 to 65535
@@ -368,7 +368,7 @@ scenario.yaml:11: steps[1].via: no line is called 'b'; expected 'rs485'
 scenario.yaml:12: steps[2].send.line: no line is called 'c'; expected 'rs485'
 scenario.yaml:12: steps[2].send.bytes: 'zz' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
 scenario.yaml:12: steps[2].send.reply: 'yy' is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the checksum
-scenario.yaml:12: steps[2].send.within: takes no time; expected some
+scenario.yaml:12: steps[2].send.within: takes no time; expected a duration above 0
 scenario.yaml:12: steps[2].send.with: is not a key here; expected one of line, bytes, reply, within (the nearest is 'within')
 scenario.yaml:13: steps[3].hear: 'text' is missing; expected it here
 scenario.yaml:13: steps[3].hear.line: no line is called 'q'; expected 'rs485'

@@ -135,7 +135,7 @@ TEST(BenchErrors, Lines) {
       {with_line("baud: 9600, " + kStation),
        "3: lines.a.stations[0]: baud: 9600 is not a speed of simple2-r3; expected one of 19200, 115200"},
       {with_line("baud_tolerance: 11%, " + kStation),
-       "3: lines.a.baud_tolerance: '11%' is not a share of the speed; expected 0% to 10%, as in 2%"},
+       "3: lines.a.baud_tolerance: '11%' is not possible; expected 0% to 10%, as in 2%"},
       {with_line("listen: tcp://:1, " + kStation),
        "3: lines.a.listen: 'tcp://:1'"
        " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
@@ -210,7 +210,7 @@ TEST(BenchErrors, Stations) {
       {and_then("      - { name: y, model: simple2-r3 }\n"),
        "6: lines.a.stations[1]: address 1 is taken on this line; expected another"},
       {and_then("      - { name: x, model: simple2-r3, address: 2 }\n"),
-       "6: lines.a.stations[1].name: two devices are called 'x'; expected a new name"},
+       "6: lines.a.stations[1].name: two devices are called 'x'; expected a different name"},
   });
 }
 
@@ -231,7 +231,7 @@ TEST(BenchErrors, Devices) {
        "6: lines.a.stations[1]: the device is already on a line; expected it on one line"},
       {and_then("devices: [ mill ]\n"), "6: devices: expected a map, as in `key: value`"},
       {and_then("devices:\n  x: { model: simple2-r3 }\n"),
-       "5: lines.a.stations[0].name: two devices are called 'x'; expected a new name"},
+       "5: lines.a.stations[0].name: two devices are called 'x'; expected a different name"},
   });
 }
 
@@ -273,7 +273,7 @@ TEST(BenchErrors, Machines) {
       {plant("x.A: { travel: [ 5 ] }"),
        "7: plant.x.A.travel: expected two positions, as in `[ -20000, 20000 ]`"},
       {plant("x.A: { travel: [ 5, 9 ] }"),
-       "7: plant.x.A.travel: does not hold position 0, where the machine starts; expected it inside"},
+       "7: plant.x.A.travel: does not include position 0, where the machine starts; expected it inside"},
       {plant("x.A: { travel: [ -9e99, 9 ] }"), "7: plant.x.A.travel[0]: '-9e99' is not possible; " + far},
       {plant("x.A: { travel: [ -9, 9223372036854775808 ] }"),
        "7: plant.x.A.travel[1]: '9223372036854775808' is not possible; " + far},

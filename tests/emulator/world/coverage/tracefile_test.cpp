@@ -58,7 +58,7 @@ TEST(Tracefile, ThatIsWrongIsRefusedWithItsLine) {
       {"SF:a\nDA:1\n", "c.info:2: '1' is not understood; expected DA:LINE,COUNT"},
       {"SF:a\nBRDA:1,0,2,1\n",
        "c.info:2: '1,0,2,1' is not understood; expected BRDA:LINE,0,BRANCH,COUNT with branch 0 or 1"},
-      {"SF:a\nDA:1,1\n", "c.info:2: the file breaks off; expected end_of_record"},
+      {"SF:a\nDA:1,1\n", "c.info:2: the file ends too early; expected end_of_record"},
       {"end_of_record\n", "c.info:1: 'end_of_record' is not understood; expected SF: with a path before it"},
   };
   for (const Case& one : kCases) {

@@ -147,7 +147,8 @@ TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {
     }
     return "";
   };
-  EXPECT_EQ(error_of({.line = 300}), "line: no instruction is on line 300 or after it; expected at most 5");
+  EXPECT_EQ(error_of({.line = 300}),
+            "line: there is no instruction on line 300 or after it; expected at most 5");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .line = 999}),
             "instruction: there is no number 999; expected 0 to 255");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .program = "MP1"}).substr(0, 25),
@@ -155,7 +156,7 @@ TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {
   EXPECT_NE(error_of({.line = 1, .condition = "PROG_VAR0 >"}), "");
   EXPECT_NE(error_of({.line = 1, .condition = "VAR_NONE > 1"}), "");
   EXPECT_NE(error_of({.line = 1, .condition = "m.A.greatest_speed > 1"}), "");
-  EXPECT_EQ(error_of({.line = 1, .log = "at {PROG_VAR0"}), "log: '{' has no end; expected '}' behind it");
+  EXPECT_EQ(error_of({.line = 1, .log = "at {PROG_VAR0"}), "log: '{' is not closed; expected '}' after it");
   EXPECT_NE(error_of({.line = 1, .log = "at {}"}), "");
   EXPECT_NE(error_of({.kind = Kind::write, .name = "VAR_NONE"}), "");
   EXPECT_EQ(error_of({.kind = Kind::write, .name = "PROG_VAR0", .by = "hots"}),
@@ -164,7 +165,8 @@ TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {
   EXPECT_TRUE(counting.debugger.breakpoints().empty());
   EXPECT_FALSE(counting.debugger.is_watching());
   for (std::size_t i = 0; i < Debugger::kMaxBreakpoints; ++i) EXPECT_EQ(error_of({.line = 1}), "");
-  EXPECT_EQ(error_of({.line = 1}), "there are 256 breakpoints; expected one to be deleted");
+  EXPECT_EQ(error_of({.line = 1}),
+            "there are 256 breakpoints already; expected one of them to be deleted first");
   counting.debugger.remove_all();
   counting.world.switch_power(0, false);
   EXPECT_EQ(error_of({.line = 1}), "m has no power; expected it to be on");
@@ -299,7 +301,7 @@ TEST(Step, EndsWhenTheAxesStand) {
   set(moved.world, "Aaxis_Pulse", 1000);
   set(moved.world, "Aaxis_Move_INC", 1);
   moved.run(3);
-  EXPECT_EQ(moved.step(StepKind::stand, "", 10'000), "step: the axes of m stand");
+  EXPECT_EQ(moved.step(StepKind::stand, "", 10'000), "step: the axes of m are at rest");
   EXPECT_EQ(get(moved.world, "Cord_A"), 1000);
 }
 

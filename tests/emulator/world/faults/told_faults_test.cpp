@@ -47,47 +47,49 @@ struct Told {
 const std::vector<Told>& cells() {
   static const std::vector<Told> all{
       // On the reply.
-      {"drop feeder", {kAsked, "out L  # fault 1 drop: not said"}},
-      {"delay feeder by=20ms", {kAsked, "out L  # fault 1 delay: said later", kSaid}},
+      {"drop feeder", {kAsked, "out L  # fault 1 drop: not sent"}},
+      {"delay feeder by=20ms", {kAsked, "out L  # fault 1 delay: sent late", kSaid}},
       {"corrupt_checksum feeder",
        {kAsked, "out L 01 03 02 C0 01 29 7B  # fault 1 corrupt_checksum: last byte inverted"}},
       {"truncate feeder keep=3", {kAsked, "out L 01 03 02  # fault 1 truncate: cut"}},
       {"truncate feeder keep=0", {kAsked, "out L  # fault 1 truncate: cut"}},
-      {"duplicate feeder", {kAsked, kSaid + "  # fault 1 duplicate: said twice", kSaid}},
-      {"duplicate feeder after=20ms", {kAsked, kSaid + "  # fault 1 duplicate: said twice", kSaid}},
-      {"noise feeder before=FF", {kAsked, "out L FF 01 03 02 C0 01 29 84  # fault 1 noise: noise around it"}},
+      {"duplicate feeder", {kAsked, kSaid + "  # fault 1 duplicate: sent twice", kSaid}},
+      {"duplicate feeder after=20ms", {kAsked, kSaid + "  # fault 1 duplicate: sent twice", kSaid}},
+      {"noise feeder before=FF",
+       {kAsked, "out L FF 01 03 02 C0 01 29 84  # fault 1 noise: surrounded by noise"}},
       {"collision feeder with=00",
-       {kAsked, "out L 00 03 02 C0 01 29 84  # fault 1 collision: somebody else talked"}},
-      {"drop rs485", {kAsked, "out L  # fault 1 drop: not said"}},
+       {kAsked, "out L 00 03 02 C0 01 29 84  # fault 1 collision: another sender collided"}},
+      {"drop rs485", {kAsked, "out L  # fault 1 drop: not sent"}},
       {"split feeder keep=3 by=20ms",
-       {kAsked, "out L 01 03 02  # fault 1 split: said in two pieces", "out L C0 01 29 84"}},
-      {"split feeder keep=0 by=20ms", {kAsked, "out L  # fault 1 split: said in two pieces", kSaid}},
-      {"split feeder keep=7 by=20ms", {kAsked, kSaid + "  # fault 1 split: said in two pieces"}},
+       {kAsked, "out L 01 03 02  # fault 1 split: sent in two pieces", "out L C0 01 29 84"}},
+      {"split feeder keep=0 by=20ms", {kAsked, "out L  # fault 1 split: sent in two pieces", kSaid}},
+      {"split feeder keep=7 by=20ms", {kAsked, kSaid + "  # fault 1 split: sent in two pieces"}},
       // On the connection from a gateway; on the wire it is unchanged.
       {"wrong_transaction feeder",
        {kAsked, kSaid + "  # fault 1 wrong_transaction: wrong transaction over TCP"}},
       {"wrong_unit rs485", {kAsked, kSaid + "  # fault 1 wrong_unit: wrong unit over TCP"}},
-      {"hang_up feeder keep=3", {kAsked, kSaid + "  # fault 1 hang_up: the connection ends"}},
+      {"hang_up feeder keep=3", {kAsked, kSaid + "  # fault 1 hang_up: connection closed"}},
       // On the adapter, triggered by a request.
       {"echo rs485 nth=1", {kAsked, "in  L  # fault 1 echo: begins", kSaid}},
       {"lumps rs485 by=16ms nth=1", {kAsked, "in  L  # fault 1 lumps: begins", kSaid}},
       {"unplug rs485 nth=1", {kAsked, "in  L  # fault 1 unplug: begins", kSaid}},
       // On the request. The host's own bytes are unchanged.
-      {"drop feeder of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
-      {"drop rs485 of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
-      {"delay feeder by=20ms of=request", {kAsked, "in  L  # fault 1 delay: heard later", kSaid}},
+      {"drop feeder of=request", {kAsked, "in  L  # fault 1 drop: not received"}},
+      {"drop rs485 of=request", {kAsked, "in  L  # fault 1 drop: not received"}},
+      {"delay feeder by=20ms of=request", {kAsked, "in  L  # fault 1 delay: received late", kSaid}},
       {"corrupt_checksum rs485 of=request",
        {kAsked, "in  L  # fault 1 corrupt_checksum: last byte inverted"}},
       {"truncate feeder keep=3 of=request", {kAsked, "in  L  # fault 1 truncate: cut"}},
-      {"duplicate feeder of=request", {kAsked, "in  L  # fault 1 duplicate: heard twice", kSaid, kSaid}},
-      {"noise feeder before=FF of=request", {kAsked, "in  L  # fault 1 noise: noise around it", kSaid}},
-      {"collision feeder with=00 of=request", {kAsked, "in  L  # fault 1 collision: somebody else talked"}},
-      {"drop feeder of=both", {kAsked, "in  L  # fault 1 drop: not heard"}},
+      {"duplicate feeder of=request", {kAsked, "in  L  # fault 1 duplicate: received twice", kSaid, kSaid}},
+      {"noise feeder before=FF of=request", {kAsked, "in  L  # fault 1 noise: surrounded by noise", kSaid}},
+      {"collision feeder with=00 of=request",
+       {kAsked, "in  L  # fault 1 collision: another sender collided"}},
+      {"drop feeder of=both", {kAsked, "in  L  # fault 1 drop: not received"}},
       // On the device's reply to it.
-      {"slow feeder by=20ms", {kAsked, "in  L  # fault 1 slow: carried out later", kSaid}},
+      {"slow feeder by=20ms", {kAsked, "in  L  # fault 1 slow: executed late", kSaid}},
       {"busy feeder", {kAsked, "in  L  # fault 1 busy: refused", "out L 01 83 06 C1 32"}},
       {"exception rs485 code=4", {kAsked, "in  L  # fault 1 exception: refused", "out L 01 83 04 40 F3"}},
-      {"early_reply feeder", {"in  L  # fault 1 early_reply: taken for over at once", kSaid, kAsked}},
+      {"early_reply feeder", {"in  L  # fault 1 early_reply: treated as complete at once", kSaid, kAsked}},
       {"power_cut feeder nth=1", {kAsked, "in  L  # fault 1 power_cut: begins"}},
       // On the machine, triggered by a request.
       {"stall feeder.A nth=1", {kAsked, "in  L  # fault 1 stall: begins", kSaid}},
@@ -136,7 +138,7 @@ TEST(ToldFaults, SeveralOnOneMessageAreToldTogether) {
   line.ask(kAskFeeder);
   EXPECT_EQ(captured.lines(), (Lines{kAsked,
                                      "out L  # fault 1 corrupt_checksum: last byte inverted; "
-                                     "fault 2 truncate: cut; fault 3 drop: not said"}));
+                                     "fault 2 truncate: cut; fault 3 drop: not sent"}));
 }
 
 TEST(ToldFaults, OnlyWhatIsHitIsTold) {
@@ -147,7 +149,7 @@ TEST(ToldFaults, OnlyWhatIsHitIsTold) {
   line.ask_all({kAskFeeder, kAskTurner, kAskFeeder});
   EXPECT_EQ(captured.lines(),
             (Lines{kAsked, kSaid, "in  L 02 03 00 01 00 01 D5 F9", "out L 02 03 02 C0 01 6D 84", kAsked,
-                   "out L  # fault 2 drop: not said"}));
+                   "out L  # fault 2 drop: not sent"}));
 }
 
 TEST(ToldFaults, AReplyToNobodySaysBoth) {
@@ -158,7 +160,7 @@ TEST(ToldFaults, AReplyToNobodySaysBoth) {
   line.world().host_closed(0);
   line.world().advance_to(std::chrono::milliseconds(50));
   EXPECT_EQ(captured.lines().back(),
-            "out L 01 03 02 C0 01 29 7B  # to nobody: no host has the line open; "
+            "out L 01 03 02 C0 01 29 7B  # discarded: no host has the line open; "
             "fault 1 corrupt_checksum: last byte inverted");
 }
 
@@ -186,9 +188,9 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
   world.remove_observer(0, frames);
   ASSERT_GE(lines.size(), 4u);
   EXPECT_EQ(lines[0], "in ?PE\r");
-  EXPECT_EQ(lines[1], "out fault 1 drop: not said");
+  EXPECT_EQ(lines[1], "out fault 1 drop: not sent");
   EXPECT_EQ(lines[2], "in ?PE\r");
-  EXPECT_EQ(lines[3], "in fault 2 delay: heard later");
+  EXPECT_EQ(lines[3], "in fault 2 delay: received late");
   EXPECT_GT(lines.size(), 4u) << "the second reply arrives";
 }
 

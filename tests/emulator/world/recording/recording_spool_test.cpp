@@ -114,7 +114,7 @@ TEST(RecordingSpool, ReplacesNoOlderPartThatIsNoRecording) {
       {"a text", [&](const std::string& path) { text(path, "precious"); },
        "it is not a recording; expected one to replace, or a free path"},
       {"results", [&](const std::string& path) { text(path, R"({"file":"a.yaml"})"); },
-       "it is a file of results; expected a recording to replace, or a free path"},
+       "it is a results file; expected a recording to replace, or a free path"},
       {"a link to a recording",
        [&](const std::string& path) {
          text(path + "-else", R"({"understudy":1,"kind":"recording"})");

@@ -241,9 +241,9 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(event(R"({"t":1,"do":"dance"})"),
             "a.jsonl:2: do: 'dance' is not an event; expected one of a recording");
   EXPECT_EQ(event(R"({"t":-1,"do":"end"})"),
-            "a.jsonl:2: t: is not a possible number; expected 0 to 3153600000000000000");
+            "a.jsonl:2: t: is not a valid number; expected 0 to 3153600000000000000");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":1,"bytes":"00"})"),
-            "a.jsonl:2: line: is not a possible number; expected 0 to 0");
+            "a.jsonl:2: line: is not a valid number; expected 0 to 0");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0"})"),
             "a.jsonl:2: bytes: ends in half a byte; expected two digits");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0G"})"),

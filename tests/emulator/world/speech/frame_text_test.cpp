@@ -101,7 +101,7 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
       {framed({1, 16, 0x10, 0, 0, 2, 2, 0, 1}), framed({1, 0x90, 3}),
        "exception 3 (illegal data value): its byte count does not fit 2 values"},
       {framed({1, 3, 0, 0, 0, 0}), framed({1, 0x83, 3}),
-       "exception 3 (illegal data value): it asks for no register"},
+       "exception 3 (illegal data value): it requests no register"},
       // What the device was doing is not in its tables.
       {framed({1, 6, 0x10, 0x02, 0, 1}), framed({1, 0x86, 3}), "exception 3 (illegal data value)"},
       {framed({1, 6, 0x10, 0x02, 0, 1}), framed({1, 0x86, 6}), "exception 6 (device busy)"},
