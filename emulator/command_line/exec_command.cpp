@@ -26,6 +26,7 @@
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/host_time/host_library.h"
 #include "emulator/serve/host_time/host_program.h"
 #include "emulator/serve/loop/child.h"
 #include "emulator/serve/loop/pacer.h"
@@ -241,6 +242,7 @@ std::optional<int> code_of_unusable(const HostArguments& host) {
     return kExitNotStarted;
   }
   if (!host.host_time) return std::nullopt;
+  serve::require_host_library(serve::library_path(serve::kHostTimeLibrary));
   const std::string why = serve::why_not_in_host_time(program);
   if (why.empty()) return std::nullopt;
   std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
