@@ -357,6 +357,7 @@ void HostTime::host_ended() {
   take_from_host();
   log_.finish(line_counts());
   is_host_over_ = true;
+  if (!was_greeted_) hear_all();
   consider();
 }
 
