@@ -13,7 +13,7 @@ class JavaHost {
         byte[] answer = new byte[11];
         in.readFully(answer);
         System.out.println(answer[1] + " " + ((answer[9] & 255) << 8 | answer[10] & 255));
-        Thread.sleep(3000);
+        Thread.sleep(1000 * Integer.parseInt(System.getenv("PAUSE_S")));
       }
     }
   }

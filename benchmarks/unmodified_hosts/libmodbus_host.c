@@ -16,7 +16,7 @@ int main(int count, char** words) {
     unsigned short value = 0;
     const int got = modbus_read_registers(line, 1, 1, &value);
     printf("%d %d %d\n", i, got, value);
-    sleep(3);
+    sleep((unsigned)atoi(getenv("PAUSE_S")));
   }
   unsigned short value = 0;
   modbus_set_slave(line, 9);

@@ -10,7 +10,7 @@ for instrument in (feeder, nobody):
     instrument.serial.baudrate, instrument.serial.parity, instrument.serial.timeout = 19200, "E", 0.5
 for poll in range(10):
     print(poll, feeder.read_register(1))
-    time.sleep(3)
+    time.sleep(int(os.environ["PAUSE_S"]))
 try:
     nobody.read_register(1)
 except minimalmodbus.NoResponseError as error:

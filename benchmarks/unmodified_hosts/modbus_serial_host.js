@@ -9,7 +9,7 @@ async function main() {
   client.setTimeout(1500);
   for (let poll = 0; poll < 10; ++poll) {
     console.log(poll, (await client.readHoldingRegisters(1, 1)).data[0]);
-    await new Promise((done) => setTimeout(done, 3000));
+    await new Promise((done) => setTimeout(done, 1000 * process.env.PAUSE_S));
   }
   client.setID(9);
   await client.readHoldingRegisters(1, 1).catch((error) => console.log(error.message));

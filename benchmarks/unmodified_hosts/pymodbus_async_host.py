@@ -10,7 +10,7 @@ async def main():
     await client.connect()
     for poll in range(10):
         print(poll, (await client.read_holding_registers(1, 1, slave=1)).registers)
-        await asyncio.sleep(3)
+        await asyncio.sleep(int(os.environ["PAUSE_S"]))
 
 
 asyncio.run(main())

@@ -8,5 +8,5 @@ client = ModbusSerialClient(os.environ["UNDERSTUDY_PORT"], baudrate=19200, parit
 client.connect()
 for poll in range(10):
     print(poll, client.read_holding_registers(1, 1, slave=1).registers)
-    time.sleep(3)
+    time.sleep(int(os.environ["PAUSE_S"]))
 print(client.read_holding_registers(1, 1, slave=9).isError())

@@ -9,5 +9,5 @@ for poll in range(10):
     port.write(bytes.fromhex("010300010001D5CA"))
     port.flush()
     print(poll, port.read(7).hex())
-    time.sleep(3)
+    time.sleep(int(os.environ["PAUSE_S"]))
 print("nothing more:", port.read(1))

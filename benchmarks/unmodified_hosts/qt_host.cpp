@@ -32,6 +32,6 @@ int main(int count, char** words) {
       reply->deleteLater();
     });
   });
-  timer.start(3000);
+  timer.start(1000 * qEnvironmentVariableIntValue("PAUSE_S"));
   return QCoreApplication::exec();
 }

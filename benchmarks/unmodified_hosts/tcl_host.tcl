@@ -11,5 +11,5 @@ for {set poll 0} {$poll < 10} {incr poll} {
     after cancel $late
     binary scan $answer H* text
     puts "$poll $done $text"
-    after 3000
+    after [expr {1000 * $env(PAUSE_S)}]
 }

@@ -41,7 +41,7 @@ int main() {
   tcsetattr(port, TCSANOW, &settings);
   std::thread clock([] {
     for (int i = 0; i < 10; ++i) {
-      std::this_thread::sleep_for(std::chrono::seconds(3));
+      std::this_thread::sleep_for(std::chrono::seconds(std::atoi(std::getenv("PAUSE_S"))));
       const std::scoped_lock lock(mutex);
       is_due = true;
       changed.notify_all();

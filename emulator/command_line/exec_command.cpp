@@ -26,6 +26,7 @@
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/host_time/host_library.h"
 #include "emulator/serve/host_time/host_program.h"
 #include "emulator/serve/loop/child.h"
 #include "emulator/serve/loop/pacer.h"
@@ -94,9 +95,15 @@ int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   return end.was_stopped ? static_cast<int>(kExitWell) : end.exit_code;
 }
 
+/// The end of a run.
+struct Outcome {
+  int code = kExitNotStarted;
+  bool was_interrupted = false;  // exec was told to end
+};
+
 /// Serves the bench until both the command and the scenario alongside it end.
-int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
-         const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
+Outcome play(const ExecArguments& arguments, const Serving& serving, serve::PrivateFolder& folder,
+             const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const CourseEnd end = run_course({.serving = serving,
                                     .host = arguments.host,
                                     .folder = folder.path(),
@@ -105,7 +112,7 @@ int play(const ExecArguments& arguments, const Serving& serving, serve::PrivateF
                                    arguments.serve, signals);
   const int scenario_code = scenario ? tell_of(end, *scenario) : static_cast<int>(kExitWell);
   const int code = exit_code_of(arguments, end);
-  return code != kExitWell ? code : scenario_code;
+  return {.code = code != kExitWell ? code : scenario_code, .was_interrupted = end.was_interrupted};
 }
 
 /// Throws UsageError if the scenario and the bench would write the same file.
@@ -123,7 +130,7 @@ void require_apart(const play::Scenario& scenario, const ServeArguments& serve, 
   files.add(scenario.files);
 }
 
-int execute_once(ModelList models, const ExecArguments& arguments) {
+Outcome execute_once(ModelList models, const ExecArguments& arguments) {
   Serving serving = make_serving(models, arguments.serve, "exec");
   require_variables(serving.bench);
   if (arguments.host.host_time) require_host_time(arguments);
@@ -135,7 +142,7 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
   if (arguments.host.host_time) {
     if (const std::string why = serve::why_not_in_host_time(arguments.host.command[0]); !why.empty()) {
       std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
-      return kExitNoHostTime;
+      return {.code = kExitNoHostTime};
     }
     serving.options.speed.kind = serve::Speed::Kind::manual;
     serving.options.is_host_simulated = true;
@@ -145,13 +152,13 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
   use_private_places(serving, arguments, folder);
   serving.options.watch_signals = false;
   serve::ParentSignals signals;
-  int code = kExitNotStarted;
+  Outcome outcome;
   try {
-    code = play(arguments, serving, folder, scenario, signals);
+    outcome = play(arguments, serving, folder, scenario, signals);
   } catch (const serve::ChildError& error) {
     std::fprintf(stderr, "understudy: exec: %s\n", one_line(error.what()).c_str());
   }
-  const bool has_failed = code != kExitWell && code != kExitNotStarted;
+  const bool has_failed = outcome.code != kExitWell && outcome.code != kExitNotStarted;
   if (!has_failed && arguments.serve.record.empty()) {
     std::error_code ignored;
     std::filesystem::remove(serving.options.record_path, ignored);
@@ -159,7 +166,7 @@ int execute_once(ModelList models, const ExecArguments& arguments) {
     std::fprintf(stderr, "understudy: exec: to run this again: understudy replay %s\n",
                  serving.options.record_path.c_str());
   }
-  return code;
+  return outcome;
 }
 
 /// Runs the command several times, and compares the recordings.
@@ -175,8 +182,8 @@ int execute_repeatedly(ModelList models, const ExecArguments& arguments, int tim
     ExecArguments once = arguments;
     once.serve.record = arguments.serve.record.empty() ? folder.path() + "/run" : arguments.serve.record;
     if (run > 1) once.serve.record += "." + std::to_string(run);
-    const int code = execute_once(models, once);
-    if (code == kExitNotStarted || code == kExitNoHostTime) return code;
+    const auto [code, was_interrupted] = execute_once(models, once);
+    if (was_interrupted || code == kExitNotStarted || code == kExitNoHostTime) return code;
     if (first_failure == kExitWell) first_failure = code;
     const std::string difference = courses.add(once.serve.record);
     if (!difference.empty()) std::fprintf(stderr, "understudy: exec: %s\n", difference.c_str());
@@ -241,6 +248,7 @@ std::optional<int> code_of_unusable(const HostArguments& host) {
     return kExitNotStarted;
   }
   if (!host.host_time) return std::nullopt;
+  serve::require_host_library(serve::library_path(serve::kHostTimeLibrary));
   const std::string why = serve::why_not_in_host_time(program);
   if (why.empty()) return std::nullopt;
   std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
@@ -301,7 +309,7 @@ int execute(ModelList models, const ExecArguments& arguments) {
     throw UsageError("--repeat: " + std::to_string(*arguments.repeat) +
                      " is too few; expected 1 or more runs");
   if (arguments.repeat) return execute_repeatedly(models, arguments, *arguments.repeat);
-  return execute_once(models, arguments);
+  return execute_once(models, arguments).code;
 }
 
 int print_tty_shim() {

@@ -144,6 +144,7 @@ class Course final : public play::HostCommand {
     child_.emplace(daemon_.loop(), signals_, command, [this] { on_command_over(); });
     signals_.watch(daemon_.loop(), [this](int signal_number) {
       if (signal_number == SIGCHLD) return child_->look_after_children();
+      end_.was_interrupted = true;
       end_command(signal_number);
       if (is_command_over_) give_up_scenario();
     });

@@ -33,8 +33,9 @@ struct CourseSetup {
 struct CourseEnd {
   int exit_code = 0;  // of the command
   bool has_timed_out = false;
-  bool was_reached = true;   // it has loaded the library that --host-time needs
-  bool was_stopped = false;  // by the scenario's step `host: stop`, so its exit code does not count
+  bool was_reached = true;       // it has loaded the library that --host-time needs
+  bool was_stopped = false;      // by the scenario's step `host: stop`, so its exit code does not count
+  bool was_interrupted = false;  // exec itself was told to end
   bool was_given_up = false;
   std::vector<play::ScenarioResult> results{};
 };

@@ -21,6 +21,7 @@ namespace understudy::host_time {
 
 namespace {
 
+[[gnu::used]] const char mark[] = UNDERSTUDY_HOST_TIME_MARK;
 const Page* page = nullptr;
 sockaddr_un bench_address = {};
 

@@ -21,6 +21,18 @@ int64_t clock_begin_ns(clockid_t clock) {
   }
 }
 
+bool is_for_waits(clockid_t clock) {
+  switch (clock) {
+    case CLOCK_REALTIME:
+    case CLOCK_MONOTONIC:
+    case CLOCK_BOOTTIME:
+    case CLOCK_TAI:
+    case CLOCK_REALTIME_ALARM:
+    case CLOCK_BOOTTIME_ALARM: return true;
+    default: return false;
+  }
+}
+
 timespec time_of(int64_t ns) { return {ns / kBillion, ns % kBillion}; }
 
 int64_t ns_of(const timespec& time) {

@@ -138,7 +138,7 @@ ssize_t receive(int descriptor, int number, void* place, size_t size, int flags,
                                                   flags & ~MSG_WAITALL, nullptr, nullptr);
     if (got <= 0) return done > 0 ? static_cast<ssize_t>(done) : got;
     done += static_cast<size_t>(got);
-  } while ((flags & MSG_WAITALL) != 0 && done < size);
+  } while ((flags & (MSG_WAITALL | MSG_PEEK)) == MSG_WAITALL && done < size);
   if (from != nullptr && from_size != nullptr) getpeername(descriptor, from, from_size);
   return static_cast<ssize_t>(done);
 }

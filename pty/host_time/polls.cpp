@@ -3,6 +3,7 @@
 // Each checks first, and then waits as the bench decides and checks again. A wait only for sockets to other
 // machines happens in real time, while simulated time is stopped.
 #include <errno.h>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <stdlib.h>
@@ -61,6 +62,19 @@ class Sorted {
     others_[wait.other_count++] = {descriptor, events, 0};
     wait.others = others_;
   }
+  /// A hang-up wakes the thread, but select may not count it: such descriptors must not wake it again and
+  /// again. Returns true if there was one.
+  static bool forget_hung_up(Wait& wait) {
+    bool has_forgotten = false;
+    for (nfds_t i = 0; i < wait.other_count; ++i) {
+      pollfd& other = wait.others[i];
+      if (other.fd < 0 || UNDERSTUDY_REAL(poll)(&other, 1, 0) <= 0 || (other.revents & other.events) != 0)
+        continue;
+      other.fd = -1;
+      has_forgotten = true;
+    }
+    return has_forgotten;
+  }
   /// Returns true if all descriptors are sockets to other machines.
   bool is_all_outside() const { return is_all_outside_ && !is_empty_; }
 
@@ -85,17 +99,17 @@ int look_outside(int64_t length_ns, Look look) {
   return ready;
 }
 
-/// `look(length)` returns how many are ready, or -1; it waits for the length in real time.
+/// `look(length)` returns how many are ready, or -1; it waits for the length in real time. It has looked
+/// before and found nothing.
 template <class Look>
 int wait_in_turn(int64_t length_ns, const Sorted& sorted, Wait& wait, Look look) {
-  int ready = look(0);
-  if (ready != 0 || length_ns == 0) return ready;
   if (sorted.is_all_outside()) return look_outside(length_ns, look);
   const int64_t until = length_ns == kNever ? kNever : after(length_ns);
   wait.until_ns = until;
   while (true) {
     const Woken woken = wait_for(wait);
-    ready = look(0);
+    int ready = look(0);
+    if (ready == 0 && woken == Woken::by_descriptor && Sorted::forget_hung_up(wait)) ready = look(0);
     if (ready != 0) return ready;
     if (woken == Woken::by_signal) {
       errno = EINTR;
@@ -108,50 +122,98 @@ int wait_in_turn(int64_t length_ns, const Sorted& sorted, Wait& wait, Look look)
 timespec real_length(int64_t length_ns) { return time_of(length_ns); }
 
 int poll_for(pollfd* entries, nfds_t count, int64_t length_ns, const sigset_t* mask) {
+  const auto look = [&](int64_t length) {
+    const timespec time = real_length(length);
+    return UNDERSTUDY_REAL(ppoll)(entries, count, length == kNever ? nullptr : &time, mask);
+  };
+  const int ready = look(0);
+  if (ready != 0 || length_ns == 0) return ready;
   Sorted sorted(count);
   Wait wait;
   wait.mask = mask;
   for (nfds_t i = 0; i < count; ++i) sorted.add(entries[i].fd, entries[i].events, wait);
-  return wait_in_turn(length_ns, sorted, wait, [&](int64_t length) {
-    const timespec time = real_length(length);
-    return UNDERSTUDY_REAL(ppoll)(entries, count, length == kNever ? nullptr : &time, mask);
-  });
+  return wait_in_turn(length_ns, sorted, wait, look);
 }
+
+/// The sets of a select, of which the kernel touches no more than it was asked for.
+class Sets {
+ public:
+  Sets(int count, fd_set* reads, fd_set* writes, fd_set* excepts)
+      : count_(count < 0            ? 0
+               : count < FD_SETSIZE ? count
+                                    : FD_SETSIZE),
+        given_{reads, writes, excepts} {
+    for (int set = 0; set < 3; ++set) {
+      FD_ZERO(&asked_[set]);
+      if (given_[set] != nullptr) memcpy(&asked_[set], given_[set], size());
+    }
+  }
+  void restore() {
+    for (int set = 0; set < 3; ++set) {
+      if (given_[set] != nullptr) memcpy(given_[set], &asked_[set], size());
+    }
+  }
+  /// What another thread has closed does not end a select that runs, and is never ready.
+  void forget_closed() {
+    for (int i = 0; i < count_; ++i) {
+      if (events(i) == 0 || fcntl(i, F_GETFD) >= 0) continue;
+      for (fd_set& set : asked_) FD_CLR(i, &set);
+    }
+  }
+  int count() const { return count_; }
+  short events(int descriptor) const {
+    constexpr short kEvents[3] = {POLLIN, POLLOUT, POLLPRI};
+    short events = 0;
+    for (int set = 0; set < 3; ++set) {
+      if (FD_ISSET(descriptor, &asked_[set])) events = static_cast<short>(events | kEvents[set]);
+    }
+    return events;
+  }
+
+ private:
+  size_t size() const { return static_cast<size_t>(count_ + NFDBITS - 1) / NFDBITS * sizeof(fd_mask); }
+
+  int count_;
+  fd_set* given_[3];
+  fd_set asked_[3];
+};
 
 int select_for(int count, fd_set* reads, fd_set* writes, fd_set* excepts, int64_t length_ns,
                const sigset_t* mask) {
-  fd_set empty;
-  FD_ZERO(&empty);
-  const fd_set asked[3] = {reads != nullptr ? *reads : empty, writes != nullptr ? *writes : empty,
-                           excepts != nullptr ? *excepts : empty};
-  constexpr short kEvents[3] = {POLLIN, POLLOUT, POLLPRI};
-  Sorted sorted(static_cast<nfds_t>(count < 0 ? 0 : count));
-  Wait wait;
-  wait.mask = mask;
-  for (int i = 0; i < count && i < FD_SETSIZE; ++i) {
-    short events = 0;
-    for (int set = 0; set < 3; ++set) {
-      if (FD_ISSET(i, &asked[set])) events = static_cast<short>(events | kEvents[set]);
-    }
-    if (events != 0) sorted.add(i, events, wait);
-  }
-  return wait_in_turn(length_ns, sorted, wait, [&](int64_t length) {
-    if (reads != nullptr) *reads = asked[0];
-    if (writes != nullptr) *writes = asked[1];
-    if (excepts != nullptr) *excepts = asked[2];
+  Sets sets(count, reads, writes, excepts);
+  const auto look = [&](int64_t length) {
+    sets.restore();
     const timespec time = real_length(length);
     return UNDERSTUDY_REAL(pselect)(count, reads, writes, excepts, length == kNever ? nullptr : &time, mask);
+  };
+  const int ready = look(0);
+  if (ready != 0 || length_ns == 0) return ready;
+  Sorted sorted(static_cast<nfds_t>(sets.count()));
+  Wait wait;
+  wait.mask = mask;
+  for (int i = 0; i < sets.count(); ++i) {
+    if (sets.events(i) != 0) sorted.add(i, sets.events(i), wait);
+  }
+  return wait_in_turn(length_ns, sorted, wait, [&](int64_t length) {
+    const int found = look(length);
+    if (found >= 0 || errno != EBADF) return found;
+    sets.forget_closed();
+    return look(length);
   });
 }
 
 int epoll_for(int descriptor, epoll_event* events, int count, int64_t length_ns, const sigset_t* mask) {
+  const auto look = [&] { return UNDERSTUDY_REAL(epoll_pwait)(descriptor, events, count, 0, mask); };
+  const int ready = look();
+  if (ready != 0 || length_ns == 0) return ready;
   Sorted sorted(1);
   Wait wait;
   wait.mask = mask;
   sorted.add(descriptor, POLLIN, wait);
   wait.line_count = kAnyLine;
   return wait_in_turn(length_ns, sorted, wait, [&](int64_t) {
-    return UNDERSTUDY_REAL(epoll_pwait)(descriptor, events, count, 0, mask);
+    const int found = look();
+    return found < 0 && errno == EBADF ? 0 : found;  // it was closed: the wait goes on
   });
 }
 

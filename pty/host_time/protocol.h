@@ -11,6 +11,8 @@ namespace understudy::host_time {
 
 /// The library and the bench must be of one version: the library's greeting has this number.
 inline constexpr uint32_t kVersion = 2;
+/// The library has this text, so that the bench recognizes it before a host loads it. It has the version.
+#define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 2"
 
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";

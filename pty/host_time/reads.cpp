@@ -2,6 +2,7 @@
 // room, and tcdrain.
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/uio.h>
@@ -52,12 +53,16 @@ ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& 
   wait.is_restartable = true;
   if (patience.length_ns != kNever && !patience.is_between_bytes) wait.until_ns = after(patience.length_ns);
   int present_before = 0;
-  while (true) {
+  for (bool has_waited = false;; has_waited = true) {
     pollfd entry = {descriptor, POLLIN, 0};
     UNDERSTUDY_REAL(poll)(&entry, 1, 0);
-    if ((entry.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) return static_cast<ssize_t>(size);
+    const bool is_closed = (entry.revents & POLLNVAL) != 0;
+    if ((entry.revents & (POLLHUP | POLLERR)) != 0 || (is_closed && !has_waited))
+      return static_cast<ssize_t>(size);
     int present = 0;
-    if (patience.is_canonical) {
+    if (is_closed) {  // another thread has closed it, which does not end a read
+      if (now_ns() >= wait.until_ns) return 0;
+    } else if (patience.is_canonical) {
       if ((entry.revents & POLLIN) != 0) return static_cast<ssize_t>(size);
     } else {
       if (ioctl(descriptor, FIONREAD, &present) != 0) return static_cast<ssize_t>(size);
@@ -91,9 +96,10 @@ bool wait_for_timer(int descriptor) {
 UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
   int number = -1;
   Patience patience;
-  if (is_active() && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
-  if (is_active() && !wait_for_door(descriptor)) return -1;
-  if (!is_active() || !take_patience(descriptor, size, &number, patience))
+  const bool may_wait = is_active() && size > 0;
+  if (may_wait && size >= sizeof(uint64_t) && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
+  if (may_wait && !wait_for_door(descriptor)) return -1;
+  if (!may_wait || !take_patience(descriptor, size, &number, patience))
     return UNDERSTUDY_REAL(read)(descriptor, place, size);
   const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
   return most <= 0 ? most : UNDERSTUDY_REAL(read)(descriptor, place, static_cast<size_t>(most));
@@ -106,10 +112,10 @@ UNDERSTUDY_EXPORT ssize_t __read_chk(int descriptor, void* place, size_t size, s
 
 UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   size_t size = 0;
-  for (int i = 0; i < count; ++i) size += parts[i].iov_len;
+  for (int i = 0; i < count && count <= IOV_MAX; ++i) size += parts[i].iov_len;
   int number = -1;
   Patience patience;
-  if (is_active() && !wait_for_door(descriptor)) return -1;
+  if (is_active() && size > 0 && !wait_for_door(descriptor)) return -1;
   if (is_active() && take_patience(descriptor, size, &number, patience)) {
     const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
     if (most <= 0) return most;

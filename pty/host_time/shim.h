@@ -37,6 +37,8 @@ constexpr int64_t kBillion = 1'000'000'000;
 
 /// Returns what the clock shows at simulated time 0, or -1 if it does not measure elapsed time.
 int64_t clock_begin_ns(clockid_t clock);
+/// Returns true if the kernel lets programs wait by this clock: not by coarse ones, nor by processor time.
+bool is_for_waits(clockid_t clock);
 timespec time_of(int64_t ns);
 /// Returns -1 if the time is not valid.
 int64_t ns_of(const timespec& time);

@@ -27,17 +27,16 @@ int sleep_for(int64_t length_ns, timespec* rest) {
 }  // namespace
 
 UNDERSTUDY_EXPORT int clock_nanosleep(clockid_t clock, int flags, const timespec* time, timespec* rest) {
-  const int64_t begin = is_active() ? clock_begin_ns(clock) : -1;
-  if (begin < 0) return UNDERSTUDY_REAL(clock_nanosleep)(clock, flags, time, rest);
+  if (!is_active() || !is_for_waits(clock) || time == nullptr)
+    return UNDERSTUDY_REAL(clock_nanosleep)(clock, flags, time, rest);
   const int64_t ns = ns_of(*time);
   if ((flags & TIMER_ABSTIME) == 0) return sleep_for(ns, rest);
-  if (time->tv_sec < 0 && time->tv_nsec >= 0 && time->tv_nsec < kBillion) return 0;
   if (ns < 0) return EINVAL;
-  return sleep_until(ns == kNever ? kNever : ns - begin) ? 0 : EINTR;
+  return sleep_until(ns == kNever ? kNever : ns - clock_begin_ns(clock)) ? 0 : EINTR;
 }
 
 UNDERSTUDY_EXPORT int nanosleep(const timespec* time, timespec* rest) {
-  if (!is_active()) return UNDERSTUDY_REAL(nanosleep)(time, rest);
+  if (!is_active() || time == nullptr) return UNDERSTUDY_REAL(nanosleep)(time, rest);
   const int error = sleep_for(ns_of(*time), rest);
   if (error == 0) return 0;
   errno = error;

@@ -56,14 +56,19 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
   return !is_signalled && now_ns() >= until_ns ? ETIMEDOUT : 0;
 }
 
-/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid.
+/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid: libc waits by two
+/// clocks.
 bool take_end(clockid_t clock, const timespec* time, int64_t& until_ns) {
   const int64_t begin = clock_begin_ns(clock);
-  if (begin < 0 || time->tv_nsec < 0 || time->tv_nsec >= kBillion) return false;
+  if ((clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) || time->tv_nsec < 0 || time->tv_nsec >= kBillion)
+    return false;
   const int64_t ns = ns_of(*time);
   until_ns = ns == kNever ? kNever : ns - begin;  // a time before the beginning is over
   return true;
 }
+
+/// Returns true if the kernel's number of a thread is that of this one.
+bool is_own(int thread) { return thread == static_cast<int>(UNDERSTUDY_REAL(syscall)(SYS_gettid)); }
 
 /// libc's form of a semaphore: the value in the low half, the waiters in the high one.
 struct Semaphore {
@@ -73,12 +78,12 @@ struct Semaphore {
 constexpr uint64_t kOneWaiter = uint64_t{1} << 32;
 
 int wait_for_post(sem_t* place, clockid_t clock, const timespec* time) {
-  if (sem_trywait(place) == 0) return 0;
   int64_t until = kNever;
   if (!take_end(clock, time, until)) {
     errno = EINVAL;
     return -1;
   }
+  if (sem_trywait(place) == 0) return 0;
   auto* const semaphore = reinterpret_cast<Semaphore*>(place);
   while (true) {
     __atomic_fetch_add(&semaphore->value_and_waiters, kOneWaiter, __ATOMIC_ACQ_REL);
@@ -100,10 +105,11 @@ int try_until(clockid_t clock, const timespec* time, Try try_once) {
   constexpr int64_t kMostBetween_ns = 10'000'000;
   int64_t between_ns = 1'000'000;
   int64_t until = kNever;
+  const bool has_end = take_end(clock, time, until);
   while (true) {
     const int error = try_once();
     if (error != EBUSY) return error;
-    if (!take_end(clock, time, until)) return EINVAL;
+    if (!has_end) return EINVAL;
     const int64_t now = now_ns();
     if (now >= until) return ETIMEDOUT;
     sleep_until(until - now < between_ns ? until : now + between_ns);
@@ -179,7 +185,15 @@ UNDERSTUDY_EXPORT int sem_clockwait(sem_t* place, clockid_t clock, const timespe
 UNDERSTUDY_EXPORT int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock,
                                               const timespec* time) noexcept {
   if (!is_active()) return UNDERSTUDY_REAL(pthread_mutex_clocklock)(mutex, clock, time);
-  return try_until(clock, time, [&] { return pthread_mutex_trylock(mutex); });
+  const timespec any = {0, 0};
+  int64_t ignored = 0;
+  if (!take_end(clock, &any, ignored)) return EINVAL;
+  return try_until(clock, time, [&] {
+    const int error = pthread_mutex_trylock(mutex);
+    constexpr int kKindMask = 3;
+    const bool is_checked = (mutex->__data.__kind & kKindMask) == PTHREAD_MUTEX_ERRORCHECK;
+    return error == EBUSY && is_checked && is_own(mutex->__data.__owner) ? EDEADLK : error;
+  });
 }
 
 UNDERSTUDY_EXPORT int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* time) noexcept {
@@ -187,14 +201,40 @@ UNDERSTUDY_EXPORT int pthread_mutex_timedlock(pthread_mutex_t* mutex, const time
   return pthread_mutex_clocklock(mutex, CLOCK_REALTIME, time);
 }
 
+namespace {
+
+int lock_until(pthread_rwlock_t* lock, int (*try_once)(pthread_rwlock_t*), clockid_t clock,
+               const timespec* time) {
+  int64_t ignored = 0;
+  if (!take_end(clock, time, ignored)) return EINVAL;
+  return try_until(clock, time, [&] {
+    const int error = try_once(lock);
+    return error == EBUSY && is_own(lock->__data.__cur_writer) ? EDEADLK : error;
+  });
+}
+
+}  // namespace
+
+UNDERSTUDY_EXPORT int pthread_rwlock_clockrdlock(pthread_rwlock_t* lock, clockid_t clock,
+                                                 const timespec* time) noexcept {
+  if (!is_active()) return UNDERSTUDY_REAL(pthread_rwlock_clockrdlock)(lock, clock, time);
+  return lock_until(lock, pthread_rwlock_tryrdlock, clock, time);
+}
+
+UNDERSTUDY_EXPORT int pthread_rwlock_clockwrlock(pthread_rwlock_t* lock, clockid_t clock,
+                                                 const timespec* time) noexcept {
+  if (!is_active()) return UNDERSTUDY_REAL(pthread_rwlock_clockwrlock)(lock, clock, time);
+  return lock_until(lock, pthread_rwlock_trywrlock, clock, time);
+}
+
 UNDERSTUDY_EXPORT int pthread_rwlock_timedrdlock(pthread_rwlock_t* lock, const timespec* time) noexcept {
   if (!is_active()) return UNDERSTUDY_REAL(pthread_rwlock_timedrdlock)(lock, time);
-  return try_until(CLOCK_REALTIME, time, [&] { return pthread_rwlock_tryrdlock(lock); });
+  return pthread_rwlock_clockrdlock(lock, CLOCK_REALTIME, time);
 }
 
 UNDERSTUDY_EXPORT int pthread_rwlock_timedwrlock(pthread_rwlock_t* lock, const timespec* time) noexcept {
   if (!is_active()) return UNDERSTUDY_REAL(pthread_rwlock_timedwrlock)(lock, time);
-  return try_until(CLOCK_REALTIME, time, [&] { return pthread_rwlock_trywrlock(lock); });
+  return pthread_rwlock_clockwrlock(lock, CLOCK_REALTIME, time);
 }
 
 UNDERSTUDY_EXPORT int pthread_clockjoin_np(pthread_t thread, void** result, clockid_t clock,
@@ -217,8 +257,7 @@ long wait_on_futex(uint32_t* word, int operation, uint32_t value, const timespec
   const int command = operation & FUTEX_CMD_MASK;
   int64_t until = kNever;
   if (command == FUTEX_WAIT) {
-    const int64_t length = ns_of(*time);
-    if (length >= 0) until = after(length);
+    until = after(ns_of(*time));
   } else {
     take_end((operation & FUTEX_CLOCK_REALTIME) != 0 ? CLOCK_REALTIME : CLOCK_MONOTONIC, time, until);
   }
@@ -245,7 +284,8 @@ UNDERSTUDY_EXPORT long syscall(long number, ...) noexcept {
   if (number == SYS_futex && is_active() && words[3] != 0) {
     const int operation = static_cast<int>(words[1]);
     const int command = operation & FUTEX_CMD_MASK;
-    if (command == FUTEX_WAIT || command == FUTEX_WAIT_BITSET)
+    const bool is_wait = command == FUTEX_WAIT || (command == FUTEX_WAIT_BITSET && words[5] != 0);
+    if (is_wait && ns_of(*reinterpret_cast<const timespec*>(words[3])) >= 0)
       return wait_on_futex(reinterpret_cast<uint32_t*>(words[0]), operation, static_cast<uint32_t>(words[2]),
                            reinterpret_cast<const timespec*>(words[3]));
   }

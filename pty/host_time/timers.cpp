@@ -101,8 +101,11 @@ DescriptorTimer* timer_of(int descriptor) {
 
 bool understudy::host_time::is_timer(int descriptor) { return timer_of(descriptor) != nullptr; }
 
+/// What is wrong goes to the kernel, which says so.
 UNDERSTUDY_EXPORT int timerfd_create(clockid_t clock, int flags) noexcept {
-  if (!is_active() || clock_begin_ns(clock) < 0) return UNDERSTUDY_REAL(timerfd_create)(clock, flags);
+  const bool is_good =
+      is_for_waits(clock) && clock != CLOCK_TAI && (flags & ~(TFD_NONBLOCK | TFD_CLOEXEC)) == 0;
+  if (!is_active() || !is_good) return UNDERSTUDY_REAL(timerfd_create)(clock, flags);
   static_assert(int{TFD_NONBLOCK} == int{EFD_NONBLOCK} && int{TFD_CLOEXEC} == int{EFD_CLOEXEC});
   const int descriptor = eventfd(0, flags);
   if (descriptor >= kMaxDescriptors) {
@@ -117,9 +120,11 @@ UNDERSTUDY_EXPORT int timerfd_create(clockid_t clock, int flags) noexcept {
 UNDERSTUDY_EXPORT int timerfd_settime(int descriptor, int flags, const itimerspec* spec,
                                       itimerspec* before) noexcept {
   DescriptorTimer* const timer = is_active() ? timer_of(descriptor) : nullptr;
-  if (timer == nullptr) return UNDERSTUDY_REAL(timerfd_settime)(descriptor, flags, spec, before);
+  if (timer == nullptr || spec == nullptr)
+    return UNDERSTUDY_REAL(timerfd_settime)(descriptor, flags, spec, before);
   Setting setting;
-  if (!take_setting(*spec, (flags & TFD_TIMER_ABSTIME) != 0, timer->clock, setting)) {
+  if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0 ||
+      !take_setting(*spec, (flags & TFD_TIMER_ABSTIME) != 0, timer->clock, setting)) {
     errno = EINVAL;
     return -1;
   }
@@ -148,6 +153,13 @@ namespace {
 
 Setting alarm_setting;
 
+/// Returns false if it is not a time.
+bool take_time(const timeval& given, timespec& time) {
+  if (given.tv_usec < 0 || given.tv_usec >= 1'000'000) return false;
+  time = {given.tv_sec, given.tv_usec * 1'000};
+  return true;
+}
+
 void set_alarm(const Setting& setting) {
   alarm_setting = setting;
   Message message = message_of(0, setting);
@@ -161,13 +173,15 @@ void understudy::host_time::forget_timers() { alarm_setting = {0, 0}; }
 
 UNDERSTUDY_EXPORT int setitimer(__itimer_which_t which, const itimerval* value, itimerval* before) noexcept {
   if (!is_active() || which != ITIMER_REAL) return UNDERSTUDY_REAL(setitimer)(which, value, before);
-  const itimerspec spec = {time_of(ns_of(value->it_interval)), time_of(ns_of(value->it_value))};
+  itimerspec spec = {};
+  const bool is_good = value == nullptr || (take_time(value->it_value, spec.it_value) &&
+                                            take_time(value->it_interval, spec.it_interval));
   Setting setting;
-  if (ns_of(value->it_interval) < 0 || ns_of(value->it_value) < 0 ||
-      !take_setting(spec, false, CLOCK_MONOTONIC, setting)) {
+  if (!is_good || !take_setting(spec, false, CLOCK_MONOTONIC, setting)) {
     errno = EINVAL;
     return -1;
   }
+  if (setting.next_ns == 0) setting.interval_ns = 0;
   if (before != nullptr) getitimer(which, before);
   set_alarm(setting);
   return 0;
@@ -253,10 +267,19 @@ void tell(const SignalTimer& timer) {
 
 }  // namespace
 
-/// Timers that start a thread at each expiry are left to libc, and so are those of processor time.
+namespace {
+
+/// Timers that start a thread at each expiry are left to libc, and what is wrong to the kernel.
+bool is_simulated(const sigevent& event) {
+  if (event.sigev_notify == SIGEV_NONE) return true;
+  const bool is_signal = event.sigev_notify == SIGEV_SIGNAL || event.sigev_notify == SIGEV_THREAD_ID;
+  return is_signal && event.sigev_signo > 0 && event.sigev_signo <= SIGRTMAX;
+}
+
+}  // namespace
+
 UNDERSTUDY_EXPORT int timer_create(clockid_t clock, sigevent* event, timer_t* place) noexcept {
-  const bool is_ours =
-      is_active() && clock_begin_ns(clock) >= 0 && (event == nullptr || event->sigev_notify != SIGEV_THREAD);
+  const bool is_ours = is_active() && is_for_waits(clock) && (event == nullptr || is_simulated(*event));
   if (!is_ours) return UNDERSTUDY_REAL(timer_create)(clock, event, place);
   for (uint32_t i = 0; i < kMaxTimers; ++i) {
     if (__atomic_test_and_set(&timers[i].is_used, __ATOMIC_ACQ_REL)) continue;
@@ -282,10 +305,11 @@ UNDERSTUDY_EXPORT int timer_settime(timer_t place, int flags, const itimerspec* 
   SignalTimer* const timer = is_active() ? timer_of(place) : nullptr;
   if (timer == nullptr) return UNDERSTUDY_REAL(timer_settime)(place, flags, spec, before);
   Setting setting;
-  if (!take_setting(*spec, (flags & TIMER_ABSTIME) != 0, timer->clock, setting)) {
+  if (spec == nullptr || !take_setting(*spec, (flags & TIMER_ABSTIME) != 0, timer->clock, setting)) {
     errno = EINVAL;
     return -1;
   }
+  if (setting.next_ns == 0) setting.interval_ns = 0;
   if (before != nullptr) *before = spec_of(timer->setting);
   timer->setting = setting;
   tell(*timer);

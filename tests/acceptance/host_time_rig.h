@@ -53,6 +53,7 @@ class HostTime : public testing::Test {
     return first;
   }
   const PrivateFolder& folder() const { return folder_; }
+  const std::string& bench() const { return bench_; }
 
  private:
   PrivateFolder folder_;

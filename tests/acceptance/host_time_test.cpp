@@ -219,7 +219,18 @@ TEST_F(HostTime, EndsEveryWaitOfAHostOfThreeThreads) {
             "c11-timeout 1000 good\n"
             "drained-by-tcsetattr 110 good\n"
             "long-write 5729 good\n"
-            "beats 29\n");
+            "select-interrupted 1000 good\n"
+            "poll-interrupted 1000 good\n"
+            "epoll-interrupted 1000 good\n"
+            "nanosleep-interrupted 1000 good\n"
+            "condition-not-interrupted 3000 good\n"
+            "read-restarted 2009 good\n"
+            "semaphore-interrupted 1000 good\n"
+            "read-interrupted 1000 good\n"
+            "select-closed 2000 good\n"
+            "poll-closed 2000 good\n"
+            "read-closed 2000 good\n"
+            "beats 46\n");
 }
 
 TEST_F(HostTime, TellsHowManyCoursesRunsHad) {

@@ -1,10 +1,12 @@
 // A host of three threads that waits in every way that ends. For each it prints how long it took, by its own
 // clock, and whether it ended as it should.
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <signal.h>
 #include <sys/epoll.h>
+#include <sys/select.h>
 #include <sys/time.h>
 #include <sys/timerfd.h>
 #include <termios.h>
@@ -12,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -178,20 +181,116 @@ void wait_for_timers() {
   });
 }
 
-/// The port is set as a host does that waits until everything is sent, and takes more than the kernel keeps.
-void wait_for_the_line() {
+/// Opens the port so that a read waits for the bytes or the tenths of a second.
+int open_port(cc_t bytes, cc_t tenths) {
   const int port = open(std::getenv("UNDERSTUDY_PORT"), O_RDWR | O_NOCTTY);
   termios settings{};
   tcgetattr(port, &settings);
   cfmakeraw(&settings);
   cfsetspeed(&settings, B19200);
+  settings.c_cc[VMIN] = bytes;
+  settings.c_cc[VTIME] = tenths;
   tcsetattr(port, TCSANOW, &settings);
+  return port;
+}
+
+/// The port is set as a host does that waits until everything is sent, and takes more than the kernel keeps.
+void wait_for_the_line() {
+  const int port = open_port(1, 0);
+  termios settings{};
+  tcgetattr(port, &settings);
   static char nothing[10'000];
   tell("drained-by-tcsetattr",
        [&] { return write(port, nothing, 192) == 192 && tcsetattr(port, TCSADRAIN, &settings) == 0; });
   tell("long-write",
        [&] { return write(port, nothing, sizeof nothing) == sizeof nothing && tcdrain(port) == 0; });
   close(port);
+}
+
+/// A signal ends these waits, as signal(7) says: those of descriptors and sleeps always, reads and semaphores
+/// without SA_RESTART, conditions never.
+void wait_until_interrupted() {
+  const int port = open_port(7, 0);
+  const auto tell_interrupted = [](const char* name, const std::function<bool()>& wait) {
+    alarm(1);
+    tell(name, wait);
+  };
+  install(SIGALRM, SA_RESTART);
+  pollfd entry{port, POLLIN, 0};
+  fd_set set;
+  FD_ZERO(&set);
+  FD_SET(port, &set);
+  timeval length{5, 0};
+  tell_interrupted("select-interrupted", [&] {
+    return select(port + 1, &set, nullptr, nullptr, &length) == -1 && errno == EINTR && length.tv_sec == 4;
+  });
+  tell_interrupted("poll-interrupted", [&] { return poll(&entry, 1, 5'000) == -1 && errno == EINTR; });
+  const int epoll = epoll_create1(EPOLL_CLOEXEC);
+  epoll_event event{EPOLLIN, {}};
+  epoll_ctl(epoll, EPOLL_CTL_ADD, port, &event);
+  tell_interrupted("epoll-interrupted",
+                   [&] { return epoll_wait(epoll, &event, 1, 5'000) == -1 && errno == EINTR; });
+  close(epoll);
+  tell_interrupted("nanosleep-interrupted", [] {
+    const timespec asked{5, 0};
+    timespec rest{};
+    return nanosleep(&asked, &rest) == -1 && errno == EINTR && rest.tv_sec == 4;
+  });
+  pthread_cond_t condition = PTHREAD_COND_INITIALIZER;
+  pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  tell_interrupted("condition-not-interrupted", [&] {
+    const timespec end = in(CLOCK_REALTIME, 3);
+    pthread_mutex_lock(&mutex);
+    const int error = pthread_cond_timedwait(&condition, &mutex, &end);
+    pthread_mutex_unlock(&mutex);
+    return error == ETIMEDOUT;
+  });
+  std::array<unsigned char, 7> reply{};
+  std::thread asking([&] {
+    std::this_thread::sleep_for(milliseconds(2'000));
+    constexpr std::array<unsigned char, 8> kRequest{1, 3, 0, 1, 0, 1, 0xD5, 0xCA};
+    if (write(port, kRequest.data(), kRequest.size()) != 8) std::abort();
+  });
+  tell_interrupted("read-restarted", [&] { return read(port, reply.data(), reply.size()) == 7; });
+  asking.join();
+  install(SIGALRM, 0);
+  sem_t semaphore;
+  sem_init(&semaphore, 0, 0);
+  tell_interrupted("semaphore-interrupted", [&] {
+    const timespec end = in(CLOCK_REALTIME, 4);
+    return sem_timedwait(&semaphore, &end) == -1 && errno == EINTR;
+  });
+  tell_interrupted("read-interrupted",
+                   [&] { return read(port, reply.data(), reply.size()) == -1 && errno == EINTR; });
+  close(port);
+}
+
+/// A port that another thread closes ends no wait, as on Linux. Only poll notices it, when it looks again.
+void wait_for_a_closed_port() {
+  const auto tell_closed = [](const char* name, const std::function<bool(int)>& wait) {
+    const int port = open_port(0, 20);
+    std::thread closing([&] {
+      std::this_thread::sleep_for(milliseconds(300));
+      close(port);
+    });
+    tell(name, [&] { return wait(port); });
+    closing.join();
+  };
+  tell_closed("select-closed", [](int port) {
+    fd_set set;
+    FD_ZERO(&set);
+    FD_SET(port, &set);
+    timeval length{2, 0};
+    return select(port + 1, &set, nullptr, nullptr, &length) == 0;
+  });
+  tell_closed("poll-closed", [](int port) {
+    pollfd entry{port, POLLIN, 0};
+    return poll(&entry, 1, 2'000) == 1 && entry.revents == POLLNVAL;
+  });
+  tell_closed("read-closed", [](int port) {
+    char byte = 0;
+    return read(port, &byte, 1) == 0;
+  });
 }
 
 }  // namespace
@@ -208,6 +307,8 @@ int main() {
   wait_for_each_other();
   wait_for_timers();
   wait_for_the_line();
+  wait_until_interrupted();
+  wait_for_a_closed_port();
   is_over = true;
   beating.join();
   std::printf("beats %d\n", beats.load() / 100);

@@ -27,6 +27,7 @@
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/companion.h"
+#include "emulator/serve/host_time/host_library.h"
 #include "emulator/serve/host_time/host_waits.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
@@ -143,6 +144,7 @@ HostTime::~HostTime() {
 }
 
 std::vector<std::pair<std::string, std::string>> HostTime::environment() const {
+  require_host_library(library_path(kHostTimeLibrary));
   return {{"LD_PRELOAD", preload_with(kHostTimeLibrary)}, {host_time::kVariable, place_}};
 }
 
@@ -357,6 +359,7 @@ void HostTime::host_ended() {
   take_from_host();
   log_.finish(line_counts());
   is_host_over_ = true;
+  if (!was_greeted_) hear_all();
   consider();
 }
 

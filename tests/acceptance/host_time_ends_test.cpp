@@ -1,0 +1,116 @@
+// Hosts in simulated time that die, fork, never wait again, or wait for nothing, and two hosts on two lines.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/acceptance/at_terminal.h"
+#include "tests/acceptance/host_time_rig.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace host_time_test {
+
+TEST_F(HostTime, GoesOnWhenPartOfAHostDies) {
+  const Finished child = exec({"sh", "-c", "sleep 1000 & sleep 5; kill -KILL $!; sleep 60; date -u +%T"});
+  EXPECT_EQ(child.output, "00:01:05\n") << child.errors;
+  const Finished parent = exec({"sh", "-c", "sleep 1000 & exec sh -c 'sleep 3; kill -SEGV $$'"});
+  EXPECT_EQ(parent.exit_code, 128 + SIGSEGV) << parent.errors;
+  const Finished thread = python(R"(
+import os, threading, time
+threading.Thread(target=lambda: (time.sleep(3), os._exit(7))).start()
+time.sleep(100)
+)");
+  EXPECT_EQ(thread.exit_code, 7) << thread.errors;
+}
+
+// Its end is often noticed before its greeting.
+TEST_F(HostTime, TakesAHostThatIsOverAtOnce) {
+  for (int run = 0; run < 20; ++run) {
+    const Finished host = exec({"true"});
+    ASSERT_EQ(host.exit_code, 0) << host.errors;
+  }
+}
+
+TEST_F(HostTime, TakesAChildThatPollsInsteadOfItsParent) {
+  const Finished host = python_twice(R"(
+import os, select, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+termios.tcsetattr(port, termios.TCSANOW, settings)
+began = time.monotonic()
+child = os.fork()
+if child == 0:
+    for poll in range(10):
+        os.write(port, bytes.fromhex("010300010001D5CA"))
+        answer = b""
+        while len(answer) < 7 and select.select([port], [], [], 2)[0]:
+            answer += os.read(port, 7)
+        time.sleep(1)
+    os._exit(answer.hex() == "010302c0012984")
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), round(time.monotonic() - began))
+)");
+  EXPECT_EQ(host.output, "1 10\n");
+}
+
+TEST_F(HostTime, TellsOnceThatAHostWaitsForNothing) {
+  for (const char* const wait : {"signal.pause()", "select.select([], [], [])", "select.poll().poll()"}) {
+    const Finished host = python(std::string("import select, signal\n") + wait, {"--timeout", "4s"});
+    EXPECT_EQ(host.exit_code, 124);
+    EXPECT_NE(host.errors.find("the host waits for something outside the bench, such as standard input or "
+                               "another machine, so the clock is stopped\n"),
+              std::string::npos)
+        << wait << ": " << host.errors;
+  }
+}
+
+TEST_F(HostTime, LetsAHostReadItsTerminal) {
+  AtTerminal terminal({UNDERSTUDY_BINARY, "exec", bench(), "--host-time", "--", "/bin/sh", "-c",
+                       "sleep 60; echo name?; read name; sleep 60; echo hello $name at $(date -u +%T)"});
+  ASSERT_TRUE(terminal.shows("name?"));
+  ASSERT_TRUE(terminal.shows("so the clock is stopped")) << terminal.screen();
+  terminal.type("feeder\n");
+  EXPECT_TRUE(terminal.shows("hello feeder at 00:02:00")) << terminal.screen();
+  EXPECT_EQ(terminal.wait(kPatience), 0);
+}
+
+// Both poll for as long, never at the same moment.
+TEST_F(HostTime, KeepsTwoHostsOnTwoLinesApart) {
+  const std::string two = folder().write("two.yaml", R"(understudy: 1
+lines:
+  left: { stations: [ { name: feeder, model: simple2-r3 } ] }
+  right: { stations: [ { name: lift, model: simple2-r3 } ] }
+)");
+  const std::string script = folder().write("host.py", R"(
+import os, select, sys, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT_" + sys.argv[1]], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+termios.tcsetattr(port, termios.TCSANOW, settings)
+time.sleep(float(sys.argv[2]))
+good = 0
+for poll in range(20):
+    os.write(port, bytes.fromhex("010300010001D5CA"))
+    answer = b""
+    while len(answer) < 7 and select.select([port], [], [], 1)[0]:
+        answer += os.read(port, 7)
+    good += answer.hex() == "010302c0012984"
+    time.sleep(float(sys.argv[3]))
+print(sys.argv[1], good, round(time.monotonic() - 3600, 1), flush=True)
+)");
+  const std::string command = std::string(kPython) + " " + script;
+  const std::string both = command + " LEFT 0.0101 0.0201 & " + command + " RIGHT 0.0303 0.0607; wait";
+  const std::string spin = "while :; do :; done";
+  const Process load({"sh", "-c", spin});
+  const Finished hosts =
+      understudy({"exec", two, "--host-time", "--twice", "--timeout", "50s", "--", "sh", "-c", both});
+  EXPECT_EQ(hosts.exit_code, 0) << hosts.errors;
+  EXPECT_EQ(hosts.errors, "understudy: exec: 2 runs, all the same\n");
+  // A request and its reply take 15 characters of 11 bits at 19,200 baud, and the device's silence.
+  EXPECT_EQ(hosts.output, "LEFT 20 0.6\nRIGHT 20 1.4\nLEFT 20 0.6\nRIGHT 20 1.4\n");
+}
+
+}  // namespace host_time_test
+}  // namespace understudy::acceptance
