@@ -53,9 +53,27 @@ function Control({ device, control }) {
       onInput=${(event) => setNumber(event.target.value)} onKeyDown=${(event) => { if (event.key === 'Enter') does(event.target.value); }} /></span>`;
 }
 
-function Listing({ lines, running }) {
+const kMaxOperands = 300;
+const kAround = 60;  // lines around the running one, or from the first on
+
+/// The words of a line that may name a register, a contact or a variable.
+const operandsOf = (line) => [...new Set(line.replace(/[;#].*/, '').match(/\b[A-Za-z_][A-Za-z_]*\d+\b/g) ?? [])];
+
+/// What the operands of a line are now. Words that name nothing have no value.
+function Operands({ device, line }) {
+  const told = operandsOf(line).map((word) => [word, valueOf(`${device}.${word}`)]).filter(([, value]) => typeof value === 'number');
+  return told.length > 0 && html`<small class="operands figure">${told.map(([word, value]) => `${word} = ${grouped(value)}`).join(', ')}</small>`;
+}
+
+function Listing({ device, lines, running }) {
   const list = useRef(null);
   const first = Math.min(...running);
+  const from = Number.isFinite(first) ? Math.max(0, first - kAround) : 0;
+  const operands = [...new Set(lines.slice(from, from + 2 * kAround).flatMap(operandsOf))].slice(0, kMaxOperands);
+  useEffect(() => {
+    want('listing', operands.map((word) => `${device}.${word}`));
+    return () => unwant('listing');
+  }, [device, operands.join()]);
   useEffect(() => {
     const box = list.current;
     const line = box?.children[first - 1];
@@ -64,7 +82,17 @@ function Listing({ lines, running }) {
     if (isOut) box.scrollTop = line.offsetTop - box.clientHeight / 3;  // scrolls only the box, never the page
   }, [first]);
   return html`<ol class="listing" ref=${list} tabindex="0" aria-label="listing">${lines.map((line, i) => html`<li key=${i}
-    class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code></li>`)}</ol>`;
+    class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code><${Operands} device=${device} line=${line} /></li>`)}</ol>`;
+}
+
+// What registers stand for, as far as somebody has asked.
+const meanings = new Map();
+async function learnMeaning(device, name) {
+  const key = `${device}.${name}`;
+  if (meanings.has(key)) return;
+  meanings.set(key, '');
+  const { registers } = await askQuietly({ do: 'registers', device, find: name, count: 20 });
+  meanings.set(key, registers?.find((row) => row.name === name)?.meaning ?? '');
 }
 
 function Values({ device }) {
@@ -72,6 +100,7 @@ function Values({ device }) {
   const whole = (name) => (name.startsWith(`${device.name}.`) ? name : `${device.name}.${name}`);
   useEffect(() => {
     want('program', [...device.state_registers.map(whole), ...names]);
+    for (const name of [...device.state_registers, ...names]) if (device.sections.length > 0) learnMeaning(device.name, name.replace(`${device.name}.`, ''));
     return () => unwant('program');
   }, [device.name, store.bench, names.join()]);
   const add = async (text) => {
@@ -80,7 +109,7 @@ function Values({ device }) {
     if (!names.includes(name)) setNames([...names, name]);
   };
   const row = (name, label, extra) => html`<tr key=${name}><th scope="row">${label}</th>
-    <td class="figure">${grouped(valueOf(name))}</td><td>${extra}</td></tr>`;
+    <td class="figure">${grouped(valueOf(name))}</td><td>${extra}<small>${meanings.get(name)}</small></td></tr>`;
   return html`<div class="values"><table><tbody>
       ${names.map((name) => row(name, name.slice(device.name.length + 1), html`<${Button} kind="small faint" title=${`remove ${name}`}
         does=${() => setNames(names.filter((it) => it !== name))}>×<//>`))}
@@ -168,7 +197,7 @@ export function Program() {
         ? html`<textarea aria-label="program text" rows="24" spellcheck=${false} value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`
         : text === '' ? html`<p class="listing_none">${unread || 'There is no program yet: edit, or load a file.'}</p>`
-        : html`<${Listing} lines=${lines.slice(0, kMaxLines)} running=${running} />`}
+        : html`<${Listing} device=${device.name} lines=${lines.slice(0, kMaxLines)} running=${running} />`}
       <${Values} key=${device.name} device=${device} />
     </div>`;
 }

@@ -63,11 +63,53 @@ function Wheel({ device, terminal }) {
 
 const kTwoLevels = ['digital_in', 'digital_out', 'dip_switch', 'pulse_out'];
 
-function Terminals({ device, kind, terminals }) {
+const kMany = 40;      // more of a kind are in groups,
+const kInAGroup = 16;  // of so many, if the device has no groups for them;
+const kFew = 4;        // fewer share a group
+
+/// A long list falls into the groups that the device names, or that its numbers make. Returns [title, terminals] of each.
+function groupsOf(device, terminals) {
+  if (terminals.length <= kMany) return [['', terminals]];
+  const all = store.devices[device].terminals;
+  const groups = new Map();
+  for (const terminal of terminals) {
+    const at = all.indexOf(terminal);
+    const named = (store.devices[device].groups ?? []).find(({ first, count }) => {
+      const begin = all.findIndex(({ name }) => name === first);
+      return at >= begin && at < begin + count;
+    });
+    const title = named?.name ?? `${(terminal.name.match(/^[^\d]*/)?.[0] || 'others').replace(/[_. ]+$/, '')}`;
+    groups.set(title, [...(groups.get(title) ?? []), terminal]);
+  }
+  const few = [...groups].filter(([, some]) => some.length < kFew);
+  for (const [title] of few) groups.delete(title);
+  if (few.length > 0) groups.set('others', few.flatMap(([, some]) => some));
+  return [...groups].flatMap(([title, some]) => (some.length <= kMany ? [[title, some]]
+    : Array.from({ length: Math.ceil(some.length / kInAGroup) }, (_, i) => {
+      const part = some.slice(i * kInAGroup, (i + 1) * kInAGroup);
+      return [`${part[0].name} to ${part.at(-1).name}`, part];
+    })));
+}
+
+/// How many of a group are on, and whether one has changed: told while the group is closed, too.
+function Group({ device, title, children, terminals, isFirst }) {
+  const wired = terminals.filter((it) => isWired(device, it)).length;
+  const [isOpen, open] = useKept(`group ${title} of ${device}`, isFirst || wired > 0);
+  const lit = terminals.filter((it) => isOn(valueOf(`${device}.${it.name}`))).length;
+  const changed = changedSince();
+  const news = terminals.filter((it) => changed.has(`${device}.${it.name}`)).length;
+  const facts = [`${terminals.length}`, lit > 0 && `${lit} on`, wired > 0 && `${wired} wired`, news > 0 && `${news} changed`].filter(Boolean).join(', ');
+  return html`<details class="group" open=${isOpen} onToggle=${(event) => open(event.currentTarget.open)}><summary>${title} <small>${facts}</small></summary>${isOpen && children}</details>`;
+}
+
+function Terminals({ device, kind, terminals, isNarrowed }) {
   const One = kind === 'counted_in' ? Wheel : kTwoLevels.includes(kind) ? Digital : Analog;
-  return html`<h3>${kTitles[kind] ?? kind}</h3>
-    <div class=${One === Digital ? 'signals' : 'analogs'}>${terminals.map((terminal) =>
+  const list = (some) => html`<div class=${One === Digital ? 'signals' : 'analogs'}>${some.map((terminal) =>
       html`<${One} key=${terminal.name} device=${device} terminal=${terminal} />`)}</div>`;
+  const groups = isNarrowed ? [['', terminals]] : groupsOf(device, terminals);
+  return html`<h3>${kTitles[kind] ?? kind}</h3>
+    ${groups.map(([title, some], i) => (title === '' ? list(some)
+      : html`<${Group} key=${title} device=${device} title=${title} terminals=${some} isFirst=${i === 0}>${list(some)}<//>`))}`;
 }
 
 /// Of those that were seen: whatever has had another level before.
@@ -101,8 +143,9 @@ export function Signals() {
       ${Object.keys(kTitles).map((kind) => [kind, device.terminals.filter((it) => it.kind === kind && fits(it, device.name))])
         .filter(([, terminals]) => terminals.length > 0)
         .map(([kind, terminals]) => html`<${Terminals} key=${kind} device=${device.name} kind=${kind}
-          terminals=${terminals} />`)}
+          terminals=${terminals} isNarrowed=${filter !== '' || which !== 'all'} />`)}
     </section>`)}
+    ${devices.map((device) => device.terminals.length === 0 && html`<p key=${device.name}>${device.name} has no terminals: it has only registers.</p>`)}
     ${(store.bench?.wires ?? []).length > 0 && html`<h2>Wires</h2><ul class="wires">${store.bench.wires.map((wire) =>
       html`<li key=${wire.from + wire.to}>${wire.from} → ${wire.to}</li>`)}</ul>`}`;
 }
