@@ -355,11 +355,10 @@ void HostTime::accompany(Companion* companion) {
 }
 
 void HostTime::host_ended() {
-  hear_all();  // the end of a short-lived host may be noticed before its greeting
   take_from_host();
   log_.finish(line_counts());
   is_host_over_ = true;
-  if (!was_greeted_) hear_all();
+  if (!was_greeted_) hear_all();  // the end of a short-lived host may be noticed before its greeting
   consider();
 }
 
