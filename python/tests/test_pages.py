@@ -48,7 +48,7 @@ def test_python_page(snippet, tmp_path, monkeypatch):
 
 def test_pytest_page(pytester):
     pytester.makepyfile(**{f"test_{number}": text for number, text in enumerate(snippets("pytest.md"))})
-    pytester.runpytest_subprocess("-p", "understudy.pytest_plugin").assert_outcomes(passed=8)
+    pytester.runpytest_subprocess("-p", "understudy.pytest_plugin").assert_outcomes(passed=9)
 
 
 def test_a_snippet_that_is_wrong_fails(pytester):

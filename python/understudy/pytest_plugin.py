@@ -36,6 +36,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "understudy(bench=None, **arguments): what the fixture `bench` starts")
+    config.addinivalue_line("markers", "understudy_hunt(scenario, courses=2000, seed=0, command=None, flags=()): hunts in "
+                                       "this scenario before the test, which fails with what is found")
 
 
 def part_of_coverage(config: pytest.Config, number: str) -> Optional[Path]:
@@ -172,6 +174,33 @@ def run_host(request: pytest.FixtureRequest,
         return exec_host(bench, command, *flags, **settings)
 
     return run
+
+
+@pytest.fixture
+def hunt(tmp_path: Path) -> Callable[..., str]:
+    """Searches for what breaks a scenario, like `understudy hunt`. The test fails with what is found; the findings are
+    in the folder `found` of `tmp_path`. Returns what the hunt has printed."""
+
+    def run(scenario: Any, courses: int = 2000, seed: int = 0, command: Optional[Sequence[str]] = None,
+            flags: Sequence[str] = ()) -> str:
+        words = [program_path(), "hunt", str(scenario), "--courses", str(courses), "--seed", str(seed), "--found",
+                 str(tmp_path / "found"), *flags, *(["--", *map(str, command)] if command else [])]
+        done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                              check=False)
+        if done.returncode == 1:
+            pytest.fail(f"understudy hunt {scenario}:\n{done.stdout}", pytrace=False)
+        if done.returncode != 0:
+            pytest.fail(f"understudy hunt {scenario}: exit code {done.returncode}\n{done.stderr}", pytrace=False)
+        return done.stdout
+
+    return run
+
+
+@pytest.fixture(autouse=True)
+def _hunt_of_marker(request: pytest.FixtureRequest) -> None:
+    marker = request.node.get_closest_marker("understudy_hunt")
+    if marker:
+        request.getfixturevalue("hunt")(*marker.args, **marker.kwargs)
 
 
 @pytest.fixture

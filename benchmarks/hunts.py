@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Measures how long hunts take to find the planted faults of tests/planted_faults, and how many courses.
+
+    benchmarks/hunts.py BUILD_FOLDER [--seeds 10] [--limit 300] [--mended 2000] [--only NAME ...]
+    benchmarks/hunts.py BUILD_FOLDER --rate 20000
+
+Each fault is hunted with each seed, with guidance and without, until it is found. Then its mended twin is hunted for a
+number of courses, with seed 0. Prints the table of docs/hunt.md. With --rate, it measures how long courses of one
+simulated second take, and as many cases of a campaign that do the same.
+"""
+
+import argparse
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+FAULTS = PROJECT / "tests" / "planted_faults"
+
+
+class Fault:
+    """A scenario with `hunt`."""
+
+    def __init__(self, path):
+        self.path = path
+        self.name = path.stem
+        self.text = path.read_text()
+
+    def of_kind(self, kind, folder):
+        """Returns the path of the scenario with the fault ("careless"), or of its mended twin ("careful")."""
+        if kind == "careless":
+            return str(self.path)
+        change = re.search(r"^# mended by: (.*)", self.text, re.M)[1]
+        mended = pathlib.Path(folder) / self.path.name
+        script = "/^#/!{\n" + change + "\n}"
+        mended.write_text(subprocess.run(["sed", "-E", script, self.path], stdout=subprocess.PIPE, text=True,
+                                         check=True).stdout)
+        return str(mended)
+
+
+def hunt(build, fault, kind, flags, limit=None):
+    """Hunts until something is found, or to the end. Returns seconds, course and text of the finding, or None."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [str(build / "understudy"), "hunt", fault.of_kind(kind, folder)] + flags + ["--found", folder]
+        if limit:
+            words[3:3] = ["--for", f"{limit}s"]
+        begin = time.monotonic()
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=FAULTS) as process:
+            for line in process.stdout:
+                course = re.match(r" +course (\d+): ", line)
+                if not course:
+                    continue
+                seconds = time.monotonic() - begin
+                process.terminate()
+                process.stdout.read()
+                found = next(pathlib.Path(folder).glob(f"{fault.name}-*.yaml")).read_text()
+                return seconds, int(course[1]), found
+            errors = process.stderr.read()
+        if process.returncode != 0:
+            sys.exit(f"{fault.name}: {errors}")
+        return None
+
+
+def middle(values):
+    return statistics.median(values) if values else float("nan")
+
+
+# A second of a controller with a program, and something that happens in it.
+RATE = """understudy: 1
+name: a second
+bench: {{ lines: {{ rs485: {{ stations: [ {{ name: feeder, model: simple2-r3 }} ] }} }} }}
+{vary}
+steps:
+  - program:
+      feeder: |
+        again:  Wait_IO DIN_10 ON
+                Counter_Increase 1
+                Delay_mSec 50
+                Wait_IO DIN_10 OFF
+                Jump again
+  - write: {{ PROG_MAIN_RunTime_START: 0 }}
+{inject}
+  - advance: 995ms
+"""
+HUNTED = """hunt:
+  may: [ inject: { stuck: feeder.DIN_10, level: on, for: { between: [ 1ms, 50ms ] } } ]
+  never: feeder.A.speed != 0
+"""
+
+
+def measure_rate(build, courses):
+    with tempfile.TemporaryDirectory() as folder:
+        hunted, campaign = pathlib.Path(folder, "hunted.yaml"), pathlib.Path(folder, "campaign.yaml")
+        hunted.write_text(RATE.format(vary="", inject="  - say: now") + HUNTED)
+        inject = ("  - never: feeder.A.speed != 0\n  - inject: { stuck: feeder.DIN_10, level: on, for: 20ms, "
+                  "at: \"${at}\" }")
+        vary = f"vary: {{ at: {{ between: [ 1000us, 900000us ], samples: {courses} }} }}"
+        campaign.write_text(RATE.format(vary=vary, inject=inject))
+        for name, words in (("a hunt", ["hunt", hunted, "--courses", str(courses), "--found", folder]),
+                            ("an unguided hunt", ["hunt", hunted, "--courses", str(courses), "--found", folder,
+                                                  "--unguided"]),
+                            ("a campaign", ["run", campaign])):
+            begin = time.monotonic()
+            subprocess.run([build / "understudy", *words], check=True, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
+            seconds = time.monotonic() - begin
+            print(f"{name}: {courses} courses in {seconds:.1f} s, {courses / seconds * 60:.0f} a minute")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--limit", type=int, default=300, help="seconds for each hunt")
+    parser.add_argument("--mended", type=int, default=2000, help="courses of each mended twin; 0: none")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", nargs="*", default=[])
+    parser.add_argument("--guided-alone", action="store_true")
+    parser.add_argument("--rate", type=int, help="measure so many courses")
+    given = parser.parse_args()
+    if given.rate:
+        return measure_rate(given.build, given.rate)
+    measure(given)
+
+
+def measure(given):
+    print("| fault | found | seconds | courses | disturbances | steps | unguided: found | courses | mended |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    medians = []
+    for path in sorted(FAULTS.glob("*.yaml")):
+        if given.only and path.stem not in given.only:
+            continue
+        fault = Fault(path)
+        columns = {}
+        for guidance in ([], ["--unguided"])[: 1 if given.guided_alone else 2]:
+            columns[bool(guidance)] = [
+                hunt(given.build, fault, "careless", ["--seed", str(seed), "--jobs", str(given.jobs)] + guidance,
+                     given.limit) for seed in range(given.seeds)]
+        guided = [one for one in columns[False] if one]
+        unguided = [one for one in columns.get(True, []) if one]
+        disturbances = [one[2].count("# disturbance ") for one in guided]
+        steps = [one[2].count("\n  - ") for one in guided]
+        medians.append((middle([one[1] for one in guided]), middle([one[1] for one in unguided])))
+        mended = "–"
+        if given.mended:
+            found = hunt(given.build, fault, "careful", ["--courses", str(given.mended), "--jobs", str(given.jobs)])
+            mended = "found" if found else "none"
+        print(f"| {fault.name} | {len(guided)}/{given.seeds} | {middle([one[0] for one in guided]):.1f} | "
+              f"{medians[-1][0]:.0f} | {middle(disturbances):.0f} | {middle(steps):.0f} | "
+              f"{len(unguided)}/{given.seeds} | {medians[-1][1]:.0f} | {mended} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
