@@ -8,6 +8,30 @@
 
 namespace understudy::emulator::command_line {
 
+/// The flags of a stage with real controllers, but for its ports.
+inline void add_stage_flags(CLI::App& command, OnArguments& on) {
+  command.add_flag("--allow-writes", on.allow_writes,
+                   "Also send what only changes values [nothing but reads is sent]");
+  command.add_flag("--allow-memory", on.allow_memory,
+                   "Also send what changes memory; it includes --allow-writes");
+  command.add_flag("--allow-outputs", on.allow_outputs,
+                   "Also send what may switch an output; it includes --allow-writes");
+  command.add_flag("--allow-motion", on.allow_motion,
+                   "Also send what may move an axis, and everything else. KEEP CLEAR OF THE MACHINE");
+  command
+      .add_option("--envelope", on.envelope,
+                  "File of limits for targets, speeds and distances; what is beyond them is not sent")
+      ->check(kNotEmpty);
+  command
+      .add_option("--rig", on.rig,
+                  "Command for what needs the machine, called as `COMMAND input feeder.DIN_2 on`")
+      ->check(kNotEmpty);
+  command.add_flag("--ask", on.ask, "Ask the person at the terminal for what needs the machine");
+  command.add_flag("--plan", on.plan, "Print every request, and send nothing");
+  command.add_option("--reply-timeout", on.timeout, "How long to wait for a reply of a real controller")
+      ->capture_default_str();
+}
+
 inline void add_photograph_flags(CLI::App& command, PhotographArguments& photograph) {
   command
       .add_option(
@@ -30,6 +54,18 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
   command.add_option("--modules", photograph.modules, "Modules of the chain to ask [those of PN50]");
   command.add_option("--timeout", photograph.timeout, "How long to wait for a reply")->capture_default_str();
   command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
+}
+
+inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
+  command.add_option("PORT", probe.port, "The controller's port, as for photograph")
+      ->required()
+      ->check(kNotEmpty);
+  command.add_option("--model", probe.model, "The controller's model")->required()->check(kNotEmpty);
+  command.add_option("-o,--output", probe.output, "Evidence to write: FILE.json")->check(kNotEmpty);
+  command.add_option("--station", probe.station, "Station to ask [that of the proofs]");
+  command.add_option("--proofs", probe.proofs, "Folder of proofs [the one that comes with this program]")
+      ->check(kNotEmpty);
+  add_stage_flags(command, probe.on);
 }
 
 inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {

@@ -74,6 +74,20 @@ struct HostArguments {
   bool tty_shim = false;
   bool host_time = false;  // the command runs in simulated time
 };
+/// A stage with real controllers.
+struct OnArguments {
+  std::vector<std::string> on;  // LINE=PORT; none: the controllers are simulated
+  bool allow_writes = false;
+  bool allow_memory = false;
+  bool allow_outputs = false;
+  bool allow_motion = false;
+  std::string envelope;  // a file of limits
+  std::string rig;       // a command
+  bool ask = false;
+  bool plan = false;
+  std::string timeout = "300ms";  // of a reply
+};
+
 struct RunArguments {
   std::vector<std::string> scenarios;  // files
   bool real_time = false;
@@ -97,10 +111,22 @@ struct RunArguments {
   std::optional<double> coverage_min;  // per cent of the lines
   std::string device_coverage;         // a file
   HostArguments host{};                // a command that runs beside each scenario, if it has words
-  std::string timeout;                 // a duration: for the command
-  std::string version;                 // the version of this program
+  OnArguments on{};
+  std::string timeout;  // a duration: for the command
+  std::string version;  // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
+
+struct ProbeArguments {
+  std::string port;
+  std::string model;
+  std::string output;  // the evidence
+  std::string proofs;  // a folder; empty: the one that comes with the program
+  std::optional<int> station{};
+  OnArguments on{};  // its `on` is not used
+};
+/// Plays the proofs of choices with a real controller.
+int probe_box(ModelList models, const ProbeArguments& arguments);
 
 struct HuntArguments {
   std::string scenario;  // a file with `hunt`

@@ -52,6 +52,7 @@ struct CommandLine {
   DapArguments dap;
   PollArguments poll;
   PhotographArguments photograph;
+  ProbeArguments probe;
   CompareArguments compare;
   CalibrateArguments calibrate;
   PlotArguments plot;
@@ -255,6 +256,11 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return take_photograph(models, photograph); }; });
   }
 
+  void add_probe(CLI::App& command) {
+    add_probe_flags(command, probe);
+    command.callback([this] { chosen = [this] { return probe_box(models, probe); }; });
+  }
+
   void add_compare(CLI::App& command) {
     add_compare_flags(command, compare);
     command.add_flag("--json", compare.json, "Print the result as JSON");
@@ -376,6 +382,8 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"photograph", "Read everything that a real controller reports, into an NV image",
      &CommandLine::add_photograph},
+    {"probe", "Play proofs with a real controller, to learn which options of choices it has",
+     &CommandLine::add_probe},
     {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
     {"calibrate", "Find the choices with which a bench replies like a real controller",
      &CommandLine::add_calibrate},

@@ -34,9 +34,10 @@ using RunVerdict = play::ScenarioResult::Verdict;
 
 void print(const play::ScenarioResult& result, bool with_hash, std::FILE* to) {
   std::fprintf(to, "%s\n", coloured_verdict(play::verdict_line(result), wants_colour(fileno(to))).c_str());
-  if (with_hash && result.verdict != RunVerdict::not_reached) {
+  if (with_hash && result.verdict != RunVerdict::not_reached && result.verdict != RunVerdict::not_tellable) {
     std::fprintf(to, "hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
   }
+  for (const std::string& line : play::skipped_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
   for (const std::string& line : play::failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
 }
 
@@ -99,9 +100,14 @@ void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t ma
 
 bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                          const std::function<std::vector<play::ScenarioResult>()>& again) {
+  if (arguments_.on.plan) {  // nothing was judged
+    for (const std::string& line : play::skipped_lines(result)) std::fprintf(told_, "  %s\n", line.c_str());
+    return false;
+  }
   const play::FailureKinds::Kind* const kind = result.failure ? kinds_.add(result) : nullptr;
   const bool is_new = kind != nullptr && kind->count == 1;
-  if (is_new && result.recording.empty() && !result.is_unreadable) {
+  const bool may_play_again = arguments_.on.on.empty();  // a real machine does not move for a recording
+  if (is_new && may_play_again && result.recording.empty() && !result.is_unreadable) {
     for (play::ScenarioResult& other : again()) {
       if (other.branch == result.branch) {
         result.recording = std::exchange(other.recording, {});
@@ -136,6 +142,7 @@ void RunAccount::note_lint_findings(const play::ScenarioResult& result) {
 }
 
 void RunAccount::finish() {
+  if (arguments_.on.plan) return;
   for (const auto& file : rows_) file->finish();
   for (const play::FailureKinds::Kind& kind : kinds_.all()) {
     if (kind.varied < 2) continue;

@@ -26,6 +26,7 @@
 #include "emulator/command_line/device_coverage_file.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/host_case.h"
+#include "emulator/command_line/on_stage.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_account.h"
@@ -50,6 +51,7 @@
 #include "emulator/serve/host_time/host_program.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::command_line {
 
@@ -187,6 +189,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
 constexpr int kRealTimeJobs = 8;
 
 int jobs_of(const RunArguments& arguments) {
+  if (!arguments.on.on.empty()) return 1;  // there is one machine
   if (!arguments.jobs) {
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     return arguments.real_time ? std::max(cores, kRealTimeJobs) : cores;
@@ -214,7 +217,7 @@ void require_flags_that_agree(const RunArguments& arguments) {
 
 /// Returns how failures get their recordings.
 Recorded recorded_by(const RunArguments& arguments) {
-  if (has_command(arguments)) return Recorded::apart;
+  if (has_command(arguments) || is_on_box(arguments)) return Recorded::apart;
   return arguments.real_time ? Recorded::always : Recorded::again;
 }
 
@@ -229,6 +232,13 @@ class Stagehand {
       options_.observers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
     }
     if (arguments.real_time) options_.make_executor = play::make_real_executor;
+    if (is_on_box(arguments)) {
+      options_.with_hash = false;
+      on_stage_ = std::make_shared<OnStage>(arguments.on);
+      options_.make_executor = [stage = on_stage_](const play::Scenario& scenario) {
+        return stage->make(scenario);
+      };
+    }
   }
 
   std::vector<play::ScenarioResult> play(play::CaseReader& reader, const play::CaseId& which_case,
@@ -238,6 +248,7 @@ class Stagehand {
       play::RunOptions options = options_;
       // For varied cases, the run log is made only when a case is shown, because there may be any number of
       // them.
+      if (is_on_box(arguments_)) return play_on_box(*scenario);
       if (!arguments_.report.empty() && !scenario->which.is_varied) options.observers.push_back(run_logger());
       add(options, files_.observers(*scenario));
       add(options, coverage_.observers(*scenario));
@@ -261,6 +272,29 @@ class Stagehand {
   }
 
  private:
+  /// A port that is lost fails the case. One that cannot be opened at all ends the run.
+  std::vector<play::ScenarioResult> play_on_box(const play::Scenario& scenario) const {
+    if (arguments_.on.plan)
+      std::printf("%s: %s\n", one_line(scenario.file).c_str(), one_line(scenario.name).c_str());
+    bool was_opened = false;
+    play::RunOptions options = options_;
+    options.make_executor = [&](const play::Scenario& of) {
+      auto executor = options_.make_executor(of);
+      was_opened = true;
+      return executor;
+    };
+    try {
+      return play::run_scenario(scenario, options);
+    } catch (const pty::PortError& error) {
+      if (!was_opened) throw;
+      play::ScenarioResult result{
+          .verdict = play::ScenarioResult::Verdict::failed, .name = scenario.name, .file = scenario.file};
+      result.which = scenario.which;
+      result.failure = play::Failure{.what = one_line(error.what())};
+      return {std::move(result)};
+    }
+  }
+
   static play::ObserverMaker run_logger() {
     return [](world::World& world) { return std::make_unique<play::RunLogger>(world); };
   }
@@ -293,6 +327,7 @@ class Stagehand {
   const RunArguments& arguments_;
   RunFiles& files_;
   RunCoverage& coverage_;
+  std::shared_ptr<OnStage> on_stage_{};  // null: the controllers are simulated
   play::RunOptions options_{};
 };
 
@@ -348,6 +383,7 @@ std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const s
 int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
   require_flags_that_agree(arguments);
+  require_flags_of_boxes(arguments);
   const std::string maker = maker_of(arguments);
   const play::Shard shard = shard_of(arguments);
   play::CaseList case_list(
@@ -373,6 +409,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   play::Selection selection(case_list, arguments.filter, shard);
   const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
   Players players(stagehand, case_list, has_command(arguments), threads);
+  bool was_interrupted = false;
   {
     ProgressLine progress(total);
     const auto next = [&] {
@@ -388,20 +425,25 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
       }
       return which_case;
     };
-    play::run_suite(
-        next, [&] { return players.make(); }, threads,
-        [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
-          account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
-                      [&] { return stagehand.play_again(reader, which_case); });
-        });
+    try {
+      play::run_suite(
+          next, [&] { return players.make(); }, threads,
+          [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
+            account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
+                        [&] { return stagehand.play_again(reader, which_case); });
+          });
+    } catch (const play::ExecutionAborted&) {  // of a stage with real controllers, whose machine has stopped
+      was_interrupted = true;
+    }
   }
   account.finish();
+  if (was_interrupted) std::fprintf(stderr, "understudy: interrupted; the other scenarios were not played\n");
   if (play::Junit* const results = account.junit()) {
     results->write([&](std::string_view piece) { junit.write(piece); });
   }
   const bool is_enough = coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
   if (report.is_wanted()) report.write(account.report(coverage.section()));
-  const int code = account.exit_code();
+  const int code = was_interrupted ? static_cast<int>(kExitFailed) : account.exit_code();
   return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;
 }
 

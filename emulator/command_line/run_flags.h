@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 
+#include "emulator/command_line/box_flags.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/serving_flags.h"
 
@@ -51,6 +52,13 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
       ->required();
   command.add_flag("--real-time", run.real_time,
                    "Run in real time over real ports, with libmodbus as the host");
+  command
+      .add_option("--on", run.on.on,
+                  "LINE=PORT: play the scenarios with a real controller at this port, instead of the bench's "
+                  "devices on that line; can be given for several lines. PORT is as for photograph")
+      ->allow_extra_args(false)
+      ->check(kNotEmpty);
+  add_stage_flags(command, run.on);
   command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
       ->check(kNotEmpty);
   command

@@ -15,6 +15,7 @@
 #include "base/choices.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
+#include "emulator/device/hazards.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
@@ -207,6 +208,13 @@ struct FirstFiles {
   std::string_view steps;
 };
 
+/// A step that stops everything that moves: a register and its value, a command of the window, or a line of
+/// text, whichever the model has.
+struct StopStep {
+  std::string_view text;
+  Value value = 1;  // of a register
+};
+
 struct Model {
   std::string_view name;  // "simple2-r3"
   std::string_view title;
@@ -229,6 +237,11 @@ struct Model {
   LineRules line;
   std::optional<RtuRules> rtu{};            // for a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none
+  std::span<const StopStep> stop{};         // in this order; none: it cannot be stopped over its line
+  /// Returns what a message to the window can do; null: there is no window.
+  Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
+  /// Returns what a line of text can do; null: it takes no lines.
+  Hazards (*hazards_of_line)(std::string_view line) = nullptr;
   int most_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
   /// The description file's text with everything that belongs to it, if a file describes the model.
   /// ModelFiles::parse() makes the same model from it.

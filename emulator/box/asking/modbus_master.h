@@ -2,14 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
 #include "emulator/box/asking/asked.h"
+#include "emulator/box/asking/modbus_exchange.h"
 #include "emulator/box/wire/wire.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/executor.h"
-#include "pty/line_settings.h"
 
 namespace understudy::emulator::box {
 
@@ -21,24 +19,15 @@ struct ReadReply {
 
 class ModbusMaster {
  public:
-  struct Settings {
-    int station = 1;
-    WallTime timeout{0};
-    WallTime silence{0};  // before each request
-    bool is_tcp = false;  // Modbus TCP: a header instead of a checksum
-  };
-  ModbusMaster(Wire& wire, const Settings& settings) : wire_(wire), settings_(settings) {}
+  using Settings = ModbusExchange::Settings;
+  ModbusMaster(Wire& wire, const Settings& settings)
+      : exchange_(wire, settings), station_(settings.station) {}
 
   ReadReply read(Table table, std::uint16_t first, int count);
 
  private:
-  Bytes exchange(const Bytes& request, Asked& asked);
-  Bytes exchange_tcp(const Bytes& request, Asked& asked);
-
-  Wire& wire_;
-  Settings settings_;
-  WallTime quiet_since_{0};
-  std::uint16_t transaction_ = 0;
+  ModbusExchange exchange_;
+  int station_;
 };
 
 }  // namespace understudy::emulator::box

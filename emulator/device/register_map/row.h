@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/simulated_time.h"
+#include "emulator/device/hazards.h"
 #include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator {
@@ -194,12 +195,18 @@ struct RegisterRow {
   bool is_view = false;  // shows other state: no slot in the image, not persistent; without a reader its
                          // value is `factory`
   std::span<const BitField> fields{};
-  Message message = nullptr;         // of a window: takes what one request writes from its first word on,
-  int least_words = 1;               // if it is at least this many words
-  bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
-  std::string_view not_implemented;  // if the register only stores and reads back: what is missing
+  Message message = nullptr;            // of a window: takes what one request writes from its first word on,
+  int least_words = 1;                  // if it is at least this many words
+  bool acts_on_zero = true;             // false: a trigger, for which a written 0 has no effect
+  std::string_view not_implemented;     // if the register only stores and reads back: what is missing
+  Hazards hazards = Hazards::unmarked;  // of a write; see hazards_of()
 
   // --- how a row is written down ---------------------------------------------------------------
+  /// Says what a write can do in a real controller.
+  constexpr RegisterRow& may(Hazards what) {
+    hazards = what;
+    return *this;
+  }
   constexpr RegisterRow& also(std::string_view other_spelling) {
     alias = other_spelling;
     return *this;
@@ -352,6 +359,28 @@ constexpr RegisterRow coil(std::uint16_t address, std::string_view name, Access 
 }
 constexpr RegisterRow discrete(std::uint16_t address, std::string_view name) {
   return reg(Table::discrete, address, name, Type::bit, Access::read);
+}
+
+constexpr bool can_be_written(const RegisterRow& row) {
+  return row.access != Access::read && (row.table == Table::holding || row.table == Table::coil);
+}
+/// Returns what a write to a register of the row can do. At least, a value changes.
+constexpr Hazards hazards_of(const RegisterRow& row) {
+  if (!can_be_written(row)) return Hazards::settings;  // the manual says that nothing happens
+  return row.hazards | Hazards::settings | (row.persistent ? Hazards::memory : Hazards::reads);
+}
+/// Returns true if every row that can be written says what a write can do. Each built-in model requires this
+/// when it is compiled.
+constexpr bool are_marked(std::span<const RegisterRow> rows) {
+  for (const RegisterRow& row : rows) {
+    if (can_be_written(row) && row.hazards == Hazards::unmarked) return false;
+  }
+  return true;
+}
+/// Returns rows with the mark, if they have none of their own.
+constexpr RegisterRow marked(RegisterRow row, Hazards hazards) {
+  if (row.hazards == Hazards::unmarked) row.hazards = hazards;
+  return row;
 }
 
 /// Declares words that one request writes as one message. "{}" in the name stands for the word's number.

@@ -11,6 +11,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/command_hazards.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/first_files.h"
@@ -104,6 +105,8 @@ constexpr ProofRow kProofs[] = {
     {"tables", "12"},
 };
 
+constexpr StopStep kStop[] = {{"RSM_EMERGENCY_STOP 0"}};
+
 }  // namespace
 
 const Model& model() {
@@ -131,6 +134,8 @@ const Model& model() {
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{1, 247}},
       .rtu = RtuRules{.end_silence = std::chrono::milliseconds(3), .functions = kServedFunctions},
       .first_files = &kFirstFiles,
+      .stop = kStop,
+      .hazards_of_command = hazards_of_command,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<RsM8194h>(settings);
       },

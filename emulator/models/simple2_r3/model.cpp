@@ -127,6 +127,8 @@ constexpr ProofRow kProofs[] = {
     {"program_instructions", "程式指令列表"},
 };
 
+constexpr StopStep kStop[] = {{"ALL_STOP"}, {"PROG_MAIN_RunTime_END"}, {"ALL_STOP"}};
+
 }  // namespace
 
 const Model& model() {
@@ -152,6 +154,7 @@ const Model& model() {
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
                       .functions = kFunctions},
       .first_files = &kFirstFiles,
+      .stop = kStop,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Simple2R3>(settings);
       },

@@ -11,6 +11,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/text/text_port.h"
+#include "emulator/models/slim/command_hazards.h"
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/first_files.h"
 #include "emulator/models/slim/language.h"
@@ -134,6 +135,8 @@ constexpr std::array<std::string_view, 5> kGaps{
      "refused. If PR3 of one module changes in motion, the path stays the same."),
 };
 
+constexpr StopStep kStop[] = {{"TASTOP"}};
+
 }  // namespace
 
 const Model& model() {
@@ -156,6 +159,8 @@ const Model& model() {
       .gaps = kGaps,
       .line = line_of_text(kPorts),
       .first_files = &kFirstFiles,
+      .stop = kStop,
+      .hazards_of_line = hazards_of_line,
       .most_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

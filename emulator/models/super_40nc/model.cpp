@@ -119,6 +119,8 @@ constexpr ProofRow kProofs[] = {
     {"sequence", "Sequence指令一覽表|CAL , RET 指令|TMR 指令|指令一覽表"},
 };
 
+constexpr StopStep kStop[] = {{"M8002"}};
+
 }  // namespace
 
 const Model& model() {
@@ -141,6 +143,7 @@ const Model& model() {
       .rtu = RtuRules{.end_silence = std::chrono::nanoseconds(3'500'000'000LL * kCharacterBits / kBauds[0]),
                       .functions = kFunctions},
       .first_files = &kFirstFiles,
+      .stop = kStop,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Super40nc>(settings);
       },

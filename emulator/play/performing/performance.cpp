@@ -14,9 +14,11 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
+#include "emulator/play/performing/performance_on_box.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/box_stage.h"
 #include "emulator/play/stages/executor.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/expression/expression.h"
@@ -109,9 +111,11 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
     eyes_ = std::make_unique<Eyes>(world, with_hash);
     if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // must come before the watchers that need peaks
   });
+  if (BoxStage* const box = executor_->box()) on_box_ = std::make_unique<OnBox>(*this, *box);
 }
 
 Performance::~Performance() {
+  on_box_.reset();
   executor_->with_world([&](world::World& world) {
     world.remove_watcher(eyes_->peaks);
     world.remove_watcher(eyes_->spans);
@@ -123,6 +127,7 @@ Performance::~Performance() {
 std::optional<Failure> Performance::play(std::span<const Step> steps) {
   const Step& step = steps.front();
   step_ = &step;
+  if (on_box_) return on_box_->play(step);
   try {
     const bool may_write =
         std::holds_alternative<WriteStep>(step.what) || std::holds_alternative<CommandStep>(step.what) ||
@@ -148,6 +153,17 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
   } catch (const FileError& error) {
     return explain_failure(StepError(error.what()));
   }
+}
+
+std::optional<Failure> Performance::begin_on_box() { return on_box_->begin(); }
+
+world::Number Performance::present_value(const std::string& expression) {
+  if (on_box_) return on_box_->value_of(expression);
+  world::Number value;
+  executor_->with_world([&](world::World&) {
+    value = world::evaluate(world::parse_expression(expression, eyes_->probes), eyes_->probes);
+  });
+  return value;
 }
 
 void Performance::throw_if_broken() {

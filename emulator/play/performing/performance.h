@@ -61,6 +61,13 @@ class Performance {
   /// Executes the first of `steps`, which must not be a snapshot, a restore or a fork. The steps after it
   /// show what will be waited for.
   std::optional<Failure> play(std::span<const Step> steps);
+  /// Returns true if the controllers are real. Then steps may be skipped.
+  bool is_on_box() const { return on_box_ != nullptr; }
+  /// Returns why the last step was not executed, or an empty text.
+  const std::string& skipped() const { return skipped_; }
+  /// Brings a real controller into the state in which the scenario begins, as far as it can be asked or
+  /// written over the line. Called before the first step.
+  std::optional<Failure> begin_on_box();
 
   Checkpoint save();
   void restore(const Checkpoint& checkpoint);
@@ -71,6 +78,9 @@ class Performance {
   std::uint64_t outcome_hash();
 
  private:
+  class OnBox;  // performance_on_box.h
+  friend struct StepOnBox;
+
   /// The observers of the world.
   struct Eyes {
     Eyes(world::World& of, bool with_hash);
@@ -137,10 +147,14 @@ class Performance {
   void perform(const RestoreStep&) {}
   void perform(const ForkStep&) {}
 
+  /// Returns the value at this moment: of the world, or as a real controller tells it.
+  world::Number present_value(const std::string& expression);
   void throw_if_broken();
   Failure explain_failure(const StepError& error);
 
   std::unique_ptr<Executor> executor_;
+  std::unique_ptr<OnBox> on_box_;  // null: the controllers are those of the world
+  std::string skipped_;
   HostCommand* command_;
   const world::Bench& bench_;
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device

@@ -130,13 +130,8 @@ void Performance::perform(const WriteStep& step) {
   std::vector<Target> targets;
   std::vector<Value> values;
   for (const WriteStep::Entry& entry : step.entries) targets.push_back(entry.target);
-  executor_->with_world([&](world::World&) {
-    for (const WriteStep::Entry& entry : step.entries) {
-      const world::Number value =
-          world::evaluate(world::parse_expression(entry.value, eyes_->probes), eyes_->probes);
-      values.push_back(require_fitting(entry.target, value));
-    }
-  });
+  for (const WriteStep::Entry& entry : step.entries)
+    values.push_back(require_fitting(entry.target, present_value(entry.value)));
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   for (const Request& request : write_requests(words, [&](std::size_t i) { return is_bit(targets[i]); })) {
@@ -211,9 +206,7 @@ void Performance::perform(const ExpectStep& step) {
       holds = entry.value.holds(value);
     };
     if (target.is_value) {
-      executor_->with_world([&](world::World&) {
-        look(world::evaluate(world::parse_expression(target.name, eyes_->probes), eyes_->probes));
-      });
+      look(present_value(target.name));
     } else {
       told = "not a number";
       if (const auto number = number_of(target, value_in(target, words[next], low_word_first[next])))

@@ -28,6 +28,19 @@ using Checkpoints = std::map<std::string, Checkpoint>;
 
 constexpr std::string_view kBranch = " / ";  // between the name of a scenario and that of a branch
 
+/// Returns whether a step compares something with what was expected.
+struct Judges {
+  bool operator()(const WriteStep& step) const { return !step.answer.is_good(); }
+  bool operator()(const CommandStep& step) const { return !step.answer.is_good(); }
+  bool operator()(const ExpectStep&) const { return true; }
+  bool operator()(const SendStep& step) const { return step.reply.has_value(); }
+  bool operator()(const TextStep& step) const { return step.lines.has_value(); }
+  bool operator()(const WaitStep&) const { return true; }
+  bool operator()(const AssertStep&) const { return true; }
+  bool operator()(const SpanStep&) const { return true; }
+  bool operator()(const auto&) const { return false; }
+};
+
 /// The observers of one performance.
 class Observers {
  public:
@@ -90,6 +103,7 @@ class Run {
     };
     std::vector<Fork> forks;
     ScenarioResult result = std::move(results_[number]);
+    if (performance.is_on_box()) result.failure = performance.begin_on_box();
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Step& step = steps[i];
       const auto* const fork = std::get_if<ForkStep>(&step.what);
@@ -100,6 +114,13 @@ class Run {
       result.steps.push_back({.file = step.file, .line = step.line, .text = step.text});
       StepResult& played = result.steps.back();
       played.begin = performance.now();
+      if (performance.is_on_box()) {
+        result.failure = performance.play(std::span(steps).subspan(i));
+        played.skipped = performance.skipped();
+        if (fork != nullptr) forks.push_back({.step = fork, .begin = {}, .known = {}});
+        end_step(performance, played, result);
+        continue;
+      }
       const auto save = [&] { return std::make_shared<const Performance::Checkpoint>(performance.save()); };
       if (const auto* const snapshot = std::get_if<SnapshotStep>(&step.what)) {
         known[snapshot->name] = save();
@@ -111,12 +132,12 @@ class Run {
       } else {
         result.failure = performance.play(std::span(steps).subspan(i));
       }
-      played.end = performance.now();
-      played.has_failed = result.failure.has_value();
-      const bool is_restored = std::holds_alternative<RestoreStep>(step.what);
-      if (!is_restored) result.simulated += played.end - played.begin;
+      end_step(performance, played, result);
+      if (std::holds_alternative<RestoreStep>(step.what)) result.simulated -= played.end - played.begin;
       observers.step_over();
     }
+    if (performance.is_on_box() && !has_judged(steps, result))
+      result.verdict = ScenarioResult::Verdict::not_tellable;
     if (result.failure) result.verdict = ScenarioResult::Verdict::failed;
     if (options_.with_hash) result.outcome_hash = performance.outcome_hash();
     observers.finish(result);
@@ -128,7 +149,7 @@ class Run {
         if (fork.begin) {
           perform(its_name, branch.steps, fork.begin, fork.known);
         } else {
-          leave_out(its_name, branch.steps);
+          leave_out(its_name, branch.steps, performance.is_on_box());
         }
       }
     }
@@ -137,6 +158,19 @@ class Run {
   std::vector<ScenarioResult> take() { return std::move(results_); }
 
  private:
+  static void end_step(Performance& performance, StepResult& played, ScenarioResult& result) {
+    played.end = performance.now();
+    played.has_failed = result.failure.has_value();
+    result.simulated += played.end - played.begin;
+  }
+
+  /// Returns true if a step that judges something was executed.
+  static bool has_judged(const Steps& steps, const ScenarioResult& result) {
+    for (std::size_t i = 0; i < result.steps.size(); ++i)
+      if (result.steps[i].skipped.empty() && std::visit(Judges{}, steps[i].what)) return true;
+    return false;
+  }
+
   static void restore(Performance& performance, const Checkpoints& known, const RestoreStep& step,
                       ScenarioResult& result) {
     if (const auto found = known.find(step.name); found != known.end()) {
@@ -157,14 +191,16 @@ class Run {
     return result;
   }
 
-  void leave_out(const std::string& name, const Steps& steps) {
+  /// A real controller cannot return to an earlier state, so its branches are not tellable.
+  void leave_out(const std::string& name, const Steps& steps, bool is_on_box) {
     results_.push_back(result_called(name));
-    results_.back().verdict = ScenarioResult::Verdict::not_reached;
+    results_.back().verdict =
+        is_on_box ? ScenarioResult::Verdict::not_tellable : ScenarioResult::Verdict::not_reached;
     for (const Step& step : steps) {
       const auto* const fork = std::get_if<ForkStep>(&step.what);
       if (fork == nullptr) continue;
       for (const ForkStep::Branch& branch : fork->branches) {
-        leave_out(name + std::string(kBranch) + branch.name, branch.steps);
+        leave_out(name + std::string(kBranch) + branch.name, branch.steps, is_on_box);
       }
     }
   }

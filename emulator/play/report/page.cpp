@@ -29,6 +29,7 @@ std::string verdict_text(const ScenarioResult& result) {
     case Verdict::passed: return "<span class=\"good\">passed</span>";
     case Verdict::failed: return "<span class=\"bad\">FAILED</span>";
     case Verdict::not_reached: return "<span class=\"dim\">not reached</span>";
+    case Verdict::not_tellable: return "<span class=\"dim\">not tellable</span>";
   }
   return {};
 }
@@ -215,7 +216,8 @@ std::string body_of(const ScenarioResult& result) {
 std::string report_page(std::span<const ScenarioResult> results, std::string_view version, const Tally* all,
                         std::string_view programs) {
   const std::string summary = xml_escaped(all != nullptr ? summary_line(*all) : summary_line(results));
-  const std::uint64_t count = all != nullptr ? all->passed + all->failed + all->not_reached : results.size();
+  const std::uint64_t count =
+      all != nullptr ? all->passed + all->failed + all->not_reached + all->not_tellable : results.size();
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -41,10 +41,10 @@ std::size_t character_size(std::string_view text) {
 }
 
 std::string counts_text(const Tally& tally) {
-  return "tests=\"" + std::to_string(tally.passed + tally.failed + tally.not_reached) + "\" failures=\"" +
+  const std::uint64_t skipped = tally.not_reached + tally.not_tellable;
+  return "tests=\"" + std::to_string(tally.passed + tally.failed + skipped) + "\" failures=\"" +
          std::to_string(tally.failed - tally.unreadable) + "\" errors=\"" + std::to_string(tally.unreadable) +
-         "\" skipped=\"" + std::to_string(tally.not_reached) + "\" time=\"" + seconds_text(tally.simulated) +
-         "\"";
+         "\" skipped=\"" + std::to_string(skipped) + "\" time=\"" + seconds_text(tally.simulated) + "\"";
 }
 
 std::string lines_text(const std::vector<std::string>& lines) {
@@ -58,6 +58,11 @@ std::string case_text(const ScenarioResult& result) {
                      xml_escaped(result.name) + "\" time=\"" + seconds_text(result.simulated) + "\">\n";
   if (result.verdict == Verdict::not_reached) {
     text += "      <skipped message=\"a step before its fork failed\"/>\n";
+  }
+  if (result.verdict == Verdict::not_tellable) {
+    const std::vector<std::string> why = skipped_lines(result);
+    text += "      <skipped message=\"not tellable" + xml_escaped(why.empty() ? "" : ": " + why.front()) +
+            "\"/>\n";
   }
   const bool is_one_of_many = result.which.is_varied && (!result.failure || !result.like.empty());
   if (result.failure) {

@@ -21,6 +21,7 @@ struct StepResult {
   SimTime begin{0};  // simulated
   SimTime end{0};
   bool has_failed = false;
+  std::string skipped{};  // why it was not executed; empty: it was
 };
 
 /// All texts are single lines.
@@ -40,7 +41,8 @@ struct ScenarioResult {
   enum class Verdict : std::uint8_t {
     passed,
     failed,
-    not_reached,  // a branch whose fork was not reached, because an earlier step failed
+    not_reached,   // a branch whose fork was not reached, because an earlier step failed
+    not_tellable,  // of a real controller: nothing that it judges could be executed
   } verdict = Verdict::passed;
   std::string name{};  // "a move takes its time"; for a branch "a move takes its time / with a stall"
   std::string file{};

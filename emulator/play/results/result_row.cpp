@@ -23,6 +23,7 @@ std::string verdict_word(const ScenarioResult& result) {
     case ScenarioResult::Verdict::passed: return "passed";
     case ScenarioResult::Verdict::failed: return "failed";
     case ScenarioResult::Verdict::not_reached: return "not reached";
+    case ScenarioResult::Verdict::not_tellable: return "not tellable";
   }
   return {};
 }

@@ -38,7 +38,8 @@ struct understudy::StateOf<understudy::emulator::play::StepResult> {
   using StepResult = emulator::play::StepResult;
   static constexpr auto fields =
       FieldList{field<&StepResult::file>(),  field<&StepResult::line>(), field<&StepResult::text>(),
-                field<&StepResult::begin>(), field<&StepResult::end>(),  field<&StepResult::has_failed>()};
+                field<&StepResult::begin>(), field<&StepResult::end>(),  field<&StepResult::has_failed>(),
+                field<&StepResult::skipped>()};
 };
 
 template <>
@@ -53,7 +54,7 @@ struct understudy::StateOf<understudy::emulator::play::Failure> {
 template <>
 struct understudy::StateOf<understudy::emulator::play::ScenarioResult::Verdict> {
   using Verdict = emulator::play::ScenarioResult::Verdict;
-  static constexpr Verdict last = Verdict::not_reached;
+  static constexpr Verdict last = Verdict::not_tellable;
 };
 
 /// Everything but the run log, which is for a report by the same process.

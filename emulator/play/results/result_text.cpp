@@ -1,5 +1,6 @@
 #include "emulator/play/results/result_text.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,6 +19,13 @@ using Verdict = ScenarioResult::Verdict;
 
 std::string place_of(const StepResult& step) { return step.file + ":" + std::to_string(step.line); }
 
+std::string skipped_text(const ScenarioResult& result) {
+  const auto count =
+      std::ranges::count_if(result.steps, [](const StepResult& step) { return !step.skipped.empty(); });
+  if (count == 0) return {};
+  return ", " + std::to_string(count) + (count == 1 ? " step" : " steps") + " skipped";
+}
+
 }  // namespace
 
 std::string seconds_text(SimTime time) {
@@ -29,12 +37,15 @@ std::string seconds_text(SimTime time) {
 std::string verdict_line(const ScenarioResult& result) {
   const std::string name = result.file + ": " + result.name;
   switch (result.verdict) {
-    case Verdict::passed: return one_line("ok    " + name + " (" + format_duration(result.simulated) + ")");
+    case Verdict::passed:
+      return one_line("ok    " + name + " (" + format_duration(result.simulated) + skipped_text(result) +
+                      ")");
     case Verdict::failed: {
       const SimTime at = result.failure ? result.failure->at : SimTime{0};
       return one_line("FAIL  " + name + " (at " + format_duration(at) + ")");
     }
     case Verdict::not_reached: return one_line("-     " + name + " (not reached)");
+    case Verdict::not_tellable: return one_line("-     " + name + " (not tellable)");
   }
   return {};
 }
@@ -43,7 +54,19 @@ std::vector<std::string> step_lines(const ScenarioResult& result) {
   std::vector<std::string> lines;
   for (const StepResult& step : result.steps) {
     lines.push_back(one_line(format_duration(step.begin) + " to " + format_duration(step.end) + "  " +
-                             place_of(step) + "  " + step.text + (step.has_failed ? "  FAILED" : "")));
+                             place_of(step) + "  " + step.text + (step.has_failed ? "  FAILED" : "") +
+                             (step.skipped.empty() ? "" : "  SKIPPED: " + step.skipped)));
+  }
+  return lines;
+}
+
+std::vector<std::string> skipped_lines(const ScenarioResult& result) {
+  std::vector<std::string> lines;
+  std::string last;
+  for (const StepResult& step : result.steps) {
+    if (step.skipped.empty() || step.skipped == last) continue;
+    last = step.skipped;
+    lines.push_back(one_line("skipped: " + place_of(step) + ": " + step.text + ": " + step.skipped));
   }
   return lines;
 }
@@ -84,6 +107,7 @@ void Tally::add(const ScenarioResult& result) {
     case Verdict::passed: ++passed; break;
     case Verdict::failed: ++failed; break;
     case Verdict::not_reached: ++not_reached; break;
+    case Verdict::not_tellable: ++not_tellable; break;
   }
   if (result.is_unreadable) ++unreadable;
   simulated += result.simulated;
@@ -92,6 +116,7 @@ void Tally::add(const ScenarioResult& result) {
 std::string summary_line(const Tally& tally) {
   std::string text = std::to_string(tally.passed) + " passed, " + std::to_string(tally.failed) + " failed";
   if (tally.not_reached != 0) text += ", " + std::to_string(tally.not_reached) + " not reached";
+  if (tally.not_tellable != 0) text += ", " + std::to_string(tally.not_tellable) + " not tellable";
   if (tally.unreadable != 0) text += ", " + std::to_string(tally.unreadable) + " of them could not be read";
   return text + "; " + format_duration(tally.simulated) + " simulated";
 }

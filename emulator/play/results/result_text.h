@@ -18,6 +18,8 @@ std::string seconds_text(SimTime time);
 std::string verdict_line(const ScenarioResult& result);
 /// Returns a line for each step: when it began and ended, its position in the file, its text.
 std::vector<std::string> step_lines(const ScenarioResult& result);
+/// Returns a line for each reason why steps were skipped, with the first of these steps.
+std::vector<std::string> skipped_lines(const ScenarioResult& result);
 /// Returns the failed step, expectation and observation, the last frames, and the state around it. Empty if
 /// nothing failed.
 std::vector<std::string> failure_lines(const ScenarioResult& result);
@@ -27,6 +29,7 @@ struct Tally {
   std::uint64_t passed = 0;
   std::uint64_t failed = 0;
   std::uint64_t not_reached = 0;
+  std::uint64_t not_tellable = 0;
   std::uint64_t unreadable = 0;  // cases, among those that failed
   SimTime simulated{0};
 

@@ -1,6 +1,7 @@
-// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There are two:
-// one in virtual time on the line itself (free_executor.h), and one in real time over a real pty with
-// libmodbus as the host (real_executor.h). Scenarios must have the same verdicts on both.
+// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There is one in
+// virtual time on the line itself (free_executor.h), one in real time over a real pty with libmodbus as the
+// host (real_executor.h), and one whose controllers are real (box/stage/). Scenarios must have the same
+// verdicts on all.
 #pragma once
 
 #include <cstdint>
@@ -46,9 +47,15 @@ class HostCommand {
   virtual void stop() = 0;
 };
 
+class BoxStage;
+
 class Executor {
  public:
   virtual ~Executor() = default;
+
+  /// Returns the stage if the controllers are real. Then the world only knows names, stations and the order
+  /// of words. Null: they are those of the world.
+  virtual BoxStage* box() { return nullptr; }
 
   // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
   // it. Each call lasts, in simulated time, until the reply has arrived or time runs out.

@@ -29,15 +29,27 @@ inline constexpr Value kMaxPosition = 2'000'000'000;
 inline constexpr int kWindowWords = 101;
 inline constexpr std::uint16_t kWindow = 8000;
 
+// What writes can do. A macro can do everything that its commands do.
+inline constexpr Hazards kValue = Hazards::settings;
+inline constexpr Hazards kMotion = Hazards::motion;
+inline constexpr Hazards kMacro = Hazards::memory | Hazards::output | Hazards::motion;
+inline constexpr Hazards kNetwork = Hazards::memory | Hazards::stops_answering;
+
 /// Returns the rows with the name of their section.
 template <std::size_t N>
-consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
+constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards hazards,
+                                             const RegisterRow (&rows)[N]) {
   std::array<RegisterRow, N> named{};
   for (std::size_t i = 0; i < N; ++i) {
-    named[i] = rows[i];
+    named[i] = marked(rows[i], hazards);
     named[i].section = name;
   }
   return named;
+}
+/// A section whose registers are only read, or have marks of their own.
+template <std::size_t N>
+consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
+  return section(name, Hazards::unmarked, rows);
 }
 
 template <std::size_t... N>
@@ -158,43 +170,43 @@ inline constexpr auto kInputRows18 = section("12.1.11", {
     input(160, "Absolute Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<absolute_position, Varies::while_moving>(),
 });
 
-inline constexpr auto kHoldingRows1 = section("12.2.1", {
+inline constexpr auto kHoldingRows1 = section("12.2.1", Hazards::output, {
     reg(0,    "FRnet DO group {}", u16, RW).times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
 });
-inline constexpr auto kHoldingRows2 = section("12.2.2", {
+inline constexpr auto kHoldingRows2 = section("12.2.2", kMacro, {
     reg(8,    "CALL_MPn", u16, RW).also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
     reg(9,    "FRnet Event", u16, RW).also("FRNET_EVENT").range(0, 1).kept_at_once().does<enable_triggers>(),
-    reg(14,   "WORD Order", u16, RW).also("WORD_ORDER").range(0, 1),
+    reg(14,   "WORD Order", u16, RW).also("WORD_ORDER").range(0, 1).may(kMotion),  // reverses later targets
 });
-inline constexpr auto kHoldingRows3 = section("12.2.3", {
+inline constexpr auto kHoldingRows3 = section("12.2.3", kNetwork, {
     reg(20,   "Lock_IP{}", u16, RW).times(4, 1, 0),
     reg(24,   "UnLock_IP", u16, W),
     reg(25,   "RS-M8194H_IP{}", u16, RW).times(2, 1, 0),
     reg(27,   "RS-M8194H_Mask{}", u16, RW).times(2, 1, 0),
     reg(29,   "RS-M8194H_Gateway{}", u16, RW).times(2, 1, 0),
 });
-inline constexpr auto kHoldingRows4 = section("12.2.4", {
+inline constexpr auto kHoldingRows4 = section("12.2.4", kMotion, {
     reg(82,   "Absolute Position {}", s32, RW).also("ABS_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<absolute_position, Varies::while_moving>().does<queue_absolute_position>(),
     reg(90,   "Logic Position {}", s32, RW).also("LP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<logic_position, Varies::while_moving>().does<queue_logic_position>(),
     reg(98,   "Encoder Position {}", s32, RW).also("EP_{}").each(kAxisNames, 2).in("pulse").range(-kMaxPosition, kMaxPosition).shows<encoder_position, Varies::while_moving>().does<queue_encoder_position>(),
     reg(106,  "Current Velocity {}", s32, R).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity, Varies::while_moving>(),
     reg(114,  "Current Acceleration {}", s32, R).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
 });
-inline constexpr auto kHoldingRows5 = section("3.18.1", {
+inline constexpr auto kHoldingRows5 = section("3.18.1", kValue, {
     reg(128,  "bVAR{}", u16, RW).times(128, 1, 0).holding_bits(0xFF),
 });
-inline constexpr auto kHoldingRows6 = section("12.2.5", {
+inline constexpr auto kHoldingRows6 = section("12.2.5", kValue, {
     reg(300,  "VAR{}", s32, RW).times(512, 2, 0),
 });
-inline constexpr auto kHoldingRows7 = section("3.19.1", {
+inline constexpr auto kHoldingRows7 = section("3.19.1", Hazards::memory, {
     reg(3000, "MD{}", s32, RW).times(1024, 2, 0).kept_at_once(),
     reg(5048, "MD{}", f32, RW).times(1024, 2, 1024).kept_at_once(),
 });
-inline constexpr auto kHoldingRows8 = section("12.2.6", {
+inline constexpr auto kHoldingRows8 = section("12.2.6", Hazards::all, {
     window<take_message>(kWindow, "Reg{}", kWindowWords).also("Sub_Function_Code"),
 });
 
-inline constexpr auto kCoilRows1 = section("12.4.1", {
+inline constexpr auto kCoilRows1 = section("12.4.1", Hazards::output, {
     coil(0,   "FRnet DO group 0 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(0).does<write_do_bit>(0),
     coil(16,  "FRnet DO group 1 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(1).does<write_do_bit>(1),
     coil(32,  "FRnet DO group 2 channel {}").times(16, 1, 0).shows<do_bit, Varies::in_ticks>(2).does<write_do_bit>(2),
@@ -280,6 +292,8 @@ inline constexpr auto kRegisters =
          kInputRows15, kInputRows16, kInputRows17, kInputRows18, kHoldingRows1, kHoldingRows2, kHoldingRows3,
          kHoldingRows4, kHoldingRows5, kHoldingRows6, kHoldingRows7, kHoldingRows8, kCoilRows1, kCoilRows2,
          kDiscreteRows1, kDiscreteRows2, kDiscreteRows3, kDiscreteRows4);
+
+static_assert(are_marked(kRegisters), "a register does not say what a write can do");
 
 /// Return the number of slots of the image, and the first slot of a row.
 consteval std::size_t slot_count() {

@@ -16,9 +16,9 @@ inline constexpr std::uint16_t kFirstTimerContact = 600;
 inline constexpr std::uint16_t kFirstCounterContact = 800;
 
 // clang-format off
-inline constexpr auto kElementRows = section("接點元件編號一覽表", {
+inline constexpr auto kElementRows = section("接點元件編號一覽表", kPlc, {
     discrete(0, "X{}").times(kInputCount, 1, 0),
-    coil(0, "Y{}").times(kOutputCount, 1, 0),
+    coil(0, "Y{}").times(kOutputCount, 1, 0).may(Hazards::output),
     coil(200, "S{}").times(80, 1, 0),
     coil(280, "S{}").times(48, 1, 80).kept_at_once(),
     coil(kFirstTimerContact, "T{}").times(kTimers, 1, 0),
@@ -29,7 +29,7 @@ inline constexpr auto kElementRows = section("接點元件編號一覽表", {
     relays(400, 511).kept_at_once(),
 });
 
-inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(一般用途)", {
+inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(一般用途)", kPlc, {
     relay(m8::kStartOfC).does<write_command>(m8::kStartOfC),  // C: 1 START, 0 PAUSE
     relay(m8::kSingleStep).does<write_command>(m8::kSingleStep),  // C: single step
     relay(m8::kEmergencyStop).does<write_command>(m8::kEmergencyStop),  // emergency stop
@@ -38,7 +38,7 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
     relay(m8::kMCodeFinished).does<write_command>(m8::kMCodeFinished),  // M code finished
     relay(m8::kPause).does<write_command>(m8::kPause),  // C: pause
     relay(8007),                            // C: single, continuous
-    relay(m8::kFactoryParameters).does<write_command>(m8::kFactoryParameters),  // D9 to factory values
+    relay(m8::kFactoryParameters).does<write_command>(m8::kFactoryParameters).may(Hazards::all),  // D9 to factory values
     relays(8009, 8011),
     relays(8012, 8019),
     relays(8020, 8021),
@@ -48,7 +48,7 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
 });
 
 // The names of the chip's signals are the manual's (M8x20 SSCM to M8x58 PFM0).
-inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU 軸用)", {
+inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU 軸用)", kPlc, {
     axis_relay(m8x::kStart).does<write_command>(m8x::kStart),  // START, PAUSE
     axis_relay(m8x::kSingleStep).does<write_command>(m8x::kSingleStep),  // single step
     axis_relay(m8x::kReset).does<write_command>(m8x::kReset),  // RESET
@@ -110,7 +110,7 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
     axis_relay(8199, R).shows<read_status, Varies::in_ticks>(WHEEL_RUNS),
 });
 
-inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {
+inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", kProgram, {
     relays(8500, 8501).does<write_command>(m85::kParameterPageLeft),
     relay(m85::kLogoOver),
     relays(8503, 8506),
@@ -125,7 +125,7 @@ inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {
     relays(8598, 8599),
 });
 
-inline constexpr auto kKeptPanelContactRows = section("M86x 人機對應接點", {
+inline constexpr auto kKeptPanelContactRows = section("M86x 人機對應接點", kPlc, {
     relay(8600).kept_at_once(),  // single, continuous
     relays(8601, 8699).kept_at_once(),
 });

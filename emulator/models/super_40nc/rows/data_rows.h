@@ -17,30 +17,30 @@ inline constexpr std::uint16_t kFirstUserAddress = 3000;
 inline constexpr int kUserRegisters = 2000;
 
 // clang-format off
-inline constexpr auto kDataRows = section("暫存器元件編號一覽表", {
+inline constexpr auto kDataRows = section("暫存器元件編號一覽表", kValue, {
     data(0, 499),
     data(500, 799).kept_at_once(),
     data(800, 999).kept_at_once(),  // recipe
-    reg(kFirstTimerValue, "T{}", s32, RW).times(kTimers, 2, 0).in("ms"),
-    reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).times(8, 2, kTimers).in("ms").kept_at_once(),
-    reg(kFirstCounterValue, "C{}", s32, RW).times(16, 2, 0).in("count"),
-    reg(kFirstCounterValue + 32, "C{}", s32, RW).times(16, 2, 16).in("count").kept_at_once(),
+    reg(kFirstTimerValue, "T{}", s32, RW).times(kTimers, 2, 0).in("ms").may(kPlc),
+    reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).times(8, 2, kTimers).in("ms").kept_at_once().may(kPlc),
+    reg(kFirstCounterValue, "C{}", s32, RW).times(16, 2, 0).in("count").may(kPlc),
+    reg(kFirstCounterValue + 32, "C{}", s32, RW).times(16, 2, 16).in("count").kept_at_once().may(kPlc),
     reg(kFirstUserAddress, "USER{}", s32, RW).times(kUserRegisters, 2, 0),
 });
 
-inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用(一般用途)", {
+inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用(一般用途)", kPlc, {
     data(8000).in("step").shows<read_pointer, Varies::in_ticks>().does<write_pointer>(0),  // C
     data(8001),
-    data(8002).does<select_file_by_alias>(),
-    data(d8::kVout1).range(0, 1000).does<limit_voltage>(0),  // Vout1; 1000 are 3.3 V
-    data(d8::kVout2).range(0, 1000).does<limit_voltage>(1),  // Vout2
+    data(8002).does<select_file_by_alias>().may(kProgram),
+    data(d8::kVout1).range(0, 1000).does<limit_voltage>(0).may(Hazards::output),  // Vout1; 1000 are 3.3 V
+    data(d8::kVout2).range(0, 1000).does<limit_voltage>(1).may(Hazards::output),  // Vout2
     data(d8::kFeedPercentage).range(0, 200).in("%").from_factory(100).does<change_override>(),
     data(d8::kFeed).in("0.001 mm/s"),  // current F
     data(d8::kPlane).range(0, 2),       // current plane
     data(8008),
     data(8009, 8018),
     data(8019).shows<read_table_line, Varies::in_ticks>().does<write_nothing>(),  // line of the user table
-    data(d8::kUserCommand).range(0, 4).does<select_wheel_or_command>(),
+    data(d8::kUserCommand).range(0, 4).does<select_wheel_or_command>().may(kProgram),
     data(d8::kUserData1).range(0, 2).does<select_wheel>(),
     data(d8::kUserData2).range(0, 2).does<select_jog_speed>(),
     data(8023, 8029),
@@ -56,7 +56,7 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
 });
 
 // D8x20 to D8x63 bear the names of the chip's registers: PRCMD, PRMV ... RCI.
-inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(XYZU 軸用)", {
+inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(XYZU 軸用)", kMotion, {
     axis_data(8100).in("step").shows<read_pointer, Varies::in_ticks>(1).does<write_pointer>(1),
     axis_data(8101, 8116, 0), axis_data(8101, 8116, 1), axis_data(8101, 8116, 2), axis_data(8101, 8116, 3),
     axis_data(8117).in("0.001 mm").shows<read_work_position, Varies::while_moving>().does<set_work_position>(),

@@ -9,24 +9,24 @@
 namespace understudy::emulator::models::super_40nc {
 
 // clang-format off
-inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功用(一般用)", {
-    data(d9::kStation).kept_at_once().range(0, 15),  // station number
-    data(d9::kFileNumber).kept_at_once().range(0, 29999).does<select_file>(),
-    data(d9::kRecipeNumber).kept_at_once().range(0, 99).does<select_recipe>(),
-    data(9003).kept_at_once().range(0, 4).in("axes"),  // C21
-    data(d9::kSystemSpeed).kept_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000),  // C10
-    data(d9::kContinuousPath).kept_at_once().range(0, 1),  // continuous path: a choice
+inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功用(一般用)", kMemory, {
+    data(d9::kStation).kept_at_once().range(0, 15).may(kMemory | Hazards::stops_answering),  // station number
+    data(d9::kFileNumber).kept_at_once().range(0, 29999).does<select_file>().may(kProgram),
+    data(d9::kRecipeNumber).kept_at_once().range(0, 99).does<select_recipe>().may(kProgram),
+    data(9003).kept_at_once().range(0, 4).in("axes").may(kMemory | kMotion),  // C21
+    data(d9::kSystemSpeed).kept_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000).may(kMemory | kMotion),  // C10
+    data(d9::kContinuousPath).kept_at_once().range(0, 1).may(kMemory | kMotion),  // continuous path: a choice
     data(9006).kept_at_once().range(0, 1),  // C20
     data(d9::kLogoTime).kept_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
     data(9008, 9009).kept_at_once(),
     data(9010).kept_at_once().not_modelled("the panel's lines"),
-    data(d9::kTargetSpeed).kept_at_once().range(1, 10000).in("RPM").from_factory(5000),  // C22
-    data(d9::kSAcceleration).kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1),  // C11
-    data(d9::kSDeceleration).kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1),  // C12
-    data(d9::kAccelerationTime).kept_at_once().range(1, 10000).in("ms").from_factory(500),  // C13
-    data(d9::kDecelerationTime).kept_at_once().range(1, 10000).in("ms").from_factory(500),  // C14
-    data(d9::kArcPlane).kept_at_once().range(0, 2).from_factory(2),  // C23
-    data(9017, 9019).kept_at_once(),  // C24 to C26
+    data(d9::kTargetSpeed).kept_at_once().range(1, 10000).in("RPM").from_factory(5000).may(kMemory | kMotion),  // C22
+    data(d9::kSAcceleration).kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C11
+    data(d9::kSDeceleration).kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C12
+    data(d9::kAccelerationTime).kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C13
+    data(d9::kDecelerationTime).kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C14
+    data(d9::kArcPlane).kept_at_once().range(0, 2).from_factory(2).may(kMemory | kMotion),  // C23
+    data(9017, 9019).kept_at_once().may(kMemory | Hazards::stops_answering),  // C24 to C26
     data(9020).kept_at_once(),
     data(d9::kEditLock).kept_at_once().not_modelled("the panel's edit page"),  // C15
     data(9022, 9024).kept_at_once(),
@@ -54,7 +54,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
 inline constexpr BitField kCounterBits[] = {bits(0, "C1"), bits(1, "C2"), bits(2, "C3"), bits(3, "C4")};
 inline constexpr BitField kCountersButTheFirst[] = {bits(0, "C2"), bits(1, "C3"), bits(2, "C4")};
 
-inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用(XYZU 軸用)", {
+inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用(XYZU 軸用)", kMemory | kMotion, {
     parameter(d9x::kPulseMode).range(1, 7).from_factory(1),  // X0
     parameter(d9x::kOtStop).range(0, 1).does<change_axis>(d9x::kOtStop),
     parameter(d9x::kOrgLogic).range(0, 1).does<change_axis>(d9x::kOrgLogic),  // X32

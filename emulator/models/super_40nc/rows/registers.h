@@ -28,6 +28,8 @@ inline constexpr auto kRegisters =
     join(kElementRows, kGeneralContactRows, kAxisContactRows, kPanelContactRows, kKeptPanelContactRows,
          kDataRows, kGeneralSpecialRows, kAxisSpecialRows, kGeneralParameterRows, kAxisParameterRows);
 
+static_assert(are_marked(kRegisters), "a register does not say what a write can do");
+
 inline constexpr std::size_t kSlotCount = [] {
   std::size_t count = 0;
   for (const RegisterRow& row : kRegisters) count += row.is_view ? 0 : static_cast<std::size_t>(row.count);

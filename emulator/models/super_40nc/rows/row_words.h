@@ -18,6 +18,14 @@ inline constexpr Access RW = Access::read_write;
 
 inline constexpr int kAxisCount = 4;
 
+// What writes can do. The PLC and the programs use contacts and present values for anything, so a contact can
+// do all that they do.
+inline constexpr Hazards kValue = Hazards::settings;
+inline constexpr Hazards kMemory = Hazards::memory;
+inline constexpr Hazards kMotion = Hazards::motion;
+inline constexpr Hazards kPlc = Hazards::output | Hazards::motion;
+inline constexpr Hazards kProgram = Hazards::memory | Hazards::output | Hazards::motion;
+
 /// Addresses on the wire.
 constexpr std::uint16_t relay_address(int number) {
   return static_cast<std::uint16_t>(number < 8000 ? 1000 + number : number - 6000);
@@ -63,13 +71,19 @@ constexpr int of_x(int number) { return 9100 + number; }
 constexpr RegisterRow parameter(int number) { return axis_data(of_x(number)).kept_at_once(); }
 
 template <std::size_t N>
-consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
+constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards hazards,
+                                             const RegisterRow (&rows)[N]) {
   std::array<RegisterRow, N> named{};
   for (std::size_t i = 0; i < N; ++i) {
-    named[i] = rows[i];
+    named[i] = marked(rows[i], hazards);
     named[i].section = name;
   }
   return named;
+}
+/// A section whose registers are only read, or have marks of their own.
+template <std::size_t N>
+consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
+  return section(name, Hazards::unmarked, rows);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,38 @@
+// Sends a request to a real controller on Modbus and takes its reply, with the checksum of RTU or in the
+// frame of Modbus TCP. It does not know what is asked.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/box/asking/asked.h"
+#include "emulator/box/wire/wire.h"
+
+namespace understudy::emulator::box {
+
+class ModbusExchange {
+ public:
+  struct Settings {
+    int station = 1;
+    WallTime timeout{0};
+    WallTime silence{0};  // before each request
+    bool is_tcp = false;  // Modbus TCP: a header instead of a checksum
+  };
+  ModbusExchange(Wire& wire, const Settings& settings) : wire_(wire), settings_(settings) {}
+
+  /// Both the request and the reply have a checksum.
+  Asked ask(const Bytes& request);
+  /// Returns when the silence before a request is over.
+  void keep_silence();
+
+ private:
+  Bytes ask_rtu(const Bytes& request, Asked& asked);
+  Bytes ask_tcp(const Bytes& request, Asked& asked);
+
+  Wire& wire_;
+  Settings settings_;
+  WallTime quiet_since_{0};
+  std::uint16_t transaction_ = 0;
+  bool is_echoing_ = false;  // the adapter sends back what it is given, as an answer to a read has shown
+};
+
+}  // namespace understudy::emulator::box

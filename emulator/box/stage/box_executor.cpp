@@ -1,0 +1,404 @@
+#include "emulator/box/stage/box_executor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/box/stage/permission.h"
+#include "emulator/box/stage/rig.h"
+#include "emulator/box/wire/wire.h"
+#include "emulator/device/command_window.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/stages/real_executor.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::box {
+
+namespace {
+
+constexpr std::size_t kFramesKept = 20;
+constexpr WallTime kSleepSlice = std::chrono::milliseconds(50);
+constexpr SimTime kShadowTime = std::chrono::milliseconds(500);
+constexpr std::size_t kWriteReplySize = 8;
+
+std::string deed_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+bool is_write_frame(const Bytes& frame) { return frame.size() > 1 && world::is_write(frame); }
+
+}  // namespace
+
+BoxExecutor::BoxExecutor(const play::Scenario& scenario, BoxLines& lines, const StageSettings& settings)
+    : scenario_(scenario),
+      settings_(settings),
+      shadow_(scenario.bench, {.gap = scenario.gap}),
+      begin_(serve::wall_now()) {
+  for (const world::LineSetup& line : scenario.bench.lines) {
+    is_real_.push_back(lines.has(line.name) && !line.stations.empty());
+    hosts_.push_back(nullptr);
+    if (!is_real_.back() || is_rehearsal()) continue;
+    const world::DeviceSetup& first = scenario.bench.devices[line.stations.front().device];
+    int station = 1;
+    shadow_.with_world([&](world::World& world) {
+      station = world.device(line.stations.front().device).station_number().value_or(1);
+    });
+    hosts_.back() = &lines.host(line.name, *first.model, station);
+    hosts_.back()->set_heartbeat([this] { throw_if_interrupted(); });
+  }
+  begin_ = serve::wall_now();
+}
+
+BoxExecutor::~BoxExecutor() {
+  stop();
+  put_back();
+  for (LineHost* const host : hosts_)
+    if (host != nullptr) host->set_heartbeat({});
+}
+
+void BoxExecutor::throw_if_interrupted() const {
+  if (!is_stopping_ && settings_.is_interrupted && settings_.is_interrupted()) throw play::ExecutionAborted();
+}
+
+// --- time ----------------------------------------------------------------------------------------
+
+SimTime BoxExecutor::now() {
+  if (is_rehearsal()) {
+    SimTime present{0};
+    shadow_.with_world([&](world::World& world) { present = world.now(); });
+    return present;
+  }
+  return SimTime{serve::wall_now() - begin_};
+}
+
+void BoxExecutor::advance(SimTime by) {
+  if (is_rehearsal()) return shadow_.advance(by);
+  const WallTime end = serve::wall_now() + by;
+  while (true) {
+    throw_if_interrupted();
+    const WallTime rest = end - serve::wall_now();
+    if (rest <= WallTime{0}) return;
+    std::this_thread::sleep_for(std::min(rest, kSleepSlice));
+  }
+}
+
+bool BoxExecutor::run_until(const play::Awaited&, SimTime deadline) {
+  if (deadline > now()) advance(deadline - now());
+  return false;
+}
+
+// --- requests ------------------------------------------------------------------------------------
+
+std::optional<std::string> BoxExecutor::why_unreachable(std::size_t line) const {
+  if (is_real_[line]) return std::nullopt;
+  return "line " + scenario_.bench.lines[line].name + " has no port; expected --on " +
+         scenario_.bench.lines[line].name + "=PORT";
+}
+
+void BoxExecutor::note(std::size_t line, const char* arrow, const std::string& text) {
+  frames_.push_back(format_duration(now()) + " " + scenario_.bench.lines[line].name + " " + arrow + " " +
+                    text);
+  if (frames_.size() > kFramesKept) frames_.pop_front();
+}
+
+void BoxExecutor::plan(const SentRequest& request, std::size_t line, const std::string& remark) {
+  if (!settings_.only_plans || !settings_.say) return;
+  const bool only_reads = request.hazards == Hazards::reads;
+  if (!only_reads) planned_.clear();
+  if (only_reads && !planned_.insert(request.what).second) return;
+  settings_.say("  " + scenario_.bench.lines[line].name + ": " + request.what +
+                (only_reads ? "" : "  [" + to_text(request.hazards) + "]") + remark);
+}
+
+Hazards BoxExecutor::require(std::size_t line, const SentRequest& request) {
+  throw_if_interrupted();
+  try {
+    require_allowed(request, settings_.allowed, settings_.envelope);
+  } catch (const play::NotAllowed&) {
+    plan(request, line, "  NOT SENT: needs " + flag_for(beyond(request.hazards, settings_.allowed)));
+    throw;
+  } catch (const play::BeyondEnvelope&) {
+    plan(request, line, "  NOT SENT: beyond the envelope");
+    throw;
+  }
+  plan(request, line, "");
+  const bool may_move = has(request.hazards, Hazards::motion) || has(request.hazards, Hazards::output);
+  if (may_move && request.device) may_move_.insert(*request.device);
+  if (may_move && !request.device)
+    for (const world::StationSetup& station : scenario_.bench.lines[line].stations)
+      may_move_.insert(station.device);
+  return request.hazards;
+}
+
+void BoxExecutor::note_written(std::size_t line, SimTime begin, std::size_t bytes, Hazards hazards) {
+  if (hazards == Hazards::reads) return;
+  const SimTime sending =
+      hosts_[line] == nullptr
+          ? SimTime{0}
+          : SimTime{hosts_[line]->settings().duration_of(static_cast<std::int64_t>(bytes))};
+  last_write_ = {.earliest = is_rehearsal() ? begin : std::min(begin + sending, now()), .latest = now()};
+}
+
+play::HostReply BoxExecutor::ask(std::size_t line, const Bytes& request) {
+  SentRequest sent;
+  with_world([&](world::World& world) { sent = judge_frame(world, line, request); });
+  const Hazards hazards = require(line, sent);
+  note(line, "->", sent.what);
+  if (settings_.puts_back && hazards != Hazards::reads) keep_before(line, request);
+  const SimTime begin = now();
+  Bytes reply;
+  if (is_rehearsal()) {
+    reply = shadow_.exchange(line, request, play::wanted_size(request, {}), kShadowTime);
+  } else {
+    reply = host(line).ask(request, scenario_.gap).reply;
+  }
+  note_written(line, begin, request.size(), hazards);
+  play::HostReply judged = play::judge_reply(request, reply);
+  std::string said = "nothing";
+  with_world([&](world::World& world) {
+    if (!reply.empty()) said = world.line(line).reply_text(request, reply);
+  });
+  note(line, "<-", said);
+  // Station numbers and the order of words follow what was written.
+  if (!is_rehearsal() && is_write_frame(request) && judged.kind == play::HostReply::Kind::good)
+    shadow_.exchange(line, request, kWriteReplySize, kShadowTime);
+  return judged;
+}
+
+play::HostReply BoxExecutor::read(std::size_t line, int station, Table table, std::uint16_t first,
+                                  int count) {
+  return ask(line, play::read_request(station, table, first, count));
+}
+play::HostReply BoxExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
+                                   std::span<const std::uint16_t> words) {
+  return ask(line, play::write_request(station, table, first, words));
+}
+play::HostReply BoxExecutor::write_message(std::size_t line, int station, std::uint16_t first,
+                                           std::span<const std::uint16_t> words) {
+  return ask(line, play::message_request(station, first, words));
+}
+
+std::vector<std::uint8_t> BoxExecutor::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                                std::size_t wanted, SimTime within) {
+  SentRequest sent;
+  with_world([&](world::World& world) { sent = judge_frame(world, line, bytes); });
+  const Hazards hazards = require(line, sent);
+  note(line, "->", sent.what);
+  const SimTime begin = now();
+  const Bytes request(bytes.begin(), bytes.end());
+  std::vector<std::uint8_t> reply;
+  if (is_rehearsal()) {
+    reply = shadow_.exchange(line, bytes, wanted, within);
+  } else {
+    reply = host(line).exchange(request, wanted, within, scenario_.gap);
+  }
+  note_written(line, begin, request.size(), hazards);
+  note(line, "<-", reply.empty() ? "nothing" : world::hex_text(reply));
+  return reply;
+}
+
+void BoxExecutor::send_text(std::size_t line, const std::string& text) {
+  SentRequest sent;
+  with_world([&](world::World& world) { sent = judge_text(world, line, text); });
+  const Hazards hazards = require(line, sent);
+  note(line, "->", "\"" + text + "\"");
+  const SimTime begin = now();
+  is_rehearsal() ? shadow_.send_text(line, text) : host(line).send_text(text, scenario_.gap);
+  note_written(line, begin, text.size() + 1, hazards);
+}
+
+std::vector<std::string> BoxExecutor::exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                                    const world::LinesWanted& wanted, SimTime within) {
+  Hazards hazards = Hazards::reads;
+  if (text) {
+    SentRequest sent;
+    with_world([&](world::World& world) { sent = judge_text(world, line, *text); });
+    hazards = require(line, sent);
+    note(line, "->", "\"" + *text + "\"");
+  }
+  const SimTime begin = now();
+  std::vector<std::string> heard = is_rehearsal()
+                                       ? shadow_.exchange_text(line, text, wanted, within)
+                                       : host(line).exchange_text(text, wanted, within, scenario_.gap);
+  if (text) note_written(line, begin, text->size() + 1, hazards);
+  note(line, "<-", world::lines_text(heard));
+  return heard;
+}
+
+// --- what it was before --------------------------------------------------------------------------
+
+/// Reads the registers that a request is about to write. Triggers and views hold nothing of their own.
+void BoxExecutor::keep_before(std::size_t line, const Bytes& request) {
+  struct Whole {
+    std::uint16_t first;
+    int count;
+    bool operator==(const Whole&) const = default;
+  };
+  const std::optional<Written> written = written_by(request);
+  if (!written) return;
+  std::vector<Whole> registers;
+  with_world([&](world::World& world) {
+    for (const world::StationSetup& station : scenario_.bench.lines[line].stations) {
+      const Device& device = world.device(station.device);
+      if (device.station_number() != request[0] || device.register_bank() == nullptr) continue;
+      const RegisterMap& map = *device.model().registers;
+      for (std::size_t i = 0; i < written->words.size(); ++i) {
+        const Place place = map.at(written->table, static_cast<std::uint16_t>(written->first + i),
+                                   device.firmware(), device.register_bank()->low_word_first());
+        if (!place || place.row->access != Access::read_write || place.row->is_view) continue;
+        if (!place.row->acts_on_zero || place.row->message != nullptr) continue;
+        const Whole whole{.first = place.address(), .count = is_32_bit(place.row->type) ? 2 : 1};
+        if (registers.empty() || registers.back() != whole) registers.push_back(whole);
+      }
+    }
+  });
+  for (const Whole& whole : registers) {
+    const bool is_known = std::ranges::any_of(before_, [&](const Before& known) {
+      return known.line == line && known.station == request[0] && known.table == written->table &&
+             known.first == whole.first;
+    });
+    if (is_known) continue;
+    const play::HostReply reply = play::judge_reply(
+        play::read_request(request[0], written->table, whole.first, whole.count),
+        host(line).ask(play::read_request(request[0], written->table, whole.first, whole.count), {}).reply);
+    if (reply.kind != play::HostReply::Kind::good) continue;
+    before_.push_back({.line = line,
+                       .station = request[0],
+                       .table = written->table,
+                       .first = whole.first,
+                       .words = reply.words});
+  }
+}
+
+/// In the opposite order. What was allowed to be written is allowed to be put back.
+void BoxExecutor::put_back() {
+  is_stopping_ = true;
+  for (auto one = before_.rbegin(); one != before_.rend(); ++one) {
+    try {
+      host(one->line).ask(play::write_request(one->station, one->table, one->first, one->words), WallTime{0});
+    } catch (const std::exception& error) {
+      if (settings_.say) settings_.say("not put back: " + one_line(error.what()));
+      break;
+    }
+  }
+  before_.clear();
+  is_stopping_ = false;
+}
+
+// --- the surroundings ----------------------------------------------------------------------------
+
+/// A last word "optional" marks what need not be done: only a rig is asked for it.
+std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all) {
+  std::vector<std::string> words = all;
+  const bool is_optional = words.back() == "optional";
+  if (is_optional) words.pop_back();
+  throw_if_interrupted();
+  if (is_rehearsal()) {
+    if (settings_.only_plans && settings_.say && (!settings_.rig.empty() || (settings_.asks && !is_optional)))
+      settings_.say("  " + std::string(settings_.rig.empty() ? "you: " : "rig: ") + deed_text(words));
+    if (!settings_.rig.empty() || settings_.asks) return std::nullopt;
+  }
+  if (!settings_.rig.empty()) {
+    const RigAnswer answer = run_rig(settings_.rig, words);
+    if (answer.exit_code == 0) return std::nullopt;
+    if (answer.exit_code != kRigCannot)
+      throw play::RigFailed("the rig failed at `" + deed_text(words) + "` with exit code " +
+                            std::to_string(answer.exit_code) + "; expected 0, or 3 for what it cannot do");
+    if (is_optional || !settings_.asks) return "the rig cannot do it: " + deed_text(words);
+  }
+  if (is_optional) return "it is optional";
+  if (settings_.asks) {
+    if (ask_person(words)) return std::nullopt;
+    return "nobody did it: " + deed_text(words);
+  }
+  return "`" + deed_text(words) + "` needs a rig or a person; expected --rig COMMAND or --ask";
+}
+
+std::optional<std::string> BoxExecutor::tell(const std::string& name) {
+  if (settings_.rig.empty() || is_rehearsal()) return std::nullopt;
+  const RigAnswer answer = run_rig(settings_.rig, {"value", name});
+  if (answer.exit_code != 0) return std::nullopt;
+  return answer.said;
+}
+
+// --- the stop ------------------------------------------------------------------------------------
+
+void BoxExecutor::stop() {
+  if (may_move_.empty()) return;
+  const std::set<std::size_t> devices = std::exchange(may_move_, {});
+  if (is_rehearsal()) return;
+  is_stopping_ = true;
+  for (const std::size_t device : devices) {
+    try {
+      stop_device(device);
+    } catch (const std::exception& error) {
+      if (settings_.say)
+        settings_.say("stop: " + scenario_.bench.devices[device].settings.name +
+                      ": COULD NOT BE SENT: " + one_line(error.what()));
+    }
+  }
+  is_stopping_ = false;
+}
+
+void BoxExecutor::stop_device(std::size_t number) {
+  const world::Bench& bench = scenario_.bench;
+  const Model& model = *bench.devices[number].model;
+  std::optional<std::size_t> line;
+  for (std::size_t i = 0; i < bench.lines.size() && !line; ++i) {
+    const auto& stations = bench.lines[i].stations;
+    const bool is_on = std::ranges::any_of(stations, [&](const auto& one) { return one.device == number; });
+    if (is_on && hosts_[i] != nullptr) line = i;
+  }
+  if (!line) return;
+  for (const StopStep& step : model.stop) {
+    const std::string text(step.text);
+    Bytes request;
+    std::string what = text;
+    with_world([&](world::World& world) {
+      const Device& device = world.device(number);
+      const int station = device.station_number().value_or(1);
+      if (const auto place = find_register(model, text, device.firmware())) {
+        const std::uint16_t word = static_cast<std::uint16_t>(step.value);
+        request = play::write_request(station, place->place.row->table, place->place.address(),
+                                      std::span(&word, 1));
+        what += " = " + std::to_string(step.value);
+      } else if (model.window != nullptr) {
+        const WindowMessage message = window_message(device, text);
+        request = play::message_request(station, message.first, message.words);
+      }
+    });
+    std::string came = "sent";
+    if (model.rtu) {
+      const play::HostReply reply = play::judge_reply(request, host(*line).ask(request, WallTime{0}).reply);
+      came = reply.kind == play::HostReply::Kind::good        ? "done"
+             : reply.kind == play::HostReply::Kind::exception ? "REFUSED"
+                                                              : "NOT ANSWERED";
+    } else {
+      host(*line).send_text(text, WallTime{0});
+    }
+    if (settings_.say)
+      settings_.say("stop: " + bench.devices[number].settings.name + ": " + what + ": " + came);
+  }
+}
+
+}  // namespace understudy::emulator::box

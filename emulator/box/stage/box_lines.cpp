@@ -1,0 +1,171 @@
+#include "emulator/box/stage/box_lines.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/box/asking/modbus_master.h"
+#include "emulator/box/asking/text_asker.h"
+#include "emulator/box/photograph/photo_parts.h"
+#include "emulator/box/photograph/photograph.h"
+#include "emulator/box/photograph/read_plan.h"
+#include "emulator/box/wire/wire.h"
+#include "emulator/device/model.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/play/stages/free_executor.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/speech/text_lines_heard.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::box {
+
+namespace {
+
+constexpr WallTime kReceiveSlice = std::chrono::milliseconds(50);
+constexpr WallTime kAdapterDelay = std::chrono::milliseconds(20);  // what an adapter may hold back
+constexpr WallTime kAnswerPause = std::chrono::milliseconds(8);
+constexpr int kLongestRtuFrame = 270;
+
+}  // namespace
+
+LineHost::LineHost(const PortName& port, const Model& model, int station, WallTime timeout)
+    : port_(port), wire_(open_wire(port)), timeout_(timeout) {
+  find_settings(model, station);
+}
+
+void LineHost::find_settings(const Model& model, int station) {
+  const std::vector<pty::LineSettings> tried = settings_to_try(model, port_);
+  bool is_noisy = false;
+  int other_station = -1;
+  for (const pty::LineSettings& line : tried) {
+    wire_->set_line(line);
+    settings_ = line;
+    for (int i = 0; i < 2; ++i)
+      if (answers(model, station, is_noisy, other_station)) return;
+  }
+  const std::string who = model.rtu ? "station " + std::to_string(station) : "the controller";
+  if (other_station >= 0)
+    throw BoxError(one_line(port_.place) + ": station " + std::to_string(other_station) +
+                   " answered a request to " + who + "; expected a line with one controller of each number");
+  throw BoxError(silence_text(port_, who, tried, is_noisy, false));
+}
+
+bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& other_station) {
+  if (!model.rtu) {
+    TextAsker asker(*wire_, timeout_ + settings_.duration_of(100));
+    const TextReply reply = asker.ask("?VER", kAnswerPause);
+    is_noisy = is_noisy || !reply.asked.reply.empty();
+    return !reply.lines.empty() &&
+           std::ranges::all_of(reply.lines.front(), [](char c) { return c >= ' ' && c <= '~'; });
+  }
+  const WallTime of_line = port_.has_settings() ? settings_.duration_of(kLongestRtuFrame) : WallTime{0};
+  const ModbusExchange::Settings of_exchange{.station = station,
+                                             .timeout = timeout_ + of_line,
+                                             .silence = play::silence_between_frames(settings_),
+                                             .is_tcp = port_.is_modbus_tcp()};
+  exchange_.emplace(*wire_, of_exchange);
+  const ReadBlock block = read_plan(model).front();
+  const ReadCell& first = block.cells.front();
+  ModbusMaster master(*wire_, of_exchange);
+  const ReadReply read = master.read(block.table, first.address, first.size);
+  const auto kind = read.reply.kind;
+  is_noisy = is_noisy || (kind == play::HostReply::Kind::garbled && read.other_station < 0);
+  if (read.other_station >= 0) other_station = read.other_station;
+  return kind == play::HostReply::Kind::good || kind == play::HostReply::Kind::exception;
+}
+
+void LineHost::wait(WallTime gap) {
+  const WallTime rest = quiet_since_ + gap - serve::wall_now();
+  if (gap > WallTime{0} && rest > WallTime{0}) std::this_thread::sleep_for(rest);
+}
+
+Asked LineHost::ask(const Bytes& request, WallTime gap) {
+  wait(gap);
+  if (heartbeat_) heartbeat_();
+  Asked asked = exchange_->ask(request);
+  quiet_since_ = serve::wall_now();
+  return asked;
+}
+
+void LineHost::receive_until(Bytes& bytes, WallTime until) {
+  if (heartbeat_) heartbeat_();
+  wire_->receive(bytes, std::min(until, serve::wall_now() + kReceiveSlice));
+}
+
+Bytes LineHost::exchange(const Bytes& bytes, std::size_t wanted, WallTime within, WallTime gap) {
+  if (port_.is_modbus_tcp()) return ask(bytes, gap).reply;
+  wait(gap);
+  if (exchange_) exchange_->keep_silence();
+  wire_->discard();
+  const WallTime begin = serve::wall_now();
+  wire_->send(bytes);
+  const WallTime sending = settings_.duration_of(static_cast<std::int64_t>(bytes.size()));
+  // An adapter may hold bytes back: that is no fault of the controller.
+  const bool is_silence_wanted = wanted == SIZE_MAX;
+  const WallTime deadline = begin + sending + within + (is_silence_wanted ? WallTime{0} : timeout_);
+  Bytes reply;
+  while (reply.size() < wanted && serve::wall_now() < deadline) receive_until(reply, deadline);
+  // A byte that follows at once belongs to the reply, expected or not.
+  if (!reply.empty()) wire_->receive(reply, std::min(deadline, serve::wall_now() + kAdapterDelay));
+  quiet_since_ = serve::wall_now();
+  return reply;
+}
+
+void LineHost::send_text(const std::string& text, WallTime gap) {
+  wait(gap);
+  wire_->discard();
+  unread_.clear();
+  Bytes line(text.begin(), text.end());
+  line.push_back('\r');
+  wire_->send(line);
+  // Returns when the controller has the line.
+  std::this_thread::sleep_for(settings_.duration_of(static_cast<std::int64_t>(line.size())));
+  quiet_since_ = serve::wall_now();
+}
+
+std::vector<std::string> LineHost::exchange_text(const std::optional<std::string>& text,
+                                                 const world::LinesWanted& wanted, WallTime within,
+                                                 WallTime gap) {
+  if (text) send_text(*text, gap);
+  const auto heard_now = [this] {
+    return world::lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
+  };
+  const WallTime deadline = serve::wall_now() + within + (wanted.lines.empty() ? WallTime{0} : timeout_);
+  world::LinesHeard heard = heard_now();
+  while (!world::has_come(wanted, heard) && serve::wall_now() < deadline) {
+    receive_until(unread_, deadline);
+    heard = heard_now();
+  }
+  // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
+  while (text && heard.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
+    if (!wire_->receive(unread_, std::min(deadline, serve::wall_now() + kAdapterDelay))) break;
+    heard = heard_now();
+  }
+  const std::size_t wanted_lines = wanted.lines.size();
+  if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
+    unread_.erase(unread_.begin(),
+                  unread_.begin() + static_cast<std::ptrdiff_t>(heard.ends[wanted_lines - 1]));
+    heard.lines.resize(wanted_lines);
+  } else {
+    unread_.clear();
+  }
+  if (!heard.lines.empty()) quiet_since_ = serve::wall_now();
+  return heard.lines;
+}
+
+LineHost& BoxLines::host(const std::string& line, const Model& model, int station) {
+  const std::string name = ports_.contains(line) ? line : kAnyLine;
+  std::unique_ptr<LineHost>& host = hosts_[name];
+  if (!host) host = std::make_unique<LineHost>(ports_.at(name), model, station, timeout_);
+  return *host;
+}
+
+}  // namespace understudy::emulator::box

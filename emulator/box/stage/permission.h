@@ -1,0 +1,64 @@
+// What may be sent to a real controller: what the user has allowed, within the user's limits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/expression/tolerance.h"
+#include "emulator/world/view/world_view.h"
+
+namespace understudy::emulator::box {
+
+/// A number that a request brings: "Aaxis_Speed" and 60; for a command its word and each of its numbers.
+struct SentNumber {
+  std::string name;
+  world::Number value;
+};
+
+/// A write as a frame brings it. Each bit takes a word.
+struct Written {
+  Table table = Table::holding;
+  std::uint16_t first = 0;
+  std::vector<std::uint16_t> words{};
+};
+/// Returns the write of a frame; nothing for another function, or a length that does not fit.
+std::optional<Written> written_by(std::span<const std::uint8_t> frame);
+
+/// What a request can do.
+struct SentRequest {
+  Hazards hazards = Hazards::all;
+  std::string what;  // "write 0x1005 feeder.Aaxis_Move_INC = 1"
+  std::vector<SentNumber> numbers{};
+  std::optional<std::size_t> device{};  // nothing: none on this line, or all
+};
+
+/// The view is that of the bench; it knows station numbers and the order of words.
+SentRequest judge_frame(const world::WorldView& view, std::size_t line, std::span<const std::uint8_t> frame);
+SentRequest judge_text(const world::WorldView& view, std::size_t line, const std::string& text);
+
+/// The limits of a file.
+struct Envelope {
+  struct Limit {
+    std::string pattern;  // of names
+    world::Tolerance range;
+    std::string place;  // "limits.yaml:3"
+  };
+  std::vector<Limit> limits;
+};
+/// Throws FileError.
+Envelope read_envelope(const std::string& path);
+
+/// Throws play::NotAllowed and play::BeyondEnvelope.
+void require_allowed(const SentRequest& request, Hazards allowed, const Envelope& envelope);
+
+/// Returns "--allow-motion": the flag that allows all of it.
+std::string flag_for(Hazards hazards);
+
+}  // namespace understudy::emulator::box

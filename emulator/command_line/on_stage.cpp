@@ -1,0 +1,132 @@
+#include "emulator/command_line/on_stage.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/box/photograph/photograph.h"
+#include "emulator/box/stage/box_executor.h"
+#include "emulator/box/stage/permission.h"
+#include "emulator/box/wire/port_name.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
+#include "emulator/device/hazards.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+std::map<std::string, box::PortName> ports_of(const OnArguments& arguments) {
+  std::map<std::string, box::PortName> ports;
+  for (const std::string& text : arguments.on) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--on: " + quoted(text) +
+                       " names no line; expected LINE=PORT such as rs485=/dev/ttyUSB0,19200");
+    try {
+      if (!ports.emplace(text.substr(0, equals), box::parse_port_name(text.substr(equals + 1))).second)
+        throw UsageError("--on: " + quoted(text.substr(0, equals)) +
+                         " is given twice; expected each line once");
+    } catch (const box::PortNameError& error) {
+      throw UsageError("--on: " + std::string(error.what()));
+    }
+  }
+  return ports;
+}
+
+SimTime timeout_of(const OnArguments& arguments) {
+  const auto timeout = parse_duration(arguments.timeout);
+  if (timeout && *timeout >= std::chrono::milliseconds(1) && *timeout <= std::chrono::minutes(1))
+    return *timeout;
+  throw UsageError("--reply-timeout: " + quoted(arguments.timeout) +
+                   " is not a duration; expected one like 300ms");
+}
+
+Hazards allowed_by(const OnArguments& arguments) {
+  if (arguments.allow_motion) return Hazards::all;
+  Hazards allowed = Hazards::reads;
+  if (arguments.allow_writes) allowed = allowed | Hazards::settings;
+  if (arguments.allow_memory) allowed = allowed | Hazards::settings | Hazards::memory;
+  if (arguments.allow_outputs) allowed = allowed | Hazards::settings | Hazards::output;
+  return allowed;
+}
+
+box::StageSettings settings_of(const OnArguments& arguments) {
+  box::StageSettings settings{.allowed = allowed_by(arguments),
+                              .rig = arguments.rig,
+                              .asks = arguments.ask,
+                              .only_plans = arguments.plan,
+                              .is_interrupted = is_interrupted};
+  if (!arguments.envelope.empty()) settings.envelope = box::read_envelope(arguments.envelope);
+  std::FILE* const to = arguments.plan ? stdout : stderr;
+  settings.say = [to](const std::string& line) {
+    std::fprintf(to, "%s\n", one_line(line).c_str());
+    std::fflush(to);
+  };
+  return settings;
+}
+
+}  // namespace
+
+bool is_on_box(const RunArguments& arguments) { return !arguments.on.on.empty(); }
+
+void require_flags_of_boxes(const RunArguments& arguments) {
+  const OnArguments& on = arguments.on;
+  const bool has_stage_flags = on.allow_writes || on.allow_memory || on.allow_outputs || on.allow_motion ||
+                               on.ask || on.plan || !on.envelope.empty() || !on.rig.empty();
+  if (!is_on_box(arguments)) {
+    if (has_stage_flags)
+      throw UsageError(
+          "run: --allow-..., --envelope, --rig, --ask and --plan are for real controllers; "
+          "expected --on LINE=PORT as well");
+    return;
+  }
+  const std::pair<bool, const char*> others[] = {{arguments.real_time, "--real-time"},
+                                                 {arguments.hash, "--hash"},
+                                                 {arguments.lint, "--lint"},
+                                                 {!arguments.record.empty(), "--record"},
+                                                 {!arguments.trace.empty(), "--trace"},
+                                                 {!arguments.capture.empty(), "--capture"},
+                                                 {!arguments.failures.empty(), "--failures"},
+                                                 {!arguments.coverage.empty(), "--coverage"},
+                                                 {!arguments.device_coverage.empty(), "--device-coverage"},
+                                                 {!arguments.host.command.empty(), "a command"}};
+  for (const auto& [is_given, flag] : others) {
+    if (is_given)
+      throw UsageError(std::string(flag) +
+                       ": needs the truths of a simulated controller; expected it without --on");
+  }
+}
+
+OnStage::OnStage(const OnArguments& arguments, bool puts_back)
+    : settings_(settings_of(arguments)), lines_(ports_of(arguments), timeout_of(arguments)) {
+  of_rehearsals_ = settings_;
+  of_rehearsals_.rehearses = true;
+  of_rehearsals_.only_plans = false;
+  of_rehearsals_.say = {};
+  settings_.puts_back = puts_back && !arguments.plan;
+  if (!arguments.plan) watch_for_interruption();
+}
+
+std::unique_ptr<play::Executor> OnStage::make(const play::Scenario& scenario) {
+  try {
+    return std::make_unique<box::BoxExecutor>(scenario, lines_, settings_);
+  } catch (const box::BoxError& error) {
+    throw box::WireError(error.what());
+  }
+}
+
+std::unique_ptr<play::Executor> OnStage::rehearse(const play::Scenario& scenario) {
+  return std::make_unique<box::BoxExecutor>(scenario, lines_, of_rehearsals_);
+}
+
+}  // namespace understudy::emulator::command_line

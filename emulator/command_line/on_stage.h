@@ -1,0 +1,36 @@
+// The stage of `run --on` and `probe`: real controllers at the ports that the user names, with the user's
+// permissions.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "emulator/box/stage/box_executor.h"
+#include "emulator/box/stage/box_lines.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/executor.h"
+
+namespace understudy::emulator::command_line {
+
+bool is_on_box(const RunArguments& arguments);
+/// A real controller shows no truths: what is recorded of them cannot be made. Throws UsageError.
+void require_flags_of_boxes(const RunArguments& arguments);
+
+class OnStage {
+ public:
+  /// From now on, Ctrl-C and SIGTERM stop the machine first. Throws UsageError and FileError.
+  explicit OnStage(const OnArguments& arguments, bool puts_back = false);
+
+  /// Opens the ports of the scenario's lines. Throws UsageError if nothing answers, and WireError.
+  std::unique_ptr<play::Executor> make(const play::Scenario& scenario);
+  /// The bench's own devices answer as over the line of a controller. Nothing is sent.
+  std::unique_ptr<play::Executor> rehearse(const play::Scenario& scenario);
+
+ private:
+  box::StageSettings settings_;
+  box::StageSettings of_rehearsals_;
+  box::BoxLines lines_;
+};
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,258 @@
+// Implements `probe`: plays the proofs of choices with a real controller, and tells which options it has.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/choices.h"
+#include "base/files/content_kind.h"
+#include "base/files/file_claims.h"
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
+#include "emulator/command_line/model_option.h"
+#include "emulator/command_line/on_stage.h"
+#include "emulator/command_line/output_paths.h"
+#include "emulator/command_line/result_file.h"
+#include "emulator/command_line/yaml_files.h"
+#include "emulator/device/model.h"
+#include "emulator/play/performing/case_list.h"
+#include "emulator/play/performing/run.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/results/result_text.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/real_executor.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Evidence = nlohmann::ordered_json;
+using Verdict = play::ScenarioResult::Verdict;
+
+/// The case of a proof for one option of a choice, and what a real controller made of it.
+struct OptionCase {
+  std::string option;
+  std::shared_ptr<const play::Scenario> scenario;
+  std::optional<Verdict> verdict{};  // nothing: it was not played
+  std::string why{};                 // it failed or was not tellable
+};
+
+struct Probed {
+  const ChoiceRow* choice = nullptr;
+  std::vector<OptionCase> cases{};
+
+  /// A case in which a step was skipped has not judged everything, so it speaks for no option.
+  std::vector<std::string> agreeing() const {
+    std::vector<std::string> options;
+    for (const OptionCase& one : cases)
+      if (one.verdict == Verdict::passed) options.push_back(one.option);
+    return options;
+  }
+  bool is_told() const {
+    return std::ranges::all_of(cases, [](const OptionCase& one) {
+      return one.verdict == Verdict::passed || one.verdict == Verdict::failed;
+    });
+  }
+  const char* state() const {
+    if (!is_told()) return "not_exercised";
+    const std::size_t count = agreeing().size();
+    return count == 1 ? "measured" : count == 0 ? "contradicted" : "undecided";
+  }
+  /// Proofs of many options tell most.
+  std::size_t weight() const { return cases.size(); }
+};
+constexpr std::array<const char*, 4> kStates{"measured", "contradicted", "undecided", "not_exercised"};
+
+/// Returns the folder of the model's proofs: of the source tree, or as they are installed.
+std::string folder_of_proofs(const Model& model, const std::string& given) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const std::vector<fs::path> places =
+      given.empty() ? std::vector<fs::path>{program / "../share/understudy/docs/fidelity/proofs",
+                                            program / "../../docs/fidelity/proofs"}
+                    : std::vector<fs::path>{given};
+  for (const fs::path& place : places) {
+    const fs::path folder = place / std::string(model.name);
+    if (fs::is_directory(folder, error)) return fs::canonical(folder, error).string();
+  }
+  throw UsageError("probe: the proofs of " + std::string(model.name) + " are not in " +
+                   places.front().string() + "; expected --proofs with the folder docs/fidelity/proofs");
+}
+
+/// Returns true if the proof needs nothing but a controller with factory settings at its usual number.
+bool is_of_bare_controller(const play::Scenario& scenario) {
+  const world::Bench& bench = scenario.bench;
+  if (bench.devices.size() != 1 || bench.lines.size() != 1) return false;
+  const bool is_alone = bench.machines.empty() && bench.wires.empty() && bench.inputs.empty() &&
+                        bench.faults.empty() && bench.lines.front().baud == 0;
+  if (!is_alone) return false;
+  const world::DeviceSetup& device = bench.devices.front();
+  const DeviceSettings& settings = device.settings;
+  const bool is_newest = settings.firmware == 0 || settings.firmware == device.model->firmwares.back();
+  return is_newest && settings.address.value_or(1) == 1 && settings.dip.empty() && !settings.nv &&
+         settings.program.empty() && settings.choices.size() == 1 && settings.modules <= 1;
+}
+
+/// Returns the scenario with the controller's own station number.
+std::shared_ptr<const play::Scenario> adapted(std::shared_ptr<const play::Scenario> scenario,
+                                              const ProbeArguments& arguments) {
+  if (!arguments.station) return scenario;
+  auto changed = std::make_shared<play::Scenario>(*scenario);
+  changed->bench.devices.front().settings.address = arguments.station;
+  return changed;
+}
+
+std::vector<Probed> proofs_of(ModelList models, const Model& model, const ProbeArguments& arguments) {
+  const std::string folder = folder_of_proofs(model, arguments.proofs);
+  play::CaseList case_list(models, {});
+  std::map<std::string, Probed> by_choice;
+  for (const std::string& path : files_below(folder, kYamlEndings)) {
+    case_list.add(path, [](const play::Scenario&) {});
+  }
+  play::CaseReader reader(case_list);
+  play::Selection all(case_list, "", {});
+  while (const auto next = all.next()) {
+    const std::shared_ptr<const play::Scenario> scenario = reader.read(*next);
+    if (!is_of_bare_controller(*scenario)) continue;
+    for (const ChoiceRow& row : model.choices) {
+      const auto& chosen = scenario->bench.devices.front().settings.choices;
+      const auto option = chosen.find(std::string(row.id));
+      if (option == chosen.end() || !scenario->name.starts_with(std::string(row.id) + ":")) continue;
+      Probed& probed = by_choice[std::string(row.id)];
+      probed.choice = &row;
+      probed.cases.push_back({.option = option->second, .scenario = adapted(scenario, arguments)});
+    }
+  }
+  std::vector<Probed> proofs;
+  for (auto& [id, probed] : by_choice)
+    if (probed.cases.size() > 1) proofs.push_back(std::move(probed));
+  std::ranges::stable_sort(proofs, std::ranges::greater{}, &Probed::weight);
+  return proofs;
+}
+
+void play_case(OptionCase& one, OnStage& stage) {
+  play::RunOptions options;
+  options.make_executor = [&](const play::Scenario& scenario) { return stage.make(scenario); };
+  const std::vector<play::ScenarioResult> results = play::run_scenario(*one.scenario, options);
+  const play::ScenarioResult& result = results.front();
+  one.verdict = result.verdict;
+  if (result.failure) one.why = result.failure->what;
+  for (const play::StepResult& step : result.steps) {
+    if (step.skipped.empty() || result.failure) continue;
+    one.verdict = Verdict::not_tellable;
+    one.why = step.skipped;
+    break;
+  }
+}
+
+/// Returns true if the cases tell the options apart over a line: each passes with its own option, and fails
+/// with every other. Moments that only simulated time can hit do not, and neither do those that an adapter's
+/// delay would move.
+bool are_telling(const Probed& probed, OnStage& stage) {
+  constexpr SimTime kDelayOfAdapter = std::chrono::milliseconds(16);
+  play::RunOptions options;
+  options.make_executor = [&](const play::Scenario& scenario) { return stage.rehearse(scenario); };
+  for (const SimTime gap : {SimTime{0}, kDelayOfAdapter}) {
+    for (const OptionCase& asked : probed.cases) {
+      for (const OptionCase& held : probed.cases) {
+        play::Scenario rehearsal = *asked.scenario;
+        rehearsal.gap += gap;
+        rehearsal.bench.devices.front().settings.choices[std::string(probed.choice->id)] = held.option;
+        const play::ScenarioResult result = play::run_scenario(rehearsal, options).front();
+        const bool is_whole = std::ranges::all_of(
+            result.steps, [](const play::StepResult& step) { return step.skipped.empty(); });
+        const Verdict wanted = &asked == &held ? Verdict::passed : Verdict::failed;
+        if (!is_whole || result.verdict != wanted) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// If a case cannot be told, the others of its choice would not decide either.
+void play_all(Probed& probed, OnStage& stage) {
+  if (!are_telling(probed, stage)) return;
+  for (OptionCase& one : probed.cases) {
+    play_case(one, stage);
+    if (one.verdict != Verdict::passed && one.verdict != Verdict::failed) return;
+  }
+}
+
+Evidence evidence_of(const Model& model, const ProbeArguments& arguments, const std::vector<Probed>& proofs) {
+  Evidence evidence{{"understudy", 1},
+                    {"kind", "evidence"},
+                    {"model", model.name},
+                    {"port", arguments.port},
+                    {"choices", Evidence::array()}};
+  for (const Probed& probed : proofs) {
+    Evidence row{{"choice", probed.choice->id},
+                 {"state", probed.state()},
+                 {"options", probed.is_told() ? probed.agreeing() : std::vector<std::string>()},
+                 {"proof", probed.cases.front().scenario->file}};
+    for (const OptionCase& one : probed.cases)
+      if (!one.why.empty()) row["seen"][one.option] = one_line(one.why);
+    evidence["choices"].push_back(row);
+  }
+  return evidence;
+}
+
+void print_table(const std::vector<Probed>& proofs) {
+  std::map<std::string, std::size_t> counts;
+  for (const Probed& probed : proofs) {
+    const std::string state = probed.state();
+    ++counts[state];
+    if (state == "not_exercised") continue;
+    std::string options;
+    for (const std::string& option : probed.agreeing()) options += (options.empty() ? "" : " or ") + option;
+    const bool is_new = state == "measured" && options != options_of(*probed.choice).front();
+    std::printf("  %-12s %s: %s%s\n", state.c_str(), std::string(probed.choice->id).c_str(),
+                options.empty() ? "none of its options" : options.c_str(),
+                is_new ? "  (the model's default is another)" : "");
+  }
+  std::string text;
+  for (const char* const state : kStates)
+    text += (text.empty() ? "" : ", ") + std::to_string(counts[state]) + " " + state;
+  std::ranges::replace(text, '_', ' ');
+  std::printf("%s\n", text.c_str());
+}
+
+}  // namespace
+
+int probe_box(ModelList models, const ProbeArguments& arguments) {
+  const Model& model = require_model(models, arguments.model);
+  FileClaims claims;
+  ResultFile output("--output", require_output(claims, "--output", arguments.output), ContentKind::evidence);
+  std::vector<Probed> proofs = proofs_of(models, model, arguments);
+  OnArguments on = arguments.on;
+  on.on = {"*=" + arguments.port};
+  OnStage stage(on, true);
+  bool is_over = false;
+  try {
+    for (Probed& probed : proofs) {
+      if (on.plan) std::printf("%s\n", std::string(probed.choice->id).c_str());
+      play_all(probed, stage);
+    }
+  } catch (const play::ExecutionAborted&) {
+    is_over = true;
+  }
+  if (on.plan) return kExitWell;
+  print_table(proofs);
+  if (output.is_wanted()) output.write(evidence_of(model, arguments, proofs).dump(1) + "\n");
+  return is_over ? kExitFailed : kExitWell;
+}
+
+}  // namespace understudy::emulator::command_line

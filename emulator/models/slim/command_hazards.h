@@ -1,0 +1,141 @@
+// SLIM: what each command can do when a host sends it. A command without a row does not compile.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "base/complete_table.h"
+#include "emulator/device/hazards.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/parse.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace command_hazards {
+
+using interpreter::slim::Verb;
+using Row = HandlerRow<Verb, Hazards>;
+
+inline constexpr Hazards kReads = Hazards::reads;
+inline constexpr Hazards kValue = Hazards::settings;
+inline constexpr Hazards kMotion = Hazards::motion;
+inline constexpr Hazards kOutput = Hazards::output;
+inline constexpr Hazards kMemory = Hazards::memory;
+// A program can do all that its commands do.
+inline constexpr Hazards kProgram = kMemory | kOutput | kMotion;
+// A line of a program is only stored; typed, it is refused.
+inline constexpr Hazards kInProgram = kMemory;
+// Speeds, limits, modes of inputs and outputs, and the modules that are linked.
+inline constexpr Hazards kAnyParameter = kOutput | kMotion | Hazards::stops_answering;
+inline constexpr Hazards kEverything = Hazards::all;
+
+// clang-format off
+inline constexpr Row kRows[] = {
+    {Verb::move_absolute, kMotion},
+    {Verb::move_relative, kMotion},
+    {Verb::jog_forward, kMotion},
+    {Verb::jog_reverse, kMotion},
+    {Verb::jog_stop, kMotion},
+    {Verb::thrust, kMotion},
+    {Verb::home, kMotion},
+    {Verb::set_coordinate, kMotion},
+    {Verb::servo_on, kMotion},
+    {Verb::servo_off, kMotion},
+    {Verb::reset, kMotion},
+    {Verb::servo_off_now, kMotion},
+    {Verb::servo_on_now, kMotion},
+    {Verb::analog_speed, kMotion},
+    {Verb::set_port, kOutput},
+    {Verb::clear_port, kOutput},
+    {Verb::toggle_port, kOutput},
+    {Verb::pulse_port, kOutput},
+    {Verb::set_all_ports, kOutput},
+    {Verb::set_port_now, kOutput},
+    {Verb::clear_port_now, kOutput},
+    {Verb::pwm, kOutput},
+    {Verb::set_port_at, kOutput},
+    {Verb::clear_port_at, kOutput},
+    {Verb::run, kProgram},
+    {Verb::jump, kInProgram},
+    {Verb::jump_if, kInProgram},
+    {Verb::jump_if_within, kInProgram},
+    {Verb::call, kInProgram},
+    {Verb::return_, kInProgram},
+    {Verb::wait_input, kInProgram},
+    {Verb::wait_time, kInProgram},
+    {Verb::wait_done, kInProgram},
+    {Verb::set_event, kProgram},
+    {Verb::on_event, kProgram},
+    {Verb::pause, kMotion},
+    {Verb::redo, kMotion},
+    {Verb::clear_buffer, kMotion},
+    {Verb::exit, kMotion},
+    {Verb::program_new, kMemory},
+    {Verb::program_append, kMemory},
+    {Verb::program_list, kReads},
+    {Verb::program_edit, kMemory},
+    {Verb::program_insert, kMemory},
+    {Verb::program_delete, kMemory},
+    {Verb::upload, kReads},
+    {Verb::download, kMemory},
+    {Verb::get_integer, kInProgram},
+    {Verb::get_real, kInProgram},
+    {Verb::print, kReads},
+    {Verb::set_variable, kValue},
+    {Verb::set_parameter, kAnyParameter},
+    {Verb::list_parameters, kReads},
+    {Verb::default_parameters, kAnyParameter},
+    {Verb::save_data, kMemory},
+    {Verb::save_parameters, kMemory},
+    {Verb::save_program, kMemory},
+    {Verb::reboot, kEverything},
+    {Verb::map_axis, kMotion},
+    {Verb::line_absolute, kMotion},
+    {Verb::line_relative, kMotion},
+    {Verb::arc_absolute, kMotion},
+    {Verb::arc_relative, kMotion},
+    {Verb::helix_absolute, kMotion},
+    {Verb::helix_relative, kMotion},
+    {Verb::spiral, kMotion},
+    {Verb::pause_all, kMotion},
+    {Verb::resume_all, kMotion},
+    {Verb::abandon_all, kMotion},
+    {Verb::stop_all, kMotion},
+    {Verb::axis_move_absolute, kMotion},
+    {Verb::axis_move_relative, kMotion},
+    {Verb::axis_wait_done, kInProgram},
+    {Verb::set_path_speed, kMotion},
+    {Verb::continuous_path, kMotion},
+};
+// clang-format on
+
+/// Queries are replaced by another command, because a key may occur twice.
+inline constexpr auto kVerbs = [] {
+  std::array<Verb, interpreter::slim::kCommands.size()> verbs{};
+  std::size_t count = 0;
+  for (const auto& row : interpreter::slim::kCommands)
+    verbs[count++] = row.is_query() ? Verb::home : row.verb;
+  return verbs;
+}();
+
+inline constexpr CompleteTable<Verb, Hazards> kTable(kVerbs, kRows);
+
+}  // namespace command_hazards
+
+/// Returns what a line of text can do. A line that is no command here may be one there, or belong to a
+/// program that is being entered.
+inline Hazards hazards_of_line(std::string_view line) {
+  namespace lang = interpreter::slim;
+  const lang::ParseResult parsed = lang::parse_line(line, lang::kWidestDialect);
+  if (parsed.error != lang::Error::none) return line.starts_with('?') ? Hazards::reads : Hazards::all;
+  if (!parsed.line.command) return parsed.line.label.empty() ? Hazards::reads : Hazards::memory;
+  const lang::Command& command = *parsed.line.command;
+  if (lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) return Hazards::reads;
+  const bool is_array = command.verb == lang::Verb::set_variable && !command.operands.empty() &&
+                        lang::is_array(command.operands.front().kind);
+  return command_hazards::kTable[command.verb] | (is_array ? Hazards::memory : Hazards::reads);
+}
+
+}  // namespace understudy::emulator::models::slim

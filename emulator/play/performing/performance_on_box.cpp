@@ -1,0 +1,386 @@
+#include "emulator/play/performing/performance_on_box.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "base/simulated_time.h"
+#include "emulator/device/program_error.h"
+#include "emulator/play/performing/asking_on_box.h"
+#include "emulator/play/performing/performance.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/box_stage.h"
+#include "emulator/play/stages/executor.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+std::string place_text(const Step& step) { return step.file + ":" + std::to_string(step.line); }
+
+}  // namespace
+
+// --- steps ---------------------------------------------------------------------------------------
+
+struct StepOnBox {
+  using OnBox = Performance::OnBox;
+  OnBox& on_box;
+  const Step& step;
+
+  void operator()(const WriteStep& what) const { on_box.use_line(what); }
+  void operator()(const CommandStep& what) const { on_box.use_line(what); }
+  void operator()(const SendStep& what) const { on_box.use_line(what); }
+  void operator()(const TextStep& what) const { on_box.use_line(what); }
+  void operator()(const ExpectStep& what) const { on_box.expect(what); }
+  void operator()(const WaitStep& what) const { on_box.wait(what); }
+  void operator()(const AdvanceStep& what) const { on_box.let_time_pass(what.by); }
+  void operator()(const AssertStep& what) const { on_box.check(what); }
+  void operator()(const SpanStep& what) const { on_box.open(step, what); }
+  void operator()(const EndSpanStep& what) const {
+    std::erase_if(on_box.spans_, [&](const auto& span) { return span.name == what.name; });
+  }
+  void operator()(const SayStep&) const {}
+  void operator()(const ResetPeaksStep&) const {}
+
+  void operator()(const InputStep& what) const {
+    const world::KnownDevices& known = on_box.performance_.eyes_->world.known();
+    for (const world::InputSetup& input : what.inputs) {
+      const KnownTerminal terminal = terminal_of(known, input.device, input.terminal);
+      on_box.act({"input", terminal.name, level_text(*terminal.row, input.level)});
+    }
+    rehearse(what);
+  }
+  void operator()(const TurnStep& what) const {
+    for (const world::Fault& turn : what.turns) on_box.act(words_of_fault("turn", turn));
+    rehearse(what);
+  }
+  void operator()(const InjectStep& what) const {
+    std::vector<std::string> words = words_of_fault("inject", what.fault);
+    words.push_back("name=" + what.name);
+    on_box.act(words);
+    rehearse(what);
+  }
+  void operator()(const ClearStep& what) const {
+    on_box.act({"clear", what.name.empty() ? "all" : what.name});
+    rehearse(what);
+  }
+  void operator()(const PowerStep& what) const {
+    for (const auto& [device, to] : what.devices) {
+      const char* const word = to == PowerStep::To::on ? "on" : to == PowerStep::To::off ? "off" : "cycle";
+      on_box.act({"power", on_box.device_name(device), word});
+    }
+    rehearse(what);
+  }
+  void operator()(const ProgramStep& what) const {
+    if (what.file.empty()) throw OnBox::Skip("a program that the scenario contains is not loaded", true);
+    on_box.act({"program", on_box.device_name(what.device), what.file});
+    rehearse(what);
+  }
+
+  void operator()(const MemoryStep&) const { throw OnBox::Skip("the memory is not on the line", false); }
+  void operator()(const CommandEndStep&) const { throw OnBox::Skip("no command runs beside it", true); }
+  void operator()(const SnapshotStep&) const { throw OnBox::Skip("the state cannot be kept", false); }
+  void operator()(const RestoreStep&) const { throw OnBox::Skip("time cannot go back", true); }
+  void operator()(const ForkStep&) const { throw OnBox::Skip("time cannot go back", false); }
+
+ private:
+  /// In a rehearsal, the world takes the place of the machine.
+  void rehearse(const auto& what) const {
+    if (on_box.box_.is_rehearsal()) on_box.performance_.perform(what);
+  }
+
+  struct KnownTerminal {
+    std::string name;
+    const TerminalRow* row;
+  };
+  static KnownTerminal terminal_of(const world::KnownDevices& known, std::size_t device, int terminal) {
+    const TerminalRow& row = known[device].model->terminals[static_cast<std::size_t>(terminal)];
+    return {known[device].name + "." + std::string(row.name), &row};
+  }
+  static std::string level_text(const TerminalRow& row, std::int32_t level) {
+    if (has_two_levels(row.kind)) return level != 0 ? "on" : "off";
+    return std::to_string(level) + (is_in_millivolts(row.kind) ? "mV" : "");
+  }
+  std::vector<std::string> words_of_fault(const std::string& verb, const world::Fault& fault) const {
+    const world::FaultText text = world::fault_text(on_box.performance_.eyes_->world.known(), fault);
+    std::vector<std::string> words{verb};
+    if (verb != text.kind) words.push_back(text.kind);
+    words.push_back(text.place);
+    for (const auto& [name, value] : text.fields) words.push_back(name + "=" + value);
+    return words;
+  }
+};
+
+std::optional<Failure> Performance::OnBox::play(const Step& step) {
+  performance_.skipped_ = cut_;
+  if (!cut_.empty()) return std::nullopt;
+  return attempt(&step, [&] {
+    std::visit(StepOnBox{*this, step}, step.what);
+    check_spans();
+  });
+}
+
+std::optional<Failure> Performance::OnBox::attempt(const Step* step, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Skip& skip) {
+    performance_.skipped_ = skip.what();
+    if (skip.cuts) cut(step, skip.what());
+  } catch (const NotAllowed& refused) {
+    performance_.skipped_ = refused.what();
+    cut(step, refused.what());
+  } catch (const BeyondEnvelope& refused) {
+    return fail(StepError(refused.what()));
+  } catch (const RigFailed& error) {
+    return fail(StepError(error.what()));
+  } catch (const StepError& error) {
+    if (!box_.only_plans()) return fail(error);
+  } catch (const world::ExpressionError& error) {
+    return fail(StepError(error.what()));
+  } catch (const world::ArithmeticError& error) {
+    return fail(StepError(error.what()));
+  } catch (const world::NameError& error) {
+    return fail(StepError(error.what()));
+  } catch (const ProgramError& error) {
+    return fail(StepError(in_text(error.first())));
+  } catch (const FileError& error) {
+    return fail(StepError(error.what()));
+  }
+  return std::nullopt;
+}
+
+/// The stop goes out first.
+Failure Performance::OnBox::fail(const StepError& error) {
+  const SimTime at = performance_.executor_->now();
+  std::vector<std::string> frames = box_.last_frames();
+  box_.stop();
+  return {.at = at,
+          .what = error.what(),
+          .expected = error.expected,
+          .came = error.came,
+          .details = error.details,
+          .frames = std::move(frames)};
+}
+
+void Performance::OnBox::cut(const Step* step, const std::string& why) {
+  cut_ = step != nullptr ? "it follows " + place_text(*step) + ", which was skipped" : why;
+}
+
+// --- the line ------------------------------------------------------------------------------------
+
+std::string Performance::OnBox::device_name(std::size_t device) const {
+  return performance_.bench_.devices[device].settings.name;
+}
+
+void Performance::OnBox::require_reachable(std::size_t line) {
+  if (const auto why = box_.why_unreachable(line)) throw Skip(*why, true);
+}
+void Performance::OnBox::require_reachable(std::size_t device, const Via& via) {
+  if (performance_.lines_[device].empty()) throw Skip(device_name(device) + " is on no line", true);
+  require_reachable(via.value_or(performance_.lines_[device].front()));
+}
+
+void Performance::OnBox::use_line(const WriteStep& step) {
+  for (const WriteStep::Entry& entry : step.entries) require_reachable(entry.target.device, step.via);
+  performance_.perform(step);
+  due_ = performance_.executor_->now();
+}
+void Performance::OnBox::use_line(const CommandStep& step) {
+  for (const CommandStep::Entry& entry : step.entries) require_reachable(entry.device, step.via);
+  performance_.perform(step);
+  due_ = performance_.executor_->now();
+}
+void Performance::OnBox::use_line(const SendStep& step) {
+  require_reachable(step.line);
+  performance_.perform(step);
+  due_ = performance_.executor_->now();
+}
+void Performance::OnBox::use_line(const TextStep& step) {
+  require_reachable(step.line);
+  performance_.perform(step);
+  due_ = performance_.executor_->now();
+}
+
+/// Nothing depends on a step that only looks.
+void Performance::OnBox::look(const std::function<void()>& at) {
+  try {
+    at();
+  } catch (const Skip& skip) {
+    throw Skip(skip.what(), false);
+  }
+}
+
+/// A value that changes while it is read cannot be compared: the moment of the reading is not exact.
+void Performance::OnBox::expect(const ExpectStep& step) {
+  for (const ExpectStep::Entry& entry : step.entries)
+    if (!entry.target.is_value) require_reachable(entry.target.device, step.via);
+  try {
+    look([&] { performance_.perform(step); });
+  } catch (const StepError& first) {
+    if (!step.answer.is_good()) throw;
+    std::string second;
+    try {
+      performance_.perform(step);
+    } catch (const StepError& again) {
+      second = again.came;
+    }
+    if (second == first.came) throw;
+    throw Skip(
+        "it changes while it is read: " + first.came + ", then " + (second.empty() ? "as expected" : second),
+        false);
+  }
+  due_ = performance_.executor_->now();
+}
+
+world::Number Performance::OnBox::value_of(const std::string& text) {
+  Asking asking(*this, {});
+  const world::Expression expression = asking.parse(text);
+  asking.ask(expression);
+  return world::evaluate(expression, asking.names());
+}
+
+void Performance::OnBox::check(const AssertStep& step) {
+  std::vector<std::string> untrue;
+  std::vector<std::string> explained;
+  for (const std::string& text : step.expressions) {
+    Asking asking(*this, {});
+    const world::Expression expression = asking.parse(text);
+    look([&] { asking.ask(expression); });
+    if (world::is_true(expression, asking.names())) continue;
+    const std::string first = world::explain(expression, asking.names());
+    asking.ask(expression);
+    const std::string second = world::explain(expression, asking.names());
+    if (first != second) throw Skip("it changes while it is read: " + first + ", then " + second, false);
+    untrue.push_back(world::to_text(expression));
+    explained.push_back(second);
+  }
+  if (untrue.empty()) return;
+  throw StepError("'" + untrue.front() + "' does not hold", untrue.front(), explained.front(),
+                  {explained.begin() + 1, explained.end()});
+}
+
+void Performance::OnBox::open(const Step& at, const SpanStep& step) {
+  Asking asking(*this, {});
+  const world::Expression condition = asking.parse(step.expression);
+  look([&] { asking.ask(condition); });
+  spans_.push_back({.name = step.name.empty() ? world::to_text(condition) : step.name,
+                    .expression = step.expression,
+                    .is_never = step.never,
+                    .place = place_text(at)});
+}
+
+/// Between two looks a span may be violated unseen.
+void Performance::OnBox::check_spans() {
+  for (const Span& span : spans_) {
+    Asking asking(*this, {});
+    const world::Expression condition = asking.parse(span.expression);
+    asking.ask(condition);
+    if (world::is_true(condition, asking.names()) != span.is_never) continue;
+    const std::string what = (span.is_never ? "never '" : "always '") + span.name + "' (" + span.place + ")";
+    throw StepError(what + " did not hold", what, world::explain(condition, asking.names()));
+  }
+}
+
+// --- time ----------------------------------------------------------------------------------------
+
+void Performance::OnBox::let_time_pass(SimTime by) {
+  performance_.moment_in(by);  // throws if there is no such moment
+  due_ += by;
+  const SimTime now = performance_.executor_->now();
+  if (due_ > now) performance_.executor_->advance(due_ - now);
+}
+
+void Performance::OnBox::wait(const WaitStep& step) {
+  Asking asking(*this, step.via);
+  const world::Expression condition = asking.parse(step.until);
+  Executor& executor = *performance_.executor_;
+  const SimTime deadline = performance_.moment_in(step.within);
+  const Moment write = box_.last_write();
+  SimTime not_yet = write.latest;  // it was not true then
+  bool is_first = true;
+  while (true) {
+    const SimTime asked = executor.now();
+    asking.ask(condition);
+    const SimTime told = executor.now();
+    if (world::is_true(condition, asking.names())) {
+      const SimTime least = is_first ? SimTime{0} : std::max(not_yet - write.latest, SimTime{0});
+      const SimTime most = told - write.earliest;
+      due_ = is_first ? told : (not_yet + told) / 2;
+      if (!step.takes) return;
+      const bool is_too_early = step.takes->low && world::Number(most.count()) < *step.takes->low;
+      const bool is_too_late = step.takes->high && world::Number(least.count()) > *step.takes->high;
+      if (!is_too_early && !is_too_late) return;
+      const std::string took = "between " + format_duration(least) + " and " + format_duration(most);
+      throw StepError("took " + took + "; expected " + step.takes->text,
+                      "'" + world::on_one_line(step.until) + "' after " + step.takes->text,
+                      "it became true after " + took);
+    }
+    check_spans();
+    is_first = false;
+    not_yet = asked;
+    if (asked > deadline) break;
+    if (step.poll && told < asked + *step.poll) executor.advance(asked + *step.poll - told);
+    if (executor.now() == asked) executor.advance(std::chrono::milliseconds(1));
+  }
+  const std::string text = world::to_text(condition);
+  throw StepError("'" + text + "' did not become true within " + format_duration(step.within),
+                  text + " within " + format_duration(step.within),
+                  world::explain(condition, asking.names()));
+}
+
+// --- the surroundings ----------------------------------------------------------------------------
+
+void Performance::OnBox::act(const std::vector<std::string>& words) {
+  if (const auto why = box_.act(words)) throw Skip(*why, true);
+  due_ = performance_.executor_->now();
+}
+
+std::optional<Failure> Performance::OnBox::begin() {
+  return attempt(nullptr, [&] {
+    for (std::size_t device = 0; device < performance_.bench_.devices.size(); ++device) set_up(device);
+    due_ = performance_.executor_->now();
+  });
+}
+
+/// The scenario begins after power-up, which only a rig can give, and with the values that the bench sets.
+void Performance::OnBox::set_up(std::size_t device) {
+  const DeviceSettings& settings = performance_.bench_.devices[device].settings;
+  const Model& model = *performance_.bench_.devices[device].model;
+  const Firmware firmware = settings.firmware != 0 ? settings.firmware : model.firmwares.back();
+  if (performance_.lines_[device].empty()) return;
+  if (box_.why_unreachable(performance_.lines_[device].front())) return;
+  box_.act({"power", settings.name, "cycle", "optional"});
+  for (const auto& [name, value] : settings.set) {
+    const std::string full = settings.name + "." + name;
+    const auto place = find_register(model, name, firmware);
+    const bool is_known =
+        place && place->place.row->access != Access::write && value_of(full) == world::Number(value);
+    if (is_known) continue;
+    WriteStep write;
+    write.entries.push_back(
+        {.target = {.device = device, .name = full, .place = place}, .value = std::to_string(value)});
+    performance_.perform(write);
+  }
+  for (const auto& [name, value] : settings.assignments) {
+    const world::Number wanted = world::finite_number(value);
+    if (value_of(settings.name + "." + name) == wanted) continue;
+    performance_.executor_->send_text(performance_.lines_[device].front(),
+                                      name + "=" + world::number_text(wanted));
+  }
+}
+
+}  // namespace understudy::emulator::play

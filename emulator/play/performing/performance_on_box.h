@@ -1,0 +1,74 @@
+// A performance whose controllers are real. All that is known of them is what they answer: names become
+// requests, waits become polls, and what needs the world is done by a rig or a person, or skipped.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/play/performing/performance.h"
+#include "emulator/play/stages/box_stage.h"
+#include "emulator/world/expression/expression.h"
+
+namespace understudy::emulator::play {
+
+class Performance::OnBox {
+ public:
+  OnBox(Performance& performance, BoxStage& box) : performance_(performance), box_(box) {}
+
+  std::optional<Failure> begin();
+  std::optional<Failure> play(const Step& step);
+  world::Number value_of(const std::string& expression);
+
+ private:
+  friend struct StepOnBox;
+  class Asking;
+
+  /// A step cannot be executed. If later steps depend on what it would have changed, they are skipped, too.
+  struct Skip : std::runtime_error {
+    Skip(const std::string& why, bool are_later_ones_too)
+        : std::runtime_error(why), cuts(are_later_ones_too) {}
+    bool cuts;
+  };
+  struct Span {
+    std::string name;
+    std::string expression;
+    bool is_never = false;
+    std::string place;
+  };
+
+  std::optional<Failure> attempt(const Step* step, const std::function<void()>& act);
+  Failure fail(const StepError& error);
+  void cut(const Step* step, const std::string& why);
+
+  void use_line(const WriteStep& step);
+  void use_line(const CommandStep& step);
+  void use_line(const SendStep& step);
+  void use_line(const TextStep& step);
+  static void look(const std::function<void()>& at);
+  void expect(const ExpectStep& step);
+  void wait(const WaitStep& step);
+  void check(const AssertStep& step);
+  void open(const Step& at, const SpanStep& step);
+  void check_spans();
+  void act(const std::vector<std::string>& words);
+  void require_reachable(std::size_t line);
+  void require_reachable(std::size_t device, const Via& via);
+  void set_up(std::size_t device);
+  std::string device_name(std::size_t device) const;
+  void let_time_pass(SimTime by);
+
+  Performance& performance_;
+  BoxStage& box_;
+  std::vector<Span> spans_;
+  std::string cut_;  // why all later steps are skipped
+  /// When the present step would have begun if looking took no time, as in simulated time.
+  SimTime due_{0};
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,61 @@
+// What a scenario needs of a stage whose controllers are real, beside requests: acts on their surroundings,
+// moments as they were measured, and a stop. Nothing is known of a real controller but its answers.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::play {
+
+/// A request that the user has not allowed. It was not sent.
+struct NotAllowed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A request beyond the user's limits. It was not sent.
+struct BeyondEnvelope : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A rig that should have done something has failed.
+struct RigFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// When something happened, as the host's clock tells.
+struct Moment {
+  SimTime earliest{0};
+  SimTime latest{0};
+};
+
+class BoxStage {
+ public:
+  virtual ~BoxStage() = default;
+
+  /// Returns why nobody answers on a line, or nothing.
+  virtual std::optional<std::string> why_unreachable(std::size_t line) const = 0;
+  /// Has a rig or a person do something: {"input", "feeder.DIN_2", "on"}. Returns nothing if it is done, or
+  /// why it is not.
+  virtual std::optional<std::string> act(const std::vector<std::string>& words) = 0;
+  /// Asks a rig for a value that is not on the line. Returns nothing if there is none.
+  virtual std::optional<std::string> tell(const std::string& name) = 0;
+
+  /// Returns when the last request that may have changed something took effect.
+  virtual Moment last_write() const = 0;
+  /// Returns the last frames, the oldest first.
+  virtual std::vector<std::string> last_frames() const = 0;
+  /// Nothing is sent: the world answers, and is acted on.
+  virtual bool is_rehearsal() const = 0;
+  /// Requests are only listed, and nothing is judged.
+  virtual bool only_plans() const = 0;
+
+  /// Stops everything, if anything was allowed that may move.
+  virtual void stop() = 0;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,210 @@
+// `understudy run --on`: scenarios with a real controller at the end of the line. `serve` is the controller,
+// or a box that counts what it is asked for.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <string>
+
+#include "tests/acceptance/counting_box.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace on_test {
+
+constexpr int kPulse = 0x1000;
+constexpr int kMove = 0x1005;
+constexpr int kAllStop = 0x100D;
+
+std::string scenario(const std::string& steps, const std::string& model = "simple2-r3") {
+  return "understudy: 1\nbench:\n  lines:\n    line:\n      stations:\n        - { name: box, model: " +
+         model + " }\nsteps:\n" + steps;
+}
+
+Finished run_on(const PrivateFolder& folder, const std::string& text, const std::string& port,
+                const Words& flags = {}) {
+  Words words{"run", folder.write("case.yaml", text), "--on", "line=" + port};
+  words.insert(words.end(), flags.begin(), flags.end());
+  return understudy(words);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const std::string kMoveSteps =
+    "  - write: { box.Aaxis_SVON: 1, box.Aaxis_Pulse: 3200, box.Aaxis_Speed: 60, box.Aaxis_AccTime: 1 }\n"
+    "  - write: { box.Aaxis_Move_INC: 1 }\n"
+    "  - wait: { until: box.STATUS.4 == 1, within: 1s }\n";
+
+TEST(RunOn, PassesAsInSimulatedTime) {
+  const PrivateFolder folder;
+  const RunningUnderstudy served;
+  const std::string text = scenario(kMoveSteps +
+                                    "  - wait: { until: box.STATUS.4 == 0, within: 5s, takes: 500ms..3s }\n"
+                                    "  - expect: { box.Cord_A: 3200 }\n"
+                                    "  - assert: box.Cord_A == 3200 and box.Aaxis_Speed == 60\n");
+  const Finished simulated = understudy({"run", folder.write("simulated.yaml", text)});
+  EXPECT_EQ(simulated.exit_code, 0) << simulated.output << simulated.errors;
+  const Finished on = run_on(folder, text, served.port(), {"--allow-motion"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_TRUE(has(on.output, "1 passed, 0 failed;")) << on.output;
+}
+
+TEST(RunOn, FailsWhereTheControllerIsAnother) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n"
+      "      - { name: hidden, model: simple2-r3, choices: { version_encoding: bcd } }\n");
+  const Finished on =
+      run_on(folder, scenario("  - expect: { box.Version: 152, box.HW_Code: 0xC001 }\n"), served->port());
+  EXPECT_EQ(on.exit_code, 1);
+  EXPECT_TRUE(has(on.output, "box.Version is 338; expected 152")) << on.output;
+}
+
+TEST(RunOn, SendsOnlyReadsWithoutPermission) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const Finished on = run_on(folder, scenario("  - assert: box.Cord_A == 0\n" + kMoveSteps), box.path());
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_GT(box.reads(), 0);
+  EXPECT_EQ(box.writes(), 0);
+  EXPECT_TRUE(has(on.output, "can move an axis; it is sent only with --allow-motion")) << on.output;
+}
+
+TEST(RunOn, SendsNoMotionWithoutItsPermission) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string text = scenario(
+      "  - write: { box.Aaxis_Pulse: 100 }\n"
+      "  - expect: { box.HW_Code: 0 }\n"
+      "  - write: { box.Aaxis_Move_INC: 1 }\n"
+      "  - expect: { box.HW_Code: 1 }\n");
+  const Finished on =
+      run_on(folder, text, box.path(), {"--allow-writes", "--allow-memory", "--allow-outputs"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_EQ(box.writes_to(kPulse), 1);
+  EXPECT_EQ(box.writes_to(kMove), 0);
+  EXPECT_EQ(box.writes(), 1);
+  EXPECT_TRUE(has(on.output, "2 steps skipped")) << on.output;
+}
+
+TEST(RunOn, CallsAScenarioOfWhichNothingIsLeftNotTellable) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const Finished on =
+      run_on(folder, scenario("  - input: { box.DIN_2: on }\n  - expect: { box.DIN_2: 1 }\n"), box.path());
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_TRUE(has(on.output, "0 passed, 0 failed, 1 not tellable")) << on.output;
+  EXPECT_TRUE(has(on.output, "expected --rig COMMAND or --ask")) << on.output;
+}
+
+TEST(RunOn, SendsNothingBeyondTheEnvelope) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string limits = folder.write("limits.yaml",
+                                          "understudy: 1\nlimits:\n  Aaxis_Pulse: -3200..3200\n"
+                                          "  \"*_Speed\": 0..60\n");
+  const Finished on = run_on(folder, scenario("  - write: { box.Aaxis_Pulse: 5000 }\n"), box.path(),
+                             {"--allow-motion", "--envelope", limits});
+  EXPECT_EQ(on.exit_code, 1);
+  EXPECT_TRUE(has(on.output, "not sent, because Aaxis_Pulse = 5000 is beyond " + limits +
+                                 ":3; "
+                                 "expected -3200..3200"))
+      << on.output;
+  EXPECT_EQ(box.writes(), 0);
+}
+
+TEST(RunOn, PlansEveryRequestAndSendsNothing) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const Finished on = run_on(folder, scenario(kMoveSteps), box.path(), {"--allow-motion", "--plan"});
+  EXPECT_EQ(on.exit_code, 0) << on.errors;
+  EXPECT_TRUE(has(on.output, "box.Aaxis_Move_INC = 1  [settings motion]")) << on.output;
+  EXPECT_EQ(box.reads() + box.writes(), 0);
+}
+
+TEST(RunOn, StopsFirstWhenItFails) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const Finished on =
+      run_on(folder, scenario("  - write: { box.Aaxis_Move_INC: 1 }\n  - expect: { box.HW_Code: 7 }\n"),
+             box.path(), {"--allow-motion"});
+  EXPECT_EQ(on.exit_code, 1);
+  EXPECT_EQ(box.writes_to(kMove), 1);
+  EXPECT_GE(box.writes_to(kAllStop), 1);
+  EXPECT_TRUE(has(on.errors, "stop: box: ALL_STOP = 1: done")) << on.errors;
+}
+
+TEST(RunOn, StopsFirstWhenItIsInterrupted) {
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const PrivateFolder folder;
+    const CountingBox box;
+    const std::string file = folder.write("case.yaml", scenario("  - write: { box.Aaxis_Move_INC: 1 }\n"
+                                                                "  - advance: 60s\n"));
+    Process process({UNDERSTUDY_BINARY, "run", file, "--on", "line=" + box.path(), "--allow-motion"});
+    ASSERT_TRUE(eventually([&] { return box.writes_to(kMove) == 1; }));
+    process.send(signal_number);
+    EXPECT_EQ(process.wait(kPatience), 1);
+    EXPECT_GE(box.writes_to(kAllStop), 1);
+    EXPECT_TRUE(has(process.errors(), "stop: box: ALL_STOP = 1: done")) << process.errors();
+  }
+}
+
+TEST(RunOn, LetsARigDoWhatNeedsTheMachine) {
+  const PrivateFolder folder;
+  const RunningUnderstudy served;
+  const std::string rig = folder.write("rig.sh",
+                                       "case $1 in\n"
+                                       "input) echo \"$@\" >> " +
+                                           (folder / "calls") +
+                                           "; exit 0;;\n"
+                                           "*) exit 3;;\nesac\n");
+  const Finished on =
+      run_on(folder, scenario("  - input: { box.DIN_2: on }\n  - expect: { box.HW_Code: 0xC001 }\n"),
+             served.port(), {"--rig", "sh " + rig});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_EQ(run({"cat", folder / "calls"}).output, "input box.DIN_2 on\n");
+}
+
+TEST(RunOn, TakesLinesOfTextAsQueries) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_model("slim");
+  const std::string text = scenario(
+      "  - send: { line: line, text: \"CS 0\" }\n"
+      "  - send: { line: line, text: \"MA 100\" }\n"
+      "  - wait: { until: box.PE == 100, within: 5s }\n"
+      "  - send: { line: line, text: \"?PE\", reply: \"100\" }\n",
+      "slim");
+  const Finished on = run_on(folder, text, served->port(), {"--allow-motion"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_TRUE(has(on.output, "1 passed")) << on.output;
+}
+
+TEST(RunOn, SaysWhatWasTriedIfNothingAnswers) {
+  const PrivateFolder folder;
+  const RunningUnderstudy served;
+  const Finished on = run_on(folder, scenario("  - expect: { box.HW_Code: 1 }\n"), served.port() + ",9600",
+                             {"--reply-timeout", "20ms"});
+  EXPECT_EQ(on.exit_code, 3);
+  EXPECT_TRUE(has(on.errors, "station 1 did not answer at 9600 8E1")) << on.errors;
+}
+
+TEST(RunOn, RefusesFlagsThatNeedTruths) {
+  const PrivateFolder folder;
+  const Finished on = run_on(folder, scenario("  - say: nothing\n"), "/dev/null", {"--lint"});
+  EXPECT_EQ(on.exit_code, 2);
+  EXPECT_TRUE(has(on.errors, "--lint: needs the truths of a simulated controller")) << on.errors;
+}
+
+TEST(Probe, MeasuresAnOptionByReads) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n"
+      "      - { name: hidden, model: simple2-r3, choices: { version_encoding: bcd } }\n");
+  const Finished probed =
+      understudy({"probe", served->port(), "--model", "simple2-r3", "-o", folder / "evidence.json"});
+  EXPECT_EQ(probed.exit_code, 0) << probed.output << probed.errors;
+  EXPECT_TRUE(has(probed.output, "measured     version_encoding: bcd  (the model's default is another)"))
+      << probed.output;
+}
+
+}  // namespace on_test
+}  // namespace understudy::acceptance
