@@ -27,6 +27,7 @@ constexpr FindingRule kFindingRules[] = {
     {"scenario", "A scenario file asks for something impossible."},
     {"steps", "An included file of steps asks for something impossible."},
     {"program", "The model does not accept the text of a program."},
+    {"capture", "A controller has replied otherwise than the bench."},
     {"file", "The file cannot be read, or is not one of ours."},
 };
 
