@@ -31,6 +31,9 @@ constexpr std::array kKinds{
     KindRow{ContentKind::capture,
             "a capture",
             {"\x0a\x0d\x0d\x0a", "# simulated seconds, in (from the host) or out, line"}},
+    // pcap, in either byte order, with microseconds and nanoseconds.
+    KindRow{ContentKind::capture, "a capture", {"\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4"}},
+    KindRow{ContentKind::capture, "a capture", {"\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d"}},
     KindRow{ContentKind::trace, "a trace", {"time_ms", "$version Understudy $end"}},
     KindRow{ContentKind::page, "an HTML page", {"<!DOCTYPE html", "<!doctype html"}},
     KindRow{ContentKind::junit, "a JUnit results file", {"<?xml", "<testsuite"}, "<testsuite"},
@@ -156,6 +159,8 @@ std::string why_not_replaceable_by(ContentKind kind, std::string_view head) {
 std::string is_another_kind(std::string_view head, ContentKind expected) {
   const ContentKind present = content_of(head);
   if (present == ContentKind::other || present == expected) return "";
+  if (present == ContentKind::capture)
+    return "is a capture, for `understudy compare`; expected " + std::string(name_of(expected));
   return "is " + std::string(name_of(present)) + "; expected " + std::string(name_of(expected));
 }
 

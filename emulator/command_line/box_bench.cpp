@@ -2,9 +2,13 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <ios>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,11 +18,17 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/input_log.h"
+#include "emulator/box/compare/stand.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/text_argument.h"
+#include "emulator/device/device.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "pty/rtu_crc.h"
 
 namespace understudy::emulator::command_line {
 
@@ -54,13 +64,77 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
                    ", but the line has no device of that model; expected an image of one of them");
 }
 
-box::Capture read_one(const std::string& path, const std::string& line) {
+/// The number of the only station on the line; nothing if it has several, or speaks text.
+std::optional<std::uint8_t> only_station(const box::Stand& stand) {
+  std::optional<std::uint8_t> only;
+  for (const auto& station : stand.line().stations) {
+    const ModbusStation* const modbus = station->device().modbus();
+    for (int number = 0; modbus != nullptr && number < 256; ++number) {
+      if (modbus->addressing(static_cast<std::uint8_t>(number)) != Addressing::obey_and_reply) continue;
+      if (only) return {};
+      only = static_cast<std::uint8_t>(number);
+    }
+  }
+  return only;
+}
+
+void set_station(box::CapturedBytes& frame, std::uint8_t number) {
+  if (frame.size() < 4) return;
+  frame[0] = number;
+  frame.resize(frame.size() - 2);
+  pty::append_rtu_crc(frame);
+}
+
+/// Takes out requests to stations that the bench does not have. Masters of Modbus TCP call a device that is
+/// alone at its address 0 or 255.
+void keep_stations_of(const world::Bench& bench, std::size_t line, box::Capture& capture) {
+  const box::Stand stand(bench, line);
+  std::set<int> others;
+  const auto only = only_station(stand);
+  std::erase_if(capture.exchanges, [&](box::Exchange& exchange) {
+    if (exchange.request.empty()) return true;
+    const bool is_anyone = exchange.request[0] == 0 || exchange.request[0] == 255;
+    if (capture.notes.is_modbus_tcp && is_anyone && only) {
+      set_station(exchange.request, *only);
+      set_station(exchange.reply, *only);
+    }
+    if (stand.bank_of(exchange.request) != nullptr) return false;
+    others.insert(exchange.request[0]);
+    ++capture.notes.elsewhere;
+    return true;
+  });
+  if (!capture.exchanges.empty()) return;
+  std::string numbers;
+  for (const int number : others) numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
+  throw FileError(capture.path + ": all requests are to station " + numbers + ", which line " +
+                  quoted(bench.lines[line].name) + " of the bench does not have; expected a capture of " +
+                  (only ? "station " + std::to_string(*only) : std::string("one of its stations")));
+}
+
+box::Capture read_one(const BoxBench& box, const std::string& path, const box::CaptureSettings& settings) {
   if (const std::string why = why_not_readable(path); !why.empty())
     throw FileError(path + ": capture: " + why + "; expected a capture");
   if (const std::string why = is_another_kind(head_of_file(path), ContentKind::capture); !why.empty())
     throw FileError({path, 1, 1}, "capture: " + why);
   std::ifstream file(path, std::ios::binary);
-  return box::read_capture(file, path, line);
+  box::Capture capture = box::read_capture(file, path, settings);
+  if (!settings.is_text) keep_stations_of(box.bench, box.settings.line, capture);
+  return capture;
+}
+
+box::CaptureSettings capture_settings(const BoxBench& box, const CompareArguments& arguments) {
+  box::CaptureSettings settings{.line = arguments.line, .pattern = arguments.pattern};
+  const auto& stations = box.bench.lines[box.settings.line].stations;
+  settings.is_text =
+      !stations.empty() && &box.bench.devices[stations.front().device].model->line.protocol != &kModbusRtu;
+  if (!arguments.every.empty()) {
+    settings.every = parse_duration(arguments.every);
+    if (!settings.every || settings.every->count() == 0)
+      throw UsageError("--every: " + quoted(arguments.every) +
+                       " is not a time between requests; expected one like 20ms");
+  }
+  if (arguments.sample_rate > 0) settings.sample_rate = arguments.sample_rate;
+  return settings;
 }
 
 }  // namespace
@@ -76,8 +150,45 @@ BoxBench read_box_bench(ModelList models, const std::string& command, const Comp
   box.settings.tolerance = *tolerance;
   box.settings.from_power_up = arguments.power_up;
   read_memories(box.bench, box.settings.line, arguments.from);
-  for (const std::string& path : arguments.captures) box.captures.push_back(read_one(path, arguments.line));
+  if (!arguments.inputs.empty()) {
+    const auto text = read_text_argument(arguments.inputs);
+    if (!text)
+      throw FileError(arguments.inputs + ": inputs: " + text.why + "; expected a file of changes of inputs");
+    box.settings.inputs = box::parse_input_log(box.bench, *text, arguments.inputs);
+  }
+  const box::CaptureSettings settings = capture_settings(box, arguments);
+  for (const std::string& path : arguments.captures) box.captures.push_back(read_one(box, path, settings));
   return box;
+}
+
+std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
+  std::vector<std::string> texts;
+  const auto add = [&](std::size_t count, const std::string& one, const std::string& several) {
+    if (count != 0) texts.push_back(std::to_string(count) + " " + (count == 1 ? one : several));
+  };
+  if (!notes.begins_at_power_up) texts.push_back("read as " + notes.format);
+  if (notes.is_side_inferred) texts.emplace_back("the host was told from the controller by their frames");
+  add(notes.bytes_of_no_frame, "byte belongs to no frame", "bytes belong to no frame");
+  add(notes.unasked, "reply follows no request", "replies follow no request");
+  add(notes.elsewhere, "request is to a station that the bench does not have",
+      "requests are to stations that the bench does not have");
+  add(notes.restored_requests, "request was lost, but its reply repeats it",
+      "requests were lost, but their replies repeat them");
+  if (notes.lost_requests != 0)
+    texts.push_back(
+        "from " + std::to_string(notes.lost_requests) +
+        (notes.lost_requests == 1 ? " lost request on, what differs" : " lost requests on, what differs") +
+        " is undecidable, since it may have written");
+  return texts;
+}
+
+std::string why_no_capture_is_expected(std::string_view head, ContentKind expected) {
+  if (std::string why = is_another_kind(head, expected); !why.empty()) return why;
+  if (content_of(head) == expected) return "";
+  const std::string format = box::capture_format(std::string(head.substr(0, kReplyTaskBytes)));
+  return format.empty()
+             ? ""
+             : "is " + format + ", for `understudy compare`; expected " + std::string(name_of(expected));
 }
 
 std::string choice_text(const world::Bench& bench, std::size_t device, const std::string& id) {

@@ -68,6 +68,19 @@ inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
   add_stage_flags(command, probe.on);
 }
 
+inline void add_capture_flags(CLI::App& command, CompareArguments& compare) {
+  command
+      .add_option("--pattern", compare.pattern,
+                  "What the lines of a log look like: '{time} {dir} {hex}', and {*} for anything")
+      ->check(kNotEmpty);
+  command.add_option("--every", compare.every, "The time between requests, for a log without times: 20ms")
+      ->check(kNotEmpty);
+  command
+      .add_option("--sample-rate", compare.sample_rate,
+                  "Samples in a second, for a decode that counts samples: 1000000")
+      ->check(CLI::PositiveNumber);
+}
+
 inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
   command.add_option("CAPTURE", compare.captures, "Captures of the controller's line")->required();
   command.add_option("--bench", compare.bench, "The bench that should reply as the controller did")
@@ -80,6 +93,21 @@ inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
   command.add_option("--tolerance", compare.tolerance, "How much times may differ")->capture_default_str();
   command.add_flag("--power-up", compare.power_up,
                    "Time 0 of the captures is the controller's power-up, so its whole state is known");
+  command
+      .add_option("--inputs", compare.inputs,
+                  "What the inputs did: a file with lines such as '0.250 feeder.DIN_2 on'")
+      ->check(kNotEmpty);
+  add_capture_flags(command, compare);
+}
+
+inline void add_calibrate_flags(CLI::App& command, CalibrateArguments& calibrate) {
+  add_compare_flags(command, calibrate.compare);
+  command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);
+  command
+      .add_option("--box", calibrate.box,
+                  "A name for the controller, such as its serial number, for the evidence")
+      ->check(kNotEmpty);
+  command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
 }
 
 }  // namespace understudy::emulator::command_line

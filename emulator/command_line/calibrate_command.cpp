@@ -60,8 +60,10 @@ std::string hypothesis_text(const world::Bench& bench, const box::Hypothesis& hy
   return text.empty() ? "the bench's own options" : text;
 }
 
-Evidence evidence_of(const BoxBench& box, const CompareArguments& arguments, const box::Calibration& found) {
-  Evidence evidence{{"understudy", 1}, {"kind", "evidence"}, {"bench", arguments.bench}};
+Evidence evidence_of(const BoxBench& box, const CalibrateArguments& arguments,
+                     const box::Calibration& found) {
+  Evidence evidence{{"understudy", 1}, {"kind", "evidence"}, {"bench", arguments.compare.bench}};
+  if (!arguments.box.empty()) evidence["box"] = arguments.box;
   evidence["devices"] = Evidence::array();
   for (const world::StationSetup& station : box.bench.lines[box.settings.line].stations) {
     const world::DeviceSetup& device = box.bench.devices[station.device];
@@ -75,6 +77,10 @@ Evidence evidence_of(const BoxBench& box, const CompareArguments& arguments, con
   for (const box::Capture& capture : box.captures)
     evidence["captures"].push_back({{"file", capture.path}, {"exchanges", capture.exchanges.size()}});
   evidence["explained"] = found.explains;
+  evidence["drift_ppm"] = found.drift_ppm;
+  if (found.contradictory)
+    evidence["contradictory"] = {box.captures[found.contradictory->first].path,
+                                 box.captures[found.contradictory->second].path};
   evidence["choices"] = Evidence::array();
   for (const box::RowFinding& finding : found.findings) {
     Evidence row{{"choice", choice_name(box.bench, finding.key)},
@@ -96,6 +102,14 @@ void print_unexplained_calibration(const BoxBench& box, const box::Calibration& 
   std::printf("no options explain %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
               format_duration(exchange.at).c_str());
   std::printf("the furthest: %s\n", hypothesis_text(box.bench, found.explanations.front()).c_str());
+  if (found.contradictory) {
+    const auto [first, second] = *found.contradictory;
+    std::printf(
+        "%s and %s contradict each other: each is explained alone, but not both; were they made of the same "
+        "controller, with the same settings?\n",
+        box.captures[first].path.c_str(), box.captures[second].path.c_str());
+    return;
+  }
   std::printf("next: run understudy compare with these options to see the difference\n");
 }
 
@@ -119,17 +133,24 @@ void print_calibration(const BoxBench& box, const box::Calibration& found) {
   std::printf("%s, after %zu hypotheses\n", text.c_str(), found.tried);
 }
 
-/// Prints the measured choices of the bench's devices, as a part of a bench file.
+/// Prints what the devices of a bench need, as parts of a bench file.
 void print_measured_choices(const BoxBench& box, const box::Calibration& found) {
   std::size_t device = box.bench.devices.size();
-  for (const box::RowFinding& finding : found.findings) {
-    if (finding.state != RowState::measured || finding.remaining.contains(finding.before)) continue;
-    if (finding.key.device != device) {
+  for (const bool is_firmware : {true, false}) {
+    for (const box::RowFinding& finding : found.findings) {
+      if (finding.state != RowState::measured || finding.remaining.contains(finding.before)) continue;
+      if ((finding.key.row == box::ChoiceKey::kFirmware) != is_firmware) continue;
+      const std::string id = box::choice_id(box.bench, finding.key);
+      const std::string option = box::option_name(box.bench, finding.key, *finding.remaining.begin());
+      const std::string& name = box.bench.devices[finding.key.device].settings.name;
+      if (is_firmware) {
+        std::printf("firmware: %s  # of %s\n", option.c_str(), name.c_str());
+        continue;
+      }
+      if (finding.key.device != device) std::printf("choices:  # of %s\n", name.c_str());
       device = finding.key.device;
-      std::printf("choices:  # of %s\n", box.bench.devices[device].settings.name.c_str());
+      std::printf("  %s: %s\n", id.c_str(), option.c_str());
     }
-    std::printf("  %s: %s\n", box::choice_id(box.bench, finding.key).c_str(),
-                box::option_name(box.bench, finding.key, *finding.remaining.begin()).c_str());
   }
 }
 
@@ -145,7 +166,7 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   box::compare(box.bench, box.captures.front(), box.settings, box::Extent::to_difference);
   const box::Calibration found =
       box::calibrate(box.bench, box.captures, {.compare = box.settings, .threads = 0}, {});
-  if (output.is_wanted()) output.write(evidence_of(box, arguments.compare, found).dump(1) + "\n");
+  if (output.is_wanted()) output.write(evidence_of(box, arguments, found).dump(1) + "\n");
   if (arguments.choices && found.explains) {
     print_measured_choices(box, found);
   } else {

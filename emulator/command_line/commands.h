@@ -32,6 +32,7 @@ struct DescribeArguments {
   std::string model;
   std::string what;
   std::string format = "table";
+  std::vector<std::string> evidence;  // files of `calibrate`: what was measured
 };
 int describe_model(ModelList models, const DescribeArguments& arguments);
 
@@ -293,8 +294,12 @@ struct CompareArguments {
   std::string line;  // of the bench and of the captures; empty: the only one
   std::string from;  // an NV image: what the controller held at the beginning
   std::string tolerance = "1ms";
-  bool power_up = false;  // the captures begin at power-up
-  bool json = false;
+  bool power_up = false;        // the captures begin at power-up
+  std::string pattern;          // of a log's lines; empty: one of those that are known
+  std::string every;            // the time between requests, for a log without times
+  std::string inputs;           // a file: what the inputs did
+  double sample_rate = 0;       // for a log that counts samples; 0: not given
+  std::string format = "text";  // text, json, sarif or github
 };
 /// Plays captures of a real controller against a bench, and judges each reply.
 int compare_captures(ModelList models, const CompareArguments& arguments);
@@ -302,6 +307,7 @@ int compare_captures(ModelList models, const CompareArguments& arguments);
 struct CalibrateArguments {
   CompareArguments compare;
   std::string output;    // a file; empty: none
+  std::string box;       // a name for the controller, for the evidence
   bool choices = false;  // print the choices for a bench file
 };
 /// Finds the options of choices with which a bench replies as in captures.

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -6,8 +8,10 @@
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/box/calibrate/evidence_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/command_line/text_argument.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/describe/describe.h"
 #include "emulator/device/describe/fidelity_page.h"
@@ -46,13 +50,63 @@ int list_models(ModelList models) {
   return kExitWell;
 }
 
+namespace {
+
+/// "bench 3 (1.52), line.txt:12"
+std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row) {
+  std::string text = (file.box.empty() ? file.path : file.box) + " (" + row.firmware + ")";
+  if (!row.capture.empty()) text += ", " + row.capture + ":" + std::to_string(row.place);
+  return text;
+}
+
+/// Adds what was measured to a sheet of choices: the option, and on which controller. If controllers differ,
+/// all are named.
+void add_evidence(Sheet& sheet, const Model& model, const std::vector<box::EvidenceFile>& files) {
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(sheet.columns, name) - sheet.columns.begin());
+  };
+  const std::size_t id = column("id");
+  const std::size_t confidence = column("confidence");
+  sheet.columns.insert(sheet.columns.end(), {"measured", "evidence"});
+  for (std::vector<std::string>& cells : sheet.rows) {
+    std::string options;
+    std::string sources;
+    for (const box::EvidenceFile& file : files) {
+      for (const box::EvidenceRow& row : file.rows) {
+        const bool is_meant = row.model == model.name && row.choice == cells[id];
+        if (!is_meant || row.state != "measured" || row.options.empty()) continue;
+        if (options != row.options.front()) options += (options.empty() ? "" : " or ") + row.options.front();
+        sources += (sources.empty() ? "" : "; ") + source_of(file, row);
+      }
+    }
+    if (!options.empty()) cells[confidence] = "measured";
+    cells.insert(cells.end(), {options, sources});
+  }
+}
+
+std::vector<box::EvidenceFile> read_evidence(const DescribeArguments& arguments) {
+  if (!arguments.evidence.empty() && arguments.what != "choices")
+    throw UsageError("--evidence: " + quoted(arguments.what) + " are not measured; expected choices");
+  std::vector<box::EvidenceFile> files;
+  for (const std::string& path : arguments.evidence) {
+    const auto text = read_text_argument(path);
+    if (!text)
+      throw FileError(path + ": evidence: " + text.why + "; expected a file of `understudy calibrate -o`");
+    files.push_back(box::parse_evidence(*text, path));
+  }
+  return files;
+}
+
+}  // namespace
+
 int describe_model(ModelList models, const DescribeArguments& arguments) {
   const Model& model = require_model(models, arguments.model);
   const auto format = parse_sheet_format(arguments.format);
   if (!format)
     throw UsageError("--format: " + quoted(arguments.format) +
                      " is unknown; expected table, csv, json or markdown");
-  const auto sheet = describe(model, arguments.what, *format);
+  const std::vector<box::EvidenceFile> evidence = read_evidence(arguments);
+  auto sheet = describe(model, arguments.what, *format);
   if (!sheet) {
     throw UsageError(quoted(arguments.what) +
                      " cannot be described; expected registers, parameters, instructions, commands, choices, "
@@ -67,8 +121,9 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
     std::printf("%s has no %s%s\n", arguments.model.c_str(), arguments.what.c_str(), more.c_str());
     return kExitWell;
   }
+  if (!evidence.empty()) add_evidence(*sheet, model, evidence);
   // As Markdown, the choices are a complete page of the documentation.
-  const bool page = arguments.what == "choices" && *format == SheetFormat::markdown;
+  const bool page = arguments.what == "choices" && *format == SheetFormat::markdown && evidence.empty();
   std::fputs(page ? fidelity_page(model).c_str() : format_sheet(*sheet, *format).c_str(), stdout);
   return kExitWell;
 }

@@ -105,6 +105,10 @@ struct CommandLine {
         ->required();
     command.add_option("--format", describe.format, "Output format: table, csv, json or markdown")
         ->capture_default_str();
+    command
+        .add_option("--evidence", describe.evidence,
+                    "Of choices: show what `calibrate -o` has measured in these files")
+        ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
 
@@ -263,14 +267,13 @@ struct CommandLine {
 
   void add_compare(CLI::App& command) {
     add_compare_flags(command, compare);
-    command.add_flag("--json", compare.json, "Print the result as JSON");
+    command.add_option("--format", compare.format, "Output format: text, json, sarif or github")
+        ->capture_default_str();
     command.callback([this] { chosen = [this] { return compare_captures(models, compare); }; });
   }
 
   void add_calibrate(CLI::App& command) {
-    add_compare_flags(command, calibrate.compare);
-    command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);
-    command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
+    add_calibrate_flags(command, calibrate);
     command.callback([this] { chosen = [this] { return calibrate_bench(models, calibrate); }; });
   }
 

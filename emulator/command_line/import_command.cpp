@@ -12,6 +12,7 @@
 #include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
+#include "emulator/command_line/box_bench.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/new_files.h"
 #include "emulator/command_line/text_argument.h"
@@ -102,7 +103,7 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const auto text = read_text_argument(arguments.list);
   if (!text)
     throw FileError(arguments.list + ": registers: " + text.why + "; expected a list of registers (CSV)");
-  if (const std::string why = is_another_kind(*text, ContentKind::registers); !why.empty()) {
+  if (const std::string why = why_no_capture_is_expected(*text, ContentKind::registers); !why.empty()) {
     throw FileError({arguments.list, 1, 1}, "registers: " + why);
   }
   const model_file::RegisterList read = model_file::read_list_file(*text, arguments.list, reading);

@@ -15,6 +15,7 @@
 #include "base/files/text_file.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
+#include "emulator/command_line/box_bench.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/replay_looks.h"
@@ -132,7 +133,8 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw world::RecordingError(arguments.recording + ": recording: " + why + "; expected a recording");
   }
-  if (const std::string why = is_another_kind(head_of_file(arguments.recording), ContentKind::recording);
+  if (const std::string why =
+          why_no_capture_is_expected(head_of_file(arguments.recording), ContentKind::recording);
       !why.empty()) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why);
   }

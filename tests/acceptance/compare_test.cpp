@@ -52,7 +52,8 @@ TEST_F(Compare, FindsEveryReplyTheSameOnAnEqualBench) {
 
 TEST_F(Compare, NamesTheDifferenceAndItsRemedy) {
   const std::string capture = capture_of("version_encoding: bcd", 338);
-  const Finished other = understudy({"compare", capture, "--bench", plain_, "--power-up", "--json"});
+  const Finished other =
+      understudy({"compare", capture, "--bench", plain_, "--power-up", "--format", "json"});
   EXPECT_EQ(other.exit_code, 1) << other.errors;
   const json report = json::parse(other.output, nullptr, false)[0];
   EXPECT_EQ(report["different"], 1) << other.output;
@@ -71,8 +72,99 @@ TEST_F(Compare, CalibratesABenchThatThenAgrees) {
   EXPECT_EQ(choices.output, "choices:  # of box\n  version_encoding: bcd\n") << choices.errors;
 }
 
+TEST_F(Compare, ShowsWhatIsMeasuredAmongTheChoices) {
+  const std::string capture = capture_of("version_encoding: bcd", 338);
+  const std::string evidence = folder_ / "evidence.json";
+  ASSERT_EQ(
+      understudy({"calibrate", capture, "--bench", plain_, "--power-up", "-o", evidence, "--box", "number 3"})
+          .exit_code,
+      0);
+  const Finished choices =
+      understudy({"describe", "simple2-r3", "choices", "--evidence", evidence, "--format", "json"});
+  EXPECT_EQ(choices.exit_code, 0) << choices.errors;
+  std::size_t measured = 0;
+  for (const json& row : json::parse(choices.output, nullptr, false)) {
+    if (row["id"] != "version_encoding") {
+      if (row["confidence"] == "measured") ++measured;
+      continue;
+    }
+    EXPECT_EQ(row["confidence"], "measured");
+    EXPECT_EQ(row["measured"], "bcd");
+    EXPECT_EQ(row["evidence"], "number 3 (1.52), " + capture + ":3");
+  }
+  EXPECT_LT(measured, 10U);
+  const Finished wrong = understudy({"describe", "simple2-r3", "choices", "--evidence", plain_});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.errors.find("evidence: is none; expected a file of `understudy calibrate -o`"),
+            std::string::npos);
+}
+
+TEST_F(Compare, FindsThatAnotherSlaveIsNoneOfOurs) {
+  // libmodbus's debug output of a slave made with pymodbus.
+  const std::string log = PROJECT_FOLDER "/tests/emulator/box/captures/other_slave.txt";
+  const Finished other = understudy({"compare", log, "--bench", plain_, "--every", "50ms", "--power-up"});
+  EXPECT_EQ(other.exit_code, 1) << other.errors;
+  EXPECT_NE(other.output.find("read as debug output of libmodbus"), std::string::npos) << other.output;
+  const Finished none = understudy({"calibrate", log, "--bench", plain_, "--every", "50ms", "--power-up"});
+  EXPECT_EQ(none.exit_code, 1) << none.errors;
+  EXPECT_NE(none.output.find("no options explain"), std::string::npos) << none.output;
+}
+
+TEST_F(Compare, ReportsDifferencesAsSarif) {
+  const std::string capture = capture_of("version_encoding: bcd", 338);
+  const Finished sarif =
+      understudy({"compare", capture, "--bench", plain_, "--power-up", "--format", "sarif"});
+  EXPECT_EQ(sarif.exit_code, 1) << sarif.errors;
+  const json results = json::parse(sarif.output, nullptr, false)["runs"][0]["results"];
+  ASSERT_EQ(results.size(), 1U) << sarif.output;
+  EXPECT_NE(results[0]["message"]["text"].get<std::string>().find("bench: box.Version = 152"),
+            std::string::npos);
+}
+
+TEST_F(Compare, MovesInputsAsAFileSays) {
+  // A scenario with an input gives the capture; the file repeats what it did.
+  const std::string bench = folder_.write("box.yaml", bench_with(""));
+  const std::string scenario = folder_.write("scenario.yaml",
+                                             "understudy: 1\nname: talk\nbench: box.yaml\nsteps:\n  - "
+                                             "advance: 100ms\n  - input: { box.DIN_10: on }\n"
+                                             "  - advance: 100ms\n  - expect: { box.DIN_10: 1 }\n");
+  const Finished run = understudy({"run", scenario, "--capture", folder_ / "captures"});
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  const std::string capture = folder_ / "captures/talk.pcapng";
+  const std::string inputs = folder_.write("inputs.txt", "# an input\n0.100 box.DIN_10 on\n");
+  EXPECT_EQ(understudy({"compare", capture, "--bench", plain_, "--power-up"}).exit_code, 1);
+  const Finished same = understudy({"compare", capture, "--bench", plain_, "--power-up", "--inputs", inputs});
+  EXPECT_EQ(same.exit_code, 0) << same.output << same.errors;
+  for (const auto& [text, what] :
+       {std::pair{"0.1 box.DIN_10 maybe\n", "inputs.txt:1: 'maybe' is not one level"},
+        std::pair{"0.1 box.DIN_77 on\n", "inputs.txt:1: "},
+        std::pair{"soon box.DIN_10 on\n", "does not begin with a time"},
+        std::pair{"0.2 box.DIN_10 on\n0.1 box.DIN_10 off\n", "is before the last one"}}) {
+    folder_.write("inputs.txt", text);
+    const Finished refused = understudy({"compare", capture, "--bench", plain_, "--inputs", inputs});
+    EXPECT_EQ(refused.exit_code, 2) << text;
+    EXPECT_NE(refused.errors.find(what), std::string::npos) << refused.errors;
+  }
+}
+
+TEST_F(Compare, IsNamedByCommandsThatAreGivenACapture) {
+  const std::string captures = PROJECT_FOLDER "/tests/emulator/box/captures/";
+  for (const std::string file : {"tcp.pcap", "socat.txt", "user.pcapng"}) {
+    const Finished replay = understudy({"replay", captures + file});
+    EXPECT_EQ(replay.exit_code, 2);
+    EXPECT_NE(replay.errors.find("for `understudy compare`; expected a recording"), std::string::npos)
+        << replay.errors;
+    const Finished import =
+        understudy({"import", captures + file, "--name", "box", "-o", folder_ / "box.yaml"});
+    EXPECT_EQ(import.exit_code, 2);
+    EXPECT_NE(import.errors.find("for `understudy compare`; expected a list of registers"), std::string::npos)
+        << import.errors;
+  }
+}
+
 TEST_F(Compare, RefusesWhatItCannotReadInOneLine) {
   const std::string text = folder_.write("text.txt", "0.1 in line 01 03\n0.2 out line zz\n");
+  const std::string other_station = folder_.write("other.txt", "0.1 in line 07 03 00 01 00 02 95 AD\n");
   const std::string image = folder_.write(
       "slim.nv.json",
       "{\"understudy\": 1, \"kind\": \"nv-image\", \"model\": \"slim\", \"firmware\": \"1.00\", "
@@ -82,6 +174,11 @@ TEST_F(Compare, RefusesWhatItCannotReadInOneLine) {
     std::string what;
   } cases[] = {
       {{"compare", text, "--bench", plain_}, "text.txt:2: 'zz' is not a byte; expected a line"},
+      {{"compare", other_station, "--bench", plain_},
+       "all requests are to station 7, which line 'line' of the bench does not have; expected a capture of "
+       "station 1"},
+      {{"compare", text, "--bench", plain_, "--every", "soon"}, "is not a time between requests"},
+      {{"compare", text, "--bench", plain_, "--format", "xml"}, "is not a format"},
       {{"compare", plain_, "--bench", plain_}, "capture: is a bench; expected a capture"},
       {{"compare", folder_ / "none", "--bench", plain_}, "expected a capture"},
       {{"compare", text, "--bench", folder_ / "none"}, "none"},

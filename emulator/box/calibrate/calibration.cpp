@@ -19,6 +19,7 @@
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/comparison.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::box {
@@ -35,21 +36,39 @@ struct Reach {
   std::size_t capture = 0;  // of the first contradiction
   std::size_t exchange = 0;
   std::uint64_t fingerprint = 0;  // of the bench's replies up to there
+  std::size_t bytes = 0;          // of the reply that contradicts, in which it agrees
+
+  bool is_further_than(const Reach& other) const {
+    if (is_whole != other.is_whole) return is_whole;
+    return std::pair(explained, bytes) > std::pair(other.explained, other.bytes);
+  }
 };
 
-const ChoiceRow& row_of(const world::Bench& bench, ChoiceKey key) {
-  return bench.devices[key.device].model->choices[key.row];
+const Model& model_of(const world::Bench& bench, ChoiceKey key) { return *bench.devices[key.device].model; }
+
+std::size_t option_count(const world::Bench& bench, ChoiceKey key) {
+  const Model& model = model_of(bench, key);
+  return key.row == ChoiceKey::kFirmware ? model.firmwares.size() : options_of(model.choices[key.row]).size();
 }
 
 std::uint8_t option_in_bench(const world::Bench& bench, ChoiceKey key) {
   const world::DeviceSetup& device = bench.devices[key.device];
-  return resolve_choices(device.model->choices, device.settings.choices)[key.row];
+  if (key.row != ChoiceKey::kFirmware)
+    return resolve_choices(device.model->choices, device.settings.choices)[key.row];
+  const auto& versions = device.model->firmwares;
+  const auto found = std::ranges::find(versions, device.settings.firmware);
+  return static_cast<std::uint8_t>((found == versions.end() ? versions.end() - 1 : found) - versions.begin());
 }
 
 world::Bench bench_with(const world::Bench& bench, const Hypothesis& hypothesis) {
   world::Bench changed = bench;
-  for (const auto& [key, number] : hypothesis)
-    changed.devices[key.device].settings.choices[choice_id(bench, key)] = option_name(bench, key, number);
+  for (const auto& [key, number] : hypothesis) {
+    if (key.row == ChoiceKey::kFirmware) {
+      changed.devices[key.device].settings.firmware = model_of(bench, key).firmwares[number];
+    } else {
+      changed.devices[key.device].settings.choices[choice_id(bench, key)] = option_name(bench, key, number);
+    }
+  }
   return changed;
 }
 
@@ -64,10 +83,10 @@ class Search {
     for (const std::size_t device : devices) {
       const auto rows = bench.devices[device].model->choices;
       for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (options_of(rows[row]).size() < 2) continue;
-        keys_.push_back({.device = device, .row = row});
-        own_.push_back(option_in_bench(bench, keys_.back()));
+        if (options_of(rows[row]).size() >= 2) add_key({.device = device, .row = row});
       }
+      if (bench.devices[device].model->firmwares.size() >= 2)
+        add_key({.device = device, .row = ChoiceKey::kFirmware});
     }
   }
 
@@ -101,7 +120,7 @@ class Search {
     std::vector<Hypothesis> all;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       if (hypothesis.contains(keys_[i])) continue;
-      const std::size_t count = options_of(row_of(bench_, keys_[i])).size();
+      const std::size_t count = option_count(bench_, keys_[i]);
       for (std::size_t option = 0; option < count; ++option) {
         if (option == own_[i]) continue;
         all.push_back(hypothesis);
@@ -139,6 +158,11 @@ class Search {
   }
 
  private:
+  void add_key(ChoiceKey key) {
+    keys_.push_back(key);
+    own_.push_back(option_in_bench(bench_, key));
+  }
+
   /// A combination of options that the model refuses explains nothing.
   Reach reach_of_one(const Hypothesis& hypothesis) const {
     const world::Bench changed = bench_with(bench_, hypothesis);
@@ -156,6 +180,7 @@ class Search {
         reach.explained += *comparison.first_difference;
         reach.capture = i;
         reach.exchange = *comparison.first_difference;
+        reach.bytes = comparison.agreeing_bytes;
         return reach;
       }
       reach.explained += captures_[i].exchanges.size();
@@ -174,7 +199,7 @@ class Search {
       const std::vector<Reach> reaches = reach_of(singles);
       std::vector<Hypothesis> felt;
       for (std::size_t i = 0; i < singles.size(); ++i) {
-        if (reaches[i].explained > reach.explained || reaches[i].is_whole) found.insert(singles[i]);
+        if (reaches[i].is_further_than(reach)) found.insert(singles[i]);
         if (reaches[i].fingerprint != reach.fingerprint) felt.push_back(singles[i]);
       }
       if (!found.empty()) continue;
@@ -182,7 +207,7 @@ class Search {
         const std::vector<Hypothesis> pairs = neighbours_of(one);
         const std::vector<Reach> of_pairs = reach_of(pairs);
         for (std::size_t i = 0; i < pairs.size(); ++i)
-          if (of_pairs[i].explained > reach.explained || of_pairs[i].is_whole) found.insert(pairs[i]);
+          if (of_pairs[i].is_further_than(reach)) found.insert(pairs[i]);
       }
     }
     return {found.begin(), found.end()};
@@ -192,10 +217,8 @@ class Search {
   void keep_best(std::vector<Hypothesis>& hypotheses, const std::vector<Reach>& reaches) {
     std::vector<std::size_t> order(hypotheses.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-      if (reaches[a].is_whole != reaches[b].is_whole) return reaches[a].is_whole;
-      return reaches[a].explained > reaches[b].explained;
-    });
+    std::ranges::stable_sort(
+        order, [&](std::size_t a, std::size_t b) { return reaches[a].is_further_than(reaches[b]); });
     std::vector<Hypothesis> kept;
     level_reaches_.clear();
     for (const std::size_t i : order) {
@@ -218,7 +241,7 @@ class Search {
   RowFinding finding_of(std::size_t key_number, const Calibration& result) {
     const ChoiceKey key = keys_[key_number];
     RowFinding finding{.key = key, .before = own_[key_number]};
-    const auto count = static_cast<std::uint8_t>(options_of(row_of(bench_, key)).size());
+    const auto count = static_cast<std::uint8_t>(option_count(bench_, key));
     std::vector<Hypothesis> tried;
     for (const Hypothesis& explanation : result.explanations) {
       for (std::uint8_t option = 0; option < count; ++option) {
@@ -255,17 +278,79 @@ class Search {
   std::size_t tried_ = 0;
 };
 
+/// Looks for two captures that are explained one by one, but not together.
+std::optional<std::pair<std::size_t, std::size_t>> contradictory_captures(
+    const world::Bench& bench, const std::vector<Capture>& captures, const CalibrateSettings& settings,
+    std::size_t failed) {
+  const auto explains = [&](const std::vector<Capture>& some) {
+    return Search(bench, some, settings, {}).run().explains;
+  };
+  if (captures.size() < 2 || !explains({captures[failed]})) return {};
+  for (std::size_t i = 0; i < captures.size(); ++i) {
+    if (i == failed || !explains({captures[i]}) || explains({captures[i], captures[failed]})) continue;
+    return std::pair{std::min(i, failed), std::max(i, failed)};
+  }
+  return {};
+}
+
 }  // namespace
 
-std::string choice_id(const world::Bench& bench, ChoiceKey key) { return std::string(row_of(bench, key).id); }
+std::string choice_id(const world::Bench& bench, ChoiceKey key) {
+  return key.row == ChoiceKey::kFirmware ? "firmware" : std::string(model_of(bench, key).choices[key.row].id);
+}
 
 std::string option_name(const world::Bench& bench, ChoiceKey key, std::uint8_t number) {
-  return std::string(options_of(row_of(bench, key))[number]);
+  const Model& model = model_of(bench, key);
+  return key.row == ChoiceKey::kFirmware ? version_text(model.firmwares[number])
+                                         : std::string(options_of(model.choices[key.row])[number]);
+}
+
+double fit_drift(const world::Bench& bench, const Capture& capture, const CompareSettings& settings) {
+  // Quartzes and processors' oscillators are within this; between two steps motions stay within a tolerance.
+  constexpr int kFurthest = 300;
+  constexpr int kStep = 25;
+  const auto agrees_for = [&](int millionths) {
+    CompareSettings with = settings;
+    with.drift_ppm = millionths;
+    const Comparison comparison = compare(bench, capture, with, Extent::to_difference);
+    return comparison.first_difference.value_or(capture.exchanges.size());
+  };
+  int best = 0;
+  std::size_t furthest = agrees_for(0);
+  const std::size_t without = furthest;
+  int last = 0;  // of those that are equally good the middle one is taken
+  for (int millionths = kStep; millionths <= kFurthest && without < capture.exchanges.size();
+       millionths += kStep) {
+    for (const int one : {millionths, -millionths}) {
+      const std::size_t reach = agrees_for(one);
+      if (reach < furthest || reach == without) continue;
+      if (reach > furthest) {
+        best = last = one;
+      } else if ((one > 0) == (best > 0)) {
+        last = one;
+      }
+      furthest = reach;
+    }
+  }
+  return (best + last) / 2.0;
 }
 
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateProgress& progress) {
-  return Search(bench, captures, settings, progress).run();
+  Calibration found = Search(bench, captures, settings, progress).run();
+  if (found.explains) return found;
+  // Options and the clock cannot be found at the same time, so one follows the other.
+  CalibrateSettings with = settings;
+  with.compare.drift_ppm =
+      fit_drift(bench_with(bench, found.explanations.front()), captures[found.capture], settings.compare);
+  if (with.compare.drift_ppm != 0) {
+    Calibration drifted = Search(bench, captures, with, progress).run();
+    drifted.tried += found.tried;
+    drifted.drift_ppm = with.compare.drift_ppm;
+    if (drifted.explains) return drifted;
+  }
+  found.contradictory = contradictory_captures(bench, captures, with, found.capture);
+  return found;
 }
 
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,

@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/box/capture/capture.h"
@@ -21,8 +23,9 @@
 
 namespace understudy::emulator::box {
 
-/// A choice of a device of the bench.
+/// A choice of a device of the bench, or its firmware: the versions are options, too.
 struct ChoiceKey {
+  static constexpr std::size_t kFirmware = std::numeric_limits<std::size_t>::max();
   std::size_t device = 0;
   std::size_t row = 0;
   auto operator<=>(const ChoiceKey&) const = default;
@@ -49,9 +52,13 @@ struct Calibration {
   std::vector<Hypothesis> explanations;  // equally good ones, or the one that gets furthest
   std::vector<RowFinding> findings;      // of all choices with several options, in the order of the tables
   std::size_t tried = 0;                 // hypotheses
+  double drift_ppm = 0;                  // by which the controller's clock runs faster than the captures'
   // If nothing explains everything: the end of the best one.
   std::size_t capture = 0;
   std::size_t exchange = 0;
+  /// Two captures that can be explained one by one, but not together: they are of different controllers, or
+  /// of one that was changed.
+  std::optional<std::pair<std::size_t, std::size_t>> contradictory{};
 };
 
 struct CalibrateSettings {
@@ -65,7 +72,8 @@ using CalibrateProgress = std::function<void(std::size_t tried, const std::strin
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateProgress& progress);
 
-/// Returns the single options that remove the first difference of a capture.
+  double drift_ppm = 0;                  // by which the controller's clock runs faster than the captures'
+  // If nothing explains everything: the end of the best one.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
                                  std::size_t first_difference, const CalibrateSettings& settings);
 

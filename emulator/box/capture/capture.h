@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <istream>
 #include <optional>
 #include <string>
@@ -15,29 +16,54 @@ namespace understudy::emulator::box {
 
 using CapturedBytes = std::vector<std::uint8_t>;
 
+/// Who sent bytes. Many tools know two sides but not which of them is the host, and one adapter on two wires
+/// of RS-485 hears both.
+enum class Side : std::uint8_t { host, station, one, other, unknown };
+
 /// Bytes of one direction that were seen together.
 struct CapturedPiece {
-  SimTime at{0};  // when the first of them began
-  bool is_from_host = false;
-  std::string line;  // its name in the capture
-  CapturedBytes bytes;
-  std::size_t place = 0;  // its line in the file, or the number of its packet
+  std::optional<SimTime> at{};  // when the first of them began; nothing: the file tells no times
+  Side side = Side::unknown;
+  std::string line{};  // its name in the capture
+  CapturedBytes bytes{};
+  std::size_t place = 0;              // its line in the file, or the number of its packet
+  bool is_frame = false;              // neither more nor less than one frame, or one line of text
+  bool counts_from_power_up = false;  // its time does, as in captures of a bench
+  std::uint64_t pair = 0;  // the same number for a request and its reply, if the file tells; otherwise 0
 };
 
 /// A request and everything that came before the next one.
 struct Exchange {
   SimTime at{0};
   CapturedBytes request;
-  std::optional<SimTime> replied_at{};  // nothing: there was no reply
+  std::optional<SimTime> replied_at{};  // nothing: there was no reply, or the file tells no times
   CapturedBytes reply{};
-  std::size_t place = 0;  // of the request
+  std::size_t place = 0;          // of the request
+  bool has_broken_reply = false;  // bytes came back that belong to no frame
+  bool follows_loss = false;      // an earlier request is lost that may have written
+};
+
+/// What a reader has noticed.
+struct CaptureNotes {
+  std::string format{};  // "a log of socat"
+  std::string line{};    // the one that was taken
+  SimTime first_at{0};   // times are counted from this one in the file
+  std::size_t exchanges = 0;
+  std::size_t unasked = 0;  // frames, or pieces, of the controller that follow no request
+  std::size_t bytes_of_no_frame = 0;
+  std::size_t lost_requests = 0;      // that may have written
+  std::size_t restored_requests = 0;  // from a reply that repeats them
+  std::size_t elsewhere = 0;  // requests to stations that the bench does not have; left out by who knows it
+  bool is_side_inferred = false;
+  bool is_modbus_tcp = false;
+  bool begins_at_power_up = false;  // its time 0 is the controller's power-up, if anybody says so
 };
 
 struct Capture {
   std::string path;
   std::string line;  // the chosen line
   std::vector<Exchange> exchanges;
-  std::size_t unasked = 0;  // pieces of the controller before the first request
+  CaptureNotes notes{};
 };
 
 /// Thrown for a bad capture. The message begins with the path and the place, and says what was expected.
@@ -45,8 +71,24 @@ struct CaptureReadError : FileError {
   using FileError::FileError;
 };
 
-/// Reads a capture of `serve --capture`, as pcapng or text. `line` chooses one of several lines; empty: the
-/// only one. Throws CaptureReadError.
-Capture read_capture(std::istream& file, const std::string& path, const std::string& line);
+struct CaptureSettings {
+  std::string line{};                   // one of several lines; empty: the only one
+  bool is_text = false;                 // the line speaks text, not Modbus
+  std::string pattern{};                // of the lines of a log (log_pattern.h); empty: one of the known ones
+  std::optional<SimTime> every{};       // the time between requests, if the file tells no times
+  std::optional<double> sample_rate{};  // in Hz, if the file counts samples
+};
+
+/// Returns what a file that begins so is, "a log of socat -x", or nothing if it is not a known capture.
+std::string capture_format(const std::string& head);
+
+using ExchangeSink = std::function<void(Exchange exchange)>;
+
+/// Reads a capture, and hands on each exchange when the next one begins. It holds only the exchange that is
+/// read. Throws CaptureReadError.
+CaptureNotes read_exchanges(std::istream& file, const std::string& path, const CaptureSettings& settings,
+                            const ExchangeSink& sink);
+/// Reads a whole capture into memory.
+Capture read_capture(std::istream& file, const std::string& path, const CaptureSettings& settings);
 
 }  // namespace understudy::emulator::box

@@ -1,9 +1,10 @@
-// Reads the two formats that `serve --capture` writes.
+// The readers of the formats of captures. Each passes on pieces in the order of the file.
 #pragma once
 
 #include <functional>
 #include <istream>
 #include <string>
+#include <string_view>
 
 #include "emulator/box/capture/capture.h"
 
@@ -11,9 +12,17 @@ namespace understudy::emulator::box {
 
 using PieceSink = std::function<void(CapturedPiece piece)>;
 
-/// Reads lines such as "0.102400000 in  rs485 01 06 10 02 00 C8 2D 5C  # remark".
+/// "0.102400000 in  rs485 01 06 10 02 00 C8 2D 5C  # remark", as `serve --capture` writes it
 void read_text_pieces(std::istream& file, const std::string& path, const PieceSink& sink);
-/// Reads pcapng with the link type "Wireshark upper PDU".
-void read_pcapng_pieces(std::istream& file, const std::string& path, const PieceSink& sink);
+bool is_our_text(std::string_view head);
+
+/// pcap and pcapng. Returns what they hold: "packets of TCP".
+std::string read_packet_pieces(std::istream& file, const std::string& path, const PieceSink& sink);
+
+/// Logs of other programs (log_pieces.cpp). `head` is the beginning of the file. Returns what they are.
+std::string read_log_pieces(std::istream& file, const std::string& head, const std::string& path,
+                            const CaptureSettings& settings, const PieceSink& sink);
+/// Returns what a log is that begins so; empty: none that is known.
+std::string log_format(const std::string& head);
 
 }  // namespace understudy::emulator::box

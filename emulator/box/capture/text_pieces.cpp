@@ -8,29 +8,15 @@
 #include <string_view>
 #include <utility>
 
-#include "base/simulated_time.h"
+#include "base/text/lines.h"
 #include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
+#include "emulator/box/capture/log_time.h"
 #include "emulator/box/capture/piece_readers.h"
 
 namespace understudy::emulator::box {
 
 namespace {
-
-/// Parses "12.005333333" into nanoseconds, without rounding.
-std::optional<SimTime> parse_seconds(std::string_view text) {
-  constexpr std::size_t kDigits = 9;
-  const std::size_t point = text.find('.');
-  std::string digits(text.substr(0, point));
-  std::string fraction(point == std::string_view::npos ? "" : text.substr(point + 1));
-  if (digits.empty() || fraction.size() > kDigits) return {};
-  fraction.resize(kDigits, '0');
-  digits += fraction;
-  std::int64_t nanoseconds = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), nanoseconds);
-  if (error != std::errc() || end != digits.data() + digits.size() || nanoseconds < 0) return {};
-  return SimTime{nanoseconds};
-}
 
 std::optional<std::uint8_t> parse_byte(std::string_view text) {
   unsigned byte = 0;
@@ -50,6 +36,19 @@ std::string take_name(std::istream& words) {
 
 }  // namespace
 
+/// The first line that is no remark tells, so that a mistake further down is told with its line.
+bool is_our_text(std::string_view head) {
+  for (const TextLine line : TextLines(head)) {
+    if (line.text.starts_with('#') || line.text.find_first_not_of(" \t\r") == std::string_view::npos)
+      continue;
+    std::istringstream words{std::string(line.text)};
+    std::string time, way;
+    words >> time >> way;
+    return parse_log_seconds(time).has_value() && (way == "in" || way == "out");
+  }
+  return head.starts_with("# simulated seconds");
+}
+
 void read_text_pieces(std::istream& file, const std::string& path, const PieceSink& sink) {
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {
@@ -63,11 +62,13 @@ void read_text_pieces(std::istream& file, const std::string& path, const PieceSi
     std::string time, way;
     words >> time >> way;
     CapturedPiece piece{.line = {}, .bytes = {}, .place = number};
-    const auto at = parse_seconds(time);
+    const auto at = parse_log_seconds(time);
     if (!at) throw refuse(quoted(time) + " is not a time in seconds");
     if (way != "in" && way != "out") throw refuse(quoted(way) + " is not a direction");
     piece.at = *at;
-    piece.is_from_host = way == "in";
+    piece.side = way == "in" ? Side::host : Side::station;
+    piece.is_frame = true;
+    piece.counts_from_power_up = true;
     piece.line = take_name(words);
     for (std::string word; words >> word;) {
       const auto byte = parse_byte(word);

@@ -14,6 +14,7 @@
 #include "emulator/box/compare/stand.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/view/world_view.h"
+#include "pty/rtu_crc.h"
 
 namespace understudy::emulator::box {
 
@@ -64,21 +65,35 @@ Comparison compare(const world::Bench& bench, const Capture& capture, const Comp
   Comparison comparison;
   Fingerprint fingerprint;
   std::vector<bool> has_time;
-  const SimTime shift =
-      settings.from_power_up ? SimTime{0} : kStarted - std::min(kStarted, capture.exchanges.front().at);
+  const SimTime shift = settings.from_power_up && capture.notes.begins_at_power_up
+                            ? SimTime{0}
+                            : kStarted - std::min(kStarted, capture.exchanges.front().at);
+  const auto on_bench = [&](SimTime time) {
+    const double drift = static_cast<double>(time.count()) * settings.drift_ppm * 1e-6;
+    return time + SimTime{static_cast<std::int64_t>(drift)} + shift;
+  };
+  std::vector<InputChange> inputs = settings.inputs;
+  for (InputChange& change : inputs)
+    change.at = std::max(SimTime{0}, on_bench(change.at - capture.notes.first_at));
+  stand.set_inputs(std::move(inputs));
   for (std::size_t i = 0; i < capture.exchanges.size(); ++i) {
     const Exchange& exchange = capture.exchanges[i];
     const bool is_last = i + 1 == capture.exchanges.size();
-    const SimTime at = exchange.at + shift;
-    const SimTime next = is_last ? at + kLongestWait : capture.exchanges[i + 1].at + shift;
+    const SimTime at = on_bench(exchange.at);
+    const SimTime next = is_last ? at + kLongestWait : on_bench(capture.exchanges[i + 1].at);
     const StandReply reply =
         stand.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
     Judgement judgement{.verdict = judge.judge(exchange, reply, stand.bank_of(exchange.request), is_last)};
     fingerprint.add(reply.bytes);
     has_time.push_back(exchange.replied_at.has_value() && reply.at.has_value());
-    if (has_time.back()) judgement.later = (*exchange.replied_at + shift) - *reply.at;
+    if (has_time.back()) judgement.later = on_bench(*exchange.replied_at) - *reply.at;
     const bool is_different = judgement.verdict == Verdict::different;
-    if (is_different && !comparison.first_difference) comparison.first_difference = i;
+    if (is_different && !comparison.first_difference) {
+      comparison.first_difference = i;
+      const auto differs = std::ranges::mismatch(exchange.reply, reply.bytes);
+      const bool is_text = !pty::rtu_crc_ok(exchange.request);
+      if (is_text) comparison.agreeing_bytes = static_cast<std::size_t>(differs.in1 - exchange.reply.begin());
+    }
     if (extent == Extent::whole) {
       const world::WorldLine& line = stand.line();
       const auto told = [&](const Frame& bytes) {

@@ -9,6 +9,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/input_log.h"
 #include "emulator/box/compare/judge.h"
 #include "emulator/box/compare/stand.h"
 #include "emulator/world/bench/bench.h"
@@ -18,7 +19,9 @@ namespace understudy::emulator::box {
 struct CompareSettings {
   std::size_t line = 0;  // of the bench
   SimTime tolerance{0};
-  bool from_power_up = false;  // the capture's time 0 is the controller's power-up
+  bool from_power_up = false;         // the capture's time 0 is the controller's power-up
+  double drift_ppm = 0;               // by which the controller's clock runs faster than the capture's
+  std::vector<InputChange> inputs{};  // by the capture's clock
 };
 
 struct Judgement {
@@ -32,6 +35,9 @@ struct Judgement {
 struct Comparison {
   std::vector<Judgement> judgements;  // one for each exchange, up to the end
   std::optional<std::size_t> first_difference{};
+  /// Of lines of text: how many characters at the beginning of the reply that differs agree. Such a reply may
+  /// differ for several reasons at once.
+  std::size_t agreeing_bytes = 0;
   SimTime usual_delay{0};         // of a reply, compared to the bench's
   std::uint64_t fingerprint = 0;  // of all that the bench has replied
 };

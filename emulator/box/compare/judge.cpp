@@ -73,15 +73,21 @@ Verdict Judge::judge_unseen(std::map<Key, Seen>& seen, const Key& key, double bo
   if (knows_beginning_) return Verdict::different;
   const auto [found, is_new] = seen.try_emplace(key, Seen{.bench = bench, .box = box});
   if (is_new) return Verdict::undecidable;
-  const Seen& before = found->second;
-  if (before.bench == before.box) return Verdict::different;
+  const Seen before = found->second;
+  // What the host did before the capture may show in any register that it has not written since, only later.
+  if (before.bench == before.box)
+    return counts || before.is_written ? Verdict::different : Verdict::undecidable;
   const bool stays = before.bench == bench && before.box == box;
-  return stays || (counts && before.box - before.bench == box - bench) ? Verdict::same : Verdict::different;
+  if (stays || (counts && before.box - before.bench == box - bench)) return Verdict::same;
+  // It goes on with what began before the capture, as a motion does.
+  found->second = {.bench = bench, .box = box};
+  return Verdict::undecidable;
 }
 
 Verdict Judge::judge_cell(const Cell& cell) {
   const auto number = [](Value value) { return static_cast<double>(value); };
   if (cell.box == cell.bench) {
+    unsettled_.erase(cell.key);
     registers_.try_emplace(cell.key, Seen{.bench = number(cell.bench), .box = number(cell.box)});
     return Verdict::same;
   }
@@ -91,7 +97,9 @@ Verdict Judge::judge_cell(const Cell& cell) {
   if (is_number ? is_between(number(cell.box), number(cell.before), number(cell.bench), number(cell.after))
                 : (differing & ~changing) == 0)
     return Verdict::within;
-  return judge_unseen(registers_, cell.key, number(cell.box), number(cell.bench), is_number);
+  const Verdict verdict = judge_unseen(registers_, cell.key, number(cell.box), number(cell.bench), is_number);
+  if (verdict == Verdict::undecidable && is_number) unsettled_.insert(cell.key);
+  return verdict;
 }
 
 Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
@@ -131,7 +139,7 @@ Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, con
 void Judge::note_write(const Addressed& asked) {
   for (int i = 0; i < asked.count; ++i)
     registers_[static_cast<std::uint32_t>(asked.table) << 16 | static_cast<std::uint32_t>(asked.first + i)] =
-        {};
+        {.is_written = true};
 }
 
 Verdict Judge::judge_number(const std::string& query, double box, double bench, const StandReply& stand) {
@@ -141,8 +149,21 @@ Verdict Judge::judge_number(const std::string& query, double box, double bench, 
   return judge_unseen(queries_, query, box, bench, true);
 }
 
+/// What depends on a request that is lost, or on a reply that is, is neither agreement nor difference. Nor is
+/// a refusal while a motion goes on that began before the capture.
 Verdict Judge::judge(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
                      bool is_last) {
+  const Verdict verdict = judge_whole(exchange, stand, bank, is_last);
+  const bool is_clear = verdict == Verdict::same || verdict == Verdict::within;
+  const auto asked = addressed_by(exchange.request);
+  const bool is_read = asked && !asked->is_write;
+  const bool is_told = !exchange.follows_loss && !(exchange.has_broken_reply && exchange.reply.empty()) &&
+                       (is_read || unsettled_.empty());
+  return is_clear || is_told ? verdict : Verdict::undecidable;
+}
+
+Verdict Judge::judge_whole(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+                           bool is_last) {
   if (exchange.reply.empty() && is_last) return stand.bytes.empty() ? Verdict::same : Verdict::undecidable;
   const auto asked = addressed_by(exchange.request);
   if (asked && !asked->is_write && bank != nullptr && !exchange.reply.empty() && !stand.bytes.empty() &&

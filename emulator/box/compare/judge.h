@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,7 +64,10 @@ class Judge {
   struct Seen {
     double bench = 0;
     double box = 0;
+    bool is_written = false;  // by the host, so its value is known
   };
+  Verdict judge_whole(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+                      bool is_last);
   Verdict judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
                       const RegisterBank& bank);
   Verdict judge_cell(const Cell& cell);
@@ -75,6 +79,7 @@ class Judge {
   bool knows_beginning_;
   std::map<std::uint32_t, Seen> registers_;
   std::map<std::string, Seen> queries_;
+  std::set<std::uint32_t> unsettled_;  // counters that have not agreed since the beginning
 };
 
 }  // namespace understudy::emulator::box

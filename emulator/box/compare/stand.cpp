@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/box/compare/input_log.h"
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/named_values.h"
@@ -94,11 +95,20 @@ std::optional<double> Stand::look_for_number(std::span<const std::uint8_t> reque
   return values != nullptr ? values->value_named(query.substr(1)) : std::nullopt;
 }
 
+void Stand::advance_to(SimTime time) {
+  for (; next_input_ < inputs_.size() && inputs_[next_input_].at <= time; ++next_input_) {
+    const InputChange& change = inputs_[next_input_];
+    world_.advance_to(std::max(world_.now(), change.at));
+    world_.set_external_input(change.device, change.terminal, change.level);
+  }
+  world_.advance_to(time);
+}
+
 StandReply Stand::ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance) {
-  world_.advance_to(std::max(world_.now(), at - tolerance));
+  advance_to(std::max(world_.now(), at - tolerance));
   const std::vector<std::uint16_t> before = look(request);
   const std::optional<double> number_before = look_for_number(request);
-  world_.advance_to(at);
+  advance_to(at);
   world_.take_output(line_, line().line.output().size());
   ear_->heard = {};
   std::span<const std::uint8_t> rest = request;
@@ -106,11 +116,11 @@ StandReply Stand::ask(std::span<const std::uint8_t> request, SimTime at, SimTime
     const std::size_t part = std::min(rest.size(), line().line.room());
     world_.receive(line_, rest.first(part));
     rest = rest.subspan(part);
-    if (!rest.empty()) world_.advance_to(world_.next_due().value_or(until));
+    if (!rest.empty()) advance_to(world_.next_due().value_or(until));
   }
   while (!ear_->heard.at && world_.now() < until)
-    world_.advance_to(std::min(world_.next_due().value_or(until), until));
-  if (ear_->heard.at) world_.advance_to(std::min(*ear_->heard.at + tolerance, until));
+    advance_to(std::min(world_.next_due().value_or(until), until));
+  if (ear_->heard.at) advance_to(std::min(*ear_->heard.at + tolerance, until));
   StandReply reply = std::exchange(ear_->heard, {});
   reply.before = before;
   reply.after = look(request);
@@ -119,7 +129,7 @@ StandReply Stand::ask(std::span<const std::uint8_t> request, SimTime at, SimTime
   // Text may come in several pieces.
   if (!addressed_by(request) && reply.at) {
     ear_->heard = std::move(reply);
-    world_.advance_to(until);
+    advance_to(until);
     reply = std::exchange(ear_->heard, {});
   }
   return reply;

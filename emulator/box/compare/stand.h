@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/box/compare/input_log.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/world.h"
@@ -50,6 +52,9 @@ class Stand {
   /// is quiet.
   StandReply ask(std::span<const std::uint8_t> request, SimTime at, SimTime until, SimTime tolerance);
 
+  /// The changes happen at their times as time passes.
+  void set_inputs(std::vector<InputChange> changes) { inputs_ = std::move(changes); }
+
   const world::WorldLine& line() const { return world_.line(line_); }
   /// Returns the registers of the station that the request is for, or null.
   const RegisterBank* bank_of(std::span<const std::uint8_t> request) const;
@@ -59,7 +64,11 @@ class Stand {
   std::vector<std::uint16_t> look(std::span<const std::uint8_t> request) const;
   std::optional<double> look_for_number(std::span<const std::uint8_t> request) const;
 
+  void advance_to(SimTime time);
+
   world::World world_;
+  std::vector<InputChange> inputs_;
+  std::size_t next_input_ = 0;
   std::size_t line_;
   std::unique_ptr<Ear> ear_;
 };

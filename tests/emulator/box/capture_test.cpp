@@ -10,7 +10,7 @@ namespace capture_test {
 
 Capture read(const std::string& text, const std::string& line = "") {
   std::istringstream file(text);
-  return read_capture(file, "c.txt", line);
+  return read_capture(file, "c.txt", {.line = line});
 }
 
 std::string diagnostic(const std::string& text, const std::string& line = "") {
@@ -32,7 +32,7 @@ TEST(ReadCapture, JoinsRequestsAndReplies) {
       "0.200000000 in  pc (mill PC)  # fault 1 drop: not received\n"
       "1.5 in  pc (mill PC) FF\n");
   EXPECT_EQ(capture.line, "pc (mill PC)");
-  EXPECT_EQ(capture.unasked, 1U);
+  EXPECT_EQ(capture.notes.unasked, 1U);
   ASSERT_EQ(capture.exchanges.size(), 2U);
   EXPECT_EQ(capture.exchanges[0].at, SimTime{100'000'000});
   EXPECT_EQ(capture.exchanges[0].replied_at, SimTime{105'333'333});
@@ -53,7 +53,8 @@ TEST(ReadCapture, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(diagnostic(good, "b"), "c.txt: has no line called 'b'; expected one such as 'a'");
   EXPECT_TRUE(
       diagnostic(good + "x in a 01\n").starts_with("c.txt:2: 'x' is not a time in seconds; expected a line"));
-  EXPECT_TRUE(diagnostic("0.1 to a 01\n").starts_with("c.txt:1: 'to' is not a direction; expected a line"));
+  EXPECT_TRUE(
+      diagnostic(good + "0.1 to a 01\n").starts_with("c.txt:2: 'to' is not a direction; expected a line"));
   EXPECT_TRUE(diagnostic("0.1 in a 01 0G\n").starts_with("c.txt:1: '0G' is not a byte; expected a line"));
 }
 
@@ -63,8 +64,11 @@ TEST(ReadCapture, RefusesABrokenPcapng) {
   EXPECT_NE(diagnostic(section).find("has no request"), std::string::npos);
   EXPECT_NE(diagnostic(section + std::string("\6\0\0\0\4\0\0\0", 8)).find("has a broken block"),
             std::string::npos);
-  const std::string ethernet("\1\0\0\0\x14\0\0\0\1\0\0\0\0\0\0\0\x14\0\0\0", 20);
-  EXPECT_NE(diagnostic(section + ethernet).find("is from a link other than"), std::string::npos);
+  const std::string bluetooth("\1\0\0\0\x14\0\0\0\xbb\0\0\0\0\0\0\0\x14\0\0\0", 20);
+  const std::string packet("\6\0\0\0\x20\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x20\0\0\0", 32);
+  EXPECT_NE(
+      diagnostic(section + bluetooth + packet).find("packet 1: is of link type 187; expected a serial line"),
+      std::string::npos);
 }
 
 }  // namespace capture_test

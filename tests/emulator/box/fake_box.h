@@ -18,13 +18,15 @@ using Requests = std::vector<std::vector<std::uint8_t>>;
 using Options = std::map<std::string, std::string>;
 
 inline world::Bench bench_of(const std::string& model, const Options& options = {},
-                             const std::string& set = "") {
+                             const std::string& set = "", const std::string& firmware = "") {
   std::string choices;
   for (const auto& [id, option] : options) choices += (choices.empty() ? "" : ", ") + id + ": " + option;
   return world::parse_bench(
       models::all_models(),
       "understudy: 1\nlines:\n  line:\n    stations:\n      - name: box\n        model: " + model +
-          "\n        choices: { " + choices + " }\n" + (set.empty() ? "" : "        set: { " + set + " }\n"),
+          "\n        choices: { " + choices + " }\n" +
+          (firmware.empty() ? "" : "        firmware: " + firmware + "\n") +
+          (set.empty() ? "" : "        set: { " + set + " }\n"),
       "bench.yaml", ".");
 }
 
@@ -53,6 +55,7 @@ class FakeBox : private pty::LineObserver {
   explicit FakeBox(const world::Bench& bench) : executor_(bench, {}) {
     executor_.with_world([&](world::World& world) { world.add_observer(0, *this); });
     capture_.path = "capture";
+    capture_.notes.begins_at_power_up = true;
   }
   ~FakeBox() override {
     executor_.with_world([&](world::World& world) { world.remove_observer(0, *this); });

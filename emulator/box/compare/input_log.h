@@ -1,0 +1,35 @@
+// What the inputs of a controller did during a capture: a text with a line for each change.
+//
+//   0.250 feeder.DIN_2 on
+//   14:03:07.125 feeder.DIN_2 off      # times as in the capture
+//   1.5 feeder.AIN_1 2500
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "base/simulated_time.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::box {
+
+struct InputChange {
+  SimTime at{0};
+  std::size_t device = 0;
+  int terminal = 0;
+  std::int32_t level = 0;
+};
+
+/// The message begins with the path and the line.
+struct InputLogError : FileError {
+  using FileError::FileError;
+};
+/// Throws InputLogError.
+std::vector<InputChange> parse_input_log(const world::Bench& bench, std::string_view text,
+                                         const std::string& path);
+
+}  // namespace understudy::emulator::box
