@@ -35,7 +35,6 @@ struct ParameterRow {
   std::string_view register_name;  // as in the register table, "{}" for the number
   std::string_view letter{};       // before the number, if any: "X" in X20
   bool of_each_axis = false;       // one number stands for all axes: X20 is a register for each axis
-  std::string_view meaning{};
 };
 
 /// A row of a table of parameters, for a model whose values have no registers.
@@ -131,6 +130,9 @@ struct AxisRow {
   int near_home_input = -1;
   int mark_input = -1;
   int index_input = -1;  // the index pulse of the encoder
+  // The registers, if any, in which 0 means that the device does not use its limit inputs.
+  std::string_view upper_limit_used_by{};
+  std::string_view lower_limit_used_by{};
 };
 
 /// A protocol on a line. Each protocol has one object, in addition to the facet that speaks it (modbus/,
@@ -206,6 +208,7 @@ struct DeviceSettings {
 struct FirstFiles {
   std::string_view bench;
   std::string_view steps;
+  std::string_view first_move{};  // steps that move an axis in any bench, if those of the scenario may not
 };
 
 /// A step that stops everything that moves: a register and its value, a command of the window, or a line of
@@ -228,7 +231,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const ProofRow> proofs{};
-  bool csv_has_bits = true;  // false: the columns of its register CSV were fixed before bits had names
+  bool csv_has_bits = true;  // false: the columns of its CSV were fixed before bits had names
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;

@@ -14,6 +14,8 @@
 #include "base/files/text_file.h"
 #include "base/version.h"
 #include "emulator/page/access.h"
+#include "emulator/page/bundle.h"
+#include "emulator/page/gzip.h"
 #include "emulator/page/page_bench.h"
 #include "emulator/page/page_verbs.h"
 #include "emulator/page/web.h"
@@ -37,6 +39,10 @@ std::string_view word_for(PageBench::State state) {
   }
   return {};
 }
+
+constexpr std::string_view kIndex = "index.html";
+constexpr std::string_view kFirstPart = "first.js";  // of the bundle
+constexpr std::string_view kRest = "rest.js";
 
 bool is_file_name(std::string_view name) {
   return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char letter) {
@@ -69,17 +75,29 @@ std::string Page::address() const {
 
 std::optional<WebFile> Page::file(std::string_view path) {
   if (!path.starts_with('/')) return std::nullopt;
-  const std::string_view name = path == "/" ? "index.html" : path.substr(1);
+  const std::string_view name = path == "/" ? kIndex : path.substr(1);
   if (!is_file_name(name)) return std::nullopt;
   if (!options_.folder.empty()) {
     if (const auto text = read_text_file(options_.folder + "/" + std::string(name))) {
-      return WebFile{std::string(type_of(name)), *text};
+      return WebFile{.type = std::string(type_of(name)), .bytes = *text, .gzipped = {}};
     }
   }
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (file.name == name) return WebFile{std::string(type_of(name)), std::string(file.bytes)};
+  return built_in(name);
+}
+
+std::optional<WebFile> Page::built_in(std::string_view name) {
+  if (const auto known = files_.find(name); known != files_.end()) return known->second;
+  std::string bytes;
+  if (name == kFirstPart || name == kRest) {
+    Bundle bundle = bundled(embedded_text);
+    bytes = std::move(name == kFirstPart ? bundle.first : bundle.rest);
+  } else {
+    bytes = embedded_text(name);
   }
-  return std::nullopt;
+  if (bytes.empty()) return std::nullopt;
+  if (name == kIndex && options_.folder.empty()) bytes = with_bundle(bytes);
+  WebFile file{.type = std::string(type_of(name)), .bytes = bytes, .gzipped = gzipped(bytes)};
+  return files_.emplace(name, std::move(file)).first->second;
 }
 
 void Page::opened(BrowserId browser) {

@@ -54,6 +54,7 @@ class Page final : private WebEvents {
   };
 
   std::optional<WebFile> file(std::string_view path) override;
+  std::optional<WebFile> built_in(std::string_view name);
   void opened(BrowserId browser) override;
   void heard(BrowserId browser, std::string_view text) override;
   void closed(BrowserId browser) override;
@@ -69,6 +70,7 @@ class Page final : private WebEvents {
   void send(BrowserId browser, std::string text);
 
   PageOptions options_;
+  std::map<std::string, WebFile, std::less<>> files_;  // built in, by name; made when somebody asks for them
   std::string token_;
   std::map<BrowserId, Browser> browsers_;
   Web web_;

@@ -15,6 +15,8 @@ namespace {
 // Browsers load no modules from other files on a disk, so the page contains them. An import map names each.
 constexpr std::string_view kHere = "from './";
 constexpr std::string_view kMapped = "from 'page/";
+constexpr std::string_view kLater = "import('./";
+constexpr std::string_view kLaterMapped = "import('page/";
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -29,27 +31,16 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
-  return text;
-}
-
 std::string escaped(const std::string& text) {
   return replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), "\"", "&quot;");
-}
-
-std::string_view file_named(std::string_view name) {
-  for (const EmbeddedFile& file : embedded_files())
-    if (file.name == name) return file.bytes;
-  return {};
 }
 
 std::string import_map() {
   Json imports = Json::object();
   for (const EmbeddedFile& file : embedded_files()) {
     if (!file.name.ends_with(".js") || file.name == "uplot.js") continue;
-    const std::string text = replaced(std::string(file.bytes), kHere, kMapped);
+    const std::string text =
+        replaced(replaced(std::string(file.bytes), kHere, kMapped), kLater, kLaterMapped);
     imports["page/" + std::string(file.name)] = "data:text/javascript;base64," + base64(text);
   }
   return Json{{"imports", std::move(imports)}}.dump();
@@ -78,13 +69,13 @@ std::string story_file(const Asker& ask, const std::string& name, const std::str
       "data:; style-src 'unsafe-inline'; img-src data: blob:; form-action 'none'; base-uri 'none'\">\n";
   text += "<meta name=\"generator\" content=\"understudy " + escaped(version) + "\">\n";
   text += "<title>" + escaped(name) + " - Understudy</title>\n<style>\n";
-  text += file_named("uplot.css");
-  text += file_named("page.css");
+  text += embedded_text("uplot.css");
+  text += embedded_text("page.css");
   text += "</style>\n</head>\n<body>\n<main id=\"page\">\n" + words_of(data.at("timeline")) + "</main>\n";
   text += "<script type=\"application/json\" id=\"told\">";
   text += replaced(data.dump(-1, ' ', false, replace_bad), "<", "\\u003c");
   text += "</script>\n<script>\n";
-  text += file_named("uplot.js");
+  text += embedded_text("uplot.js");
   text += "</script>\n<script type=\"importmap\">" + import_map() + "</script>\n";
   return text + "<script type=\"module\">import 'page/page.js';</script>\n</body>\n</html>\n";
 }

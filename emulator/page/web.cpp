@@ -29,6 +29,7 @@
 #include <utility>
 
 #include "emulator/page/access.h"
+#include "emulator/page/gzip.h"
 #include "emulator/page/unix_wire.h"
 
 namespace understudy::emulator::page {
@@ -309,7 +310,13 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
     }
     auto file = inside_.events.file(target.substr(0, target.find('?')));
     if (!file) return say(refusal_of(request, http::status::not_found, "not found"));
-    say(answer_to(request, http::status::ok, file->type, std::move(file->bytes)));
+    const bool is_packed =
+        !file->gzipped.empty() && accepts_gzip(view(request[http::field::accept_encoding]));
+    Response found =
+        answer_to(request, http::status::ok, file->type, std::move(is_packed ? file->gzipped : file->bytes));
+    found.set(http::field::vary, "Accept-Encoding");
+    if (is_packed) found.set(http::field::content_encoding, "gzip");
+    say(std::move(found));
   }
 
   void say(Response&& response) {

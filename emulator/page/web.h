@@ -30,6 +30,7 @@ using BrowserId = std::uint64_t;
 struct WebFile {
   std::string type;  // "text/html; charset=utf-8"
   std::string bytes;
+  std::string gzipped;  // the same bytes, for browsers that take it
 };
 
 /// Receives events of browsers.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace understudy::emulator::page {
@@ -11,6 +12,10 @@ struct EmbeddedFile {
   std::string_view bytes;
 };
 std::span<const EmbeddedFile> embedded_files();
+/// Returns the bytes of one of them, or an empty text if there is no such file.
+std::string_view embedded_text(std::string_view name);
+/// Returns the text with `with` wherever it had `what`.
+std::string replaced(std::string text, std::string_view what, std::string_view with);
 
 /// Returns the type for the ending of a name: "text/javascript; charset=utf-8".
 std::string_view type_of(std::string_view name);

@@ -20,6 +20,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/program_language.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/register_names.h"
 #include "emulator/device/register_map/row.h"
 #include "pty/line_settings.h"
 
@@ -116,6 +117,14 @@ bool any_row(const Model& model, Holds holds) {
   return std::any_of(rows.begin(), rows.end(), holds);
 }
 
+bool has_meaning(const RegisterRow& row) { return !row.meaning.in_english.empty() || !row.meanings.empty(); }
+
+/// Returns true if the sheets of registers and parameters say what each of them stands for. In CSV, the
+/// columns of registers are those that `import` reads.
+bool tells_meanings(const Model& model, SheetFormat format) {
+  return format != SheetFormat::csv && any_row(model, has_meaning);
+}
+
 Sheet registers(const Model& model, SheetFormat format) {
   const bool for_people = format == SheetFormat::table;
   Sheet sheet{.columns = {"table", "address", "name", "access", "width", "signed", "min", "max", "unit",
@@ -135,6 +144,10 @@ Sheet registers(const Model& model, SheetFormat format) {
       any_row(model, [](const RegisterRow& row) { return row.swaps_words || row.swaps_bytes; });
   if (has_fields) sheet.columns.emplace_back("bits");
   if (has_orders) sheet.columns.emplace_back("order");
+  const bool has_meanings = tells_meanings(model, format);
+  if (has_meanings) {
+    for (const char* column : {"meaning", "heading"}) sheet.columns.emplace_back(column);
+  }
   for (const RegisterRow& row : register_rows(model)) {
     for (int index = 0; index < row.count; ++index) {
       sheet.rows.push_back(
@@ -152,6 +165,10 @@ Sheet registers(const Model& model, SheetFormat format) {
       if (has_reals) cells.emplace_back(row.type == Type::f32 ? "1" : "0");
       if (has_fields) cells.push_back(fields_of(row));
       if (has_orders) cells.emplace_back(order_text(row, model.registers->policy()));
+      if (has_meanings) {
+        cells.push_back(meaning_of(row, index));
+        cells.push_back(heading_of(row, index));
+      }
     }
   }
   return sheet;
@@ -163,10 +180,9 @@ std::string number_of(const ParameterRow& row, int index) {
 }
 
 /// Lists the parameters. If they are registers, the table of registers has the other facts about them.
-Sheet parameters(const Model& model) {
+Sheet parameters(const Model& model, SheetFormat format) {
   const bool has_named = !model.named_parameters.empty();
-  const bool has_meanings = std::any_of(model.parameters.begin(), model.parameters.end(),
-                                        [](const ParameterRow& row) { return !row.meaning.empty(); });
+  const bool has_meanings = tells_meanings(model, format);
   Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
   if (has_named) {
     for (const char* column : {"min", "max", "unit", "default"}) sheet.columns.emplace_back(column);
@@ -188,7 +204,7 @@ Sheet parameters(const Model& model) {
         sheet.rows.push_back({number_of(parameter, i), RegisterMap::name_of(row, i), hex4(address_of(row, i)),
                               width_of(row), row.persistent ? "1" : "0"});
         if (has_named) sheet.rows.back().resize(sheet.columns.size() - 2);
-        if (has_named || has_meanings) sheet.rows.back().emplace_back(parameter.meaning);
+        if (has_named || has_meanings) sheet.rows.back().push_back(meaning_of(row, i));
         sheet.rows.back().resize(sheet.columns.size());
       }
     }
@@ -339,7 +355,7 @@ std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
 
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {
   if (what == "registers") return registers(model, format);
-  if (what == "parameters") return parameters(model);
+  if (what == "parameters") return parameters(model, format);
   if (what == "instructions") return instructions(model);
   if (what == "commands") return commands(model, format);
   if (what == "choices") return choices(model, format);

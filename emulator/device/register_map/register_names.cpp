@@ -178,4 +178,22 @@ std::string RegisterNames::name_of(const RegisterRow& row, int index, std::strin
          std::string(pattern.substr(hole + kHole.size()));
 }
 
+namespace {
+
+const Meaning& meaning_at(const RegisterRow& row, int index) {
+  return row.meanings.empty() ? row.meaning : row.meanings[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+std::string meaning_of(const RegisterRow& row, int index) {
+  const std::string text = RegisterNames::name_of(row, index, meaning_at(row, index).in_english);
+  if (row.axis_names.empty() || text.empty()) return text;
+  return std::string(row.axis_names[static_cast<std::size_t>(index)]) + ": " + text;
+}
+
+std::string heading_of(const RegisterRow& row, int index) {
+  return RegisterNames::name_of(row, index, meaning_at(row, index).in_the_manual);
+}
+
 }  // namespace understudy::emulator

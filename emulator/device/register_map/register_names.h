@@ -59,4 +59,9 @@ class RegisterNames {
   std::size_t longest_ = 0;             // length of the longest beginning
 };
 
+/// Returns what a row's register stands for, in English: "X: jogs in the positive direction while on".
+std::string meaning_of(const RegisterRow& row, int index);
+/// Returns the manual's own heading for it. Empty if the manual only names the section.
+std::string heading_of(const RegisterRow& row, int index);
+
 }  // namespace understudy::emulator

@@ -155,6 +155,12 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
   return field;
 }
 
+/// What a register stands for, in a few words; "{}" stands for its number or axis, as in names.
+struct Meaning {
+  std::string_view in_english;
+  std::string_view in_the_manual;  // its own words; empty if it says nothing about this register
+};
+
 struct RegisterRow {
   std::uint16_t address = 0;
   std::string_view name;   // as printed in the manual, without _L/_RegL; "{}" stands for the number
@@ -186,6 +192,9 @@ struct RegisterRow {
 
   Firmware since = 0;
   std::string_view section;  // of the manual
+  Meaning meaning{};
+  std::span<const Meaning> meanings{};             // or these, one for each register of the row
+  std::span<const std::string_view> axis_names{};  // of its registers, if their names have numbers instead
 
   int argument = 0;
   Reader reader = nullptr;
@@ -209,6 +218,18 @@ struct RegisterRow {
   }
   constexpr RegisterRow& also(std::string_view other_spelling) {
     alias = other_spelling;
+    return *this;
+  }
+  constexpr RegisterRow& means(std::string_view in_english, std::string_view in_the_manual = {}) {
+    meaning = {.in_english = in_english, .in_the_manual = in_the_manual};
+    return *this;
+  }
+  constexpr RegisterRow& means_each(std::span<const Meaning> one_each) {
+    meanings = one_each;
+    return *this;
+  }
+  constexpr RegisterRow& of_axes(std::span<const std::string_view> names) {
+    axis_names = names;
     return *this;
   }
   constexpr RegisterRow& range(Value low, Value high) {

@@ -84,6 +84,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   bool output_moves(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override { return at(axis).sent_pulses; }
   double speed_pps(int axis) const override { return imported::speed_pps(at(axis), now()); }
+  std::int64_t pulses_to_come(int axis) const override { return at(axis).motor.pulses_to_come(); }
   std::optional<bool> servo_on(int axis) const override;
   void connect_encoder(int axis, std::int64_t counts) override { at(axis).encoder_counts = counts; }
   void set_encoder(int axis, std::int64_t counts) override;

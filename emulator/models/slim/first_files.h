@@ -21,6 +21,10 @@ lines:
   - send: { text: "2MA 100,50" }
   - wait: { until: robot.MD == 0, within: 5s }
   - send: { text: "?PE", reply: "100" }
+)",
+    // A chain of one module has one axis.
+    .first_move = R"(  - send: { text: TX=0 }
+  - send: { text: MA 1000 }
 )"};
 
 }  // namespace understudy::emulator::models::slim

@@ -103,10 +103,11 @@ function Axis({ device, axis }) {
 function FirstMove({ device }) {
   const isNew = store.frames.length === 0 && !store.timeline;
   if (!device.first_move || !isNew) return null;
-  const wordsOf = ({ set, command }) => command ?? Object.entries(set).map(([name, value]) => `${name} = ${value}`).join(', ');
+  const wordsOf = ({ set, command, program }) => (program ? 'a program' : null) ?? command ?? Object.entries(set).map(([name, value]) => `${name} = ${value}`).join(', ');
   const move = async () => {
-    for (const { set, command } of device.first_move) {
-      const message = command !== undefined ? { do: 'command', device: device.name, text: command }
+    for (const { set, command, program } of device.first_move) {
+      const message = program !== undefined ? { do: 'program', device: device.name, text: program }
+        : command !== undefined ? { do: 'command', device: device.name, text: command }
         : { do: 'set', values: Object.fromEntries(Object.entries(set).map(([name, value]) => [`${device.name}.${name}`, value])) };
       if (!(await ask(message)).ok) return;
     }

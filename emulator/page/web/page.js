@@ -3,25 +3,40 @@ import { html, render } from './preact.js';
 import { ask, askQuietly, complain, draw, drawBy, hasPower, isAltered, isReadOnly, show, store } from './store.js';
 import { Button, Choice, Field, exactly, seconds } from './small.js';
 import { Axes } from './axes.js';
-import { Signals } from './signals.js';
-import { Plot } from './plot.js';
-import { Registers } from './registers.js';
-import { Bus } from './bus.js';
-import { Program } from './program.js';
-import { Events } from './events.js';
-import { Faults } from './faults.js';
 import { Story, WhatIf } from './story.js';
 import { copyMoment, goThere, noteMoment } from './link.js';
-import { Timeline } from './timeline.js';
 import { isTold } from './told.js';
 import { Travel } from './travel.js';
 import { keepPaths } from './plane.js';
 import { keep, kept, useKept } from './kept.js';
 
-const kAllPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Timeline', Timeline], ['Registers', Registers], ['Bus', Bus],
-                    ['Program', Program], ['Events', Events], ['Faults', Faults]];
+/// The library that draws curves is large.
+function withDrawing(panel) {
+  if ('uPlot' in globalThis) return panel;
+  const look = Object.assign(document.createElement('link'), { rel: 'stylesheet', href: 'uplot.css' });
+  const script = Object.assign(document.createElement('script'), { src: 'uplot.js' });
+  const isThere = new Promise((done, failed) => { script.onload = done; script.onerror = failed; });
+  document.head.append(look, script);
+  return isThere.then(() => panel);
+}
+
+// What is not needed for the first sight comes after it.
+/** @type {Record<string, () => Promise<any>>} */
+const kLater = {
+  Axes: async () => ({ Axes }), Signals: () => import('./signals.js'), Plot: () => withDrawing(import('./plot.js')), Timeline: () => import('./timeline.js'),
+  Registers: () => import('./registers.js'), Bus: () => import('./bus.js'), Program: () => import('./program.js'),
+  Events: () => import('./events.js'), Faults: () => import('./faults.js'),
+};
 // A recording in one file holds no registers and no text of programs, and nothing in it can be changed.
-const kPanels = kAllPanels.filter(([name]) => !isTold || !['Registers', 'Program', 'Faults'].includes(String(name)));
+const kPanels = Object.keys(kLater).filter((name) => !isTold || !['Registers', 'Program', 'Faults'].includes(name));
+/** @type {Record<string, any>} */
+const panels = { Axes };
+/** @type {Record<string, Promise<void>>} */
+const loading = {};
+/// What cannot be loaded now is tried again when the page is drawn.
+function load(name) {
+  loading[name] ??= kLater[name]().then((it) => { panels[name] = it[name]; draw(); }, () => { delete loading[name]; });
+}
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
 const kMaxNamed = 3;  // devices in the header
 
@@ -98,7 +113,7 @@ function nameOf({ socket }, number) {
 /// The panel in view: a recording opens with its course.
 function panelShown() {
   const wanted = kept('panel', store.timeline ? 'Timeline' : 'Axes', '');
-  return kPanels.some(([name]) => name === wanted) ? wanted : 'Axes';
+  return kPanels.includes(wanted) ? wanted : 'Axes';
 }
 
 const kWide = 1150;    // dots from which on two panels fit side by side,
@@ -107,7 +122,7 @@ const kWidest = 1750;  // and three
 /// The panels beside the one in view, as far as there is room.
 function besideShown(panel) {
   const room = innerWidth >= kWidest ? 2 : innerWidth >= kWide ? 1 : 0;
-  return kept('panels beside', [], '').filter((name) => name !== panel && kPanels.some(([known]) => known === name)).slice(0, room);
+  return kept('panels beside', [], '').filter((name) => name !== panel && kPanels.includes(name)).slice(0, room);
 }
 
 /// Chooses a panel to see beside the others.
@@ -116,22 +131,25 @@ function Beside({ panel, beside }) {
   const choose = (i, name) => keep('panels beside', [...beside.slice(0, i), name, ...beside.slice(i + 1)].filter(Boolean), { of: '' });
   const places = innerWidth >= kWidest && beside.length > 0 ? [0, 1] : [0];
   return html`<span class="beside">${places.map((i) => html`<${Choice} key=${i} label=${i === 0 ? 'a panel beside this one' : 'a third panel'} value=${beside[i] ?? ''}
-    options=${[['', i === 0 ? 'side by side ...' : 'a third ...'], ...kPanels.map(([name]) => name).filter((name) => name !== panel && (name === beside[i] || !beside.includes(name)))]}
+    options=${[['', i === 0 ? 'side by side ...' : 'a third ...'], ...kPanels.filter((name) => name !== panel && (name === beside[i] || !beside.includes(name)))]}
     takes=${(name) => choose(i, name)} />`)}</span>`;
 }
+
+const Loading = () => html`<p>Loading...</p>`;
 
 function Page() {
   const panel = panelShown();
   const setPanel = (name) => keep('panel', name, { of: '' });
   const benches = store.hello?.benches ?? [];
   const beside = besideShown(panel);
-  const panelOf = (name) => kPanels.find(([known]) => known === name)[1];
+  const panelOf = (name) => panels[name] ?? Loading;
+  if (store.bench) kPanels.forEach(load);
   const move = (event) => {
-    const at = kPanels.findIndex(([name]) => name === panel);
+    const at = kPanels.indexOf(panel);
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: kPanels.length - 1 }[event.key];
     if (to === undefined) return;
     event.preventDefault();
-    const next = kPanels[(to + kPanels.length) % kPanels.length][0];
+    const next = kPanels[(to + kPanels.length) % kPanels.length];
     setPanel(next);
     document.getElementById(`tab_${next}`)?.focus();
   };
@@ -146,7 +164,7 @@ function Page() {
       <${Button} kind="small" title="copy a link to this moment (key: c)" does=${copyMoment}>link<//>
     </header>
     <${Travel} />
-    <div class="tabs"><nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
+    <div class="tabs"><nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map((name) => html`<button type="button" role="tab"
       key=${name} id=${`tab_${name}`} aria-selected=${name === panel} aria-controls="panel" tabindex=${name === panel ? 0 : -1}
       onClick=${() => setPanel(name)}>${name}</button>`)}</nav><${Beside} panel=${panel} beside=${beside} /></div></div>
     <${Said} /><${Story} />

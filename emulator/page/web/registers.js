@@ -63,7 +63,7 @@ function Row({ device, row, explain, section, use }) {
   const hex = Number.isInteger(value) && row.type !== 'bit' ? `0x${(value < 0 ? value + 2 ** 32 : value).toString(16).toUpperCase()}` : '';
   return html`<tr class=${flash ? `flash ${flash}` : ''}>
     <td class="what"><span class="name">${row.name}</span> <small>${row.number === row.name ? '' : row.number ?? row.address}${row.table && row.table !== 'holding' ? ` ${row.table}` : ''}</small>
-      ${row.meaning && html`<small> ${row.meaning}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
+      ${row.meaning && html`<small> ${row.meaning}</small>`}${row.heading && html`<small class="heading" lang="zh"> ${row.heading}</small>`}${section && html`<small class="section"> ${section}</small>`}</td>
     <td class="value" title=${hex}>${isPlain(row) ? html`${value ?? '–'} <small>${row.unit ?? ''}</small>` : ''}</td>
     <td class="by">${flash || html`<${Writer} name=${name} />`}</td>
     <td class="write">${row.access !== 'R' && !row.window && html`<${Field} label=${`write ${row.name}`} of=${device} placeholder="write" size="8"
@@ -118,7 +118,7 @@ export function Registers() {
         return askQuietly({ do: 'registers', device: device.name, from, count: kPage, ...where });
       }
       const rows = (await tableOf(device)).filter((row) => useOf(words, row) &&
-        (find === '' || `${row.name} ${row.address ?? row.number}`.toLowerCase().includes(find.toLowerCase())));
+        (find === '' || `${row.name} ${row.address ?? row.number} ${row.meaning ?? ''} ${row.heading ?? ''}`.toLowerCase().includes(find.toLowerCase())));
       return { ok: true, registers: rows.slice(0, kMaxHeard), of: rows.length };
     };
     load().then((reply) => { if (current && reply.ok) setPage(reply); });
@@ -143,7 +143,7 @@ export function Registers() {
       <${Choice} label="section of the manual" value=${section} disabled=${isMixed}
         options=${device.sections.map((it) => [String(it.number), `${titleOf(it)} (${it.rows})`])}
         takes=${(number) => { setSection(number); setFrom(0); }} />
-      <input type="search" aria-label="find a register by name or number" placeholder="find: name or number" value=${find}
+      <input type="search" aria-label="find a register by name, number or meaning" placeholder="find: name, number, meaning" value=${find}
         onInput=${(event) => { setFind(event.target.value); setFrom(0); }} />
       <label class="check"><input type="checkbox" checked=${onlyHeard} onChange=${(event) => { setHeard(event.target.checked); setFrom(0); }} />
         only what the host uses</label>

@@ -209,13 +209,12 @@ async function learn() {
   if (!isKnown) forget();
   isKnown = true;
   // All at once, because a question may take long to go round.
-  const [{ bench }, kinds, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }), wire.ask(number, { do: 'faults' }), timelineOf(number)]);
-  if (number !== store.number || !bench) return;
+  const [{ bench }, { devices }, kinds, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }),
+    wire.ask(number, { do: 'bench', device: '*' }), wire.ask(number, { do: 'faults' }), timelineOf(number)]);
+  if (number !== store.number || !bench || !devices) return;
   store.kinds = kinds.kinds ?? [];
   store.trigger = kinds.trigger ?? [];
-  const replies = await Promise.all(bench.devices.map(({ name }) => wire.ask(number, { do: 'bench', device: name })));
-  if (number !== store.number) return;
-  bench.devices.forEach(({ name }, i) => { if (replies[i].device) store.devices[name] = replies[i].device; });
+  for (const device of devices) store.devices[device.name] = device;
   store.timeline = timeline;
   store.bench = bench;
   hearAll();

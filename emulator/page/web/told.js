@@ -100,7 +100,7 @@ export class Told {
     const { begin_ns, end_ns } = data.timeline;
     const [from_ns, to_ns] = [message.from_ns ?? begin_ns, message.to_ns ?? end_ns];
     switch (message.do) {
-      case 'bench': return message.device ? { device: data.devices[message.device] } : { bench: data.bench };
+      case 'bench': return message.device === '*' ? { devices: Object.values(data.devices) } : { bench: data.bench };
       case 'timeline': return { timeline: data.timeline };
       case 'faults': return { kinds: [], trigger: [] };
       case 'curves': {

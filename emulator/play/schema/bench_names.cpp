@@ -6,6 +6,7 @@
 
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/register_names.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/form.h"
@@ -29,6 +30,13 @@ class Names {
   void add(const world::KnownDevice& device, const std::string& name) {
     list.names.push_back(device.name + "." + name);
     if (is_alone_) list.names.push_back(name);
+  }
+  void add_register(const world::KnownDevice& device, const std::string& name, const std::string& meaning) {
+    const std::size_t before = list.names.size();
+    add(device, name);
+    if (meaning.empty()) return;
+    list.meanings.resize(before);
+    list.meanings.resize(list.names.size(), meaning);
   }
   void add_pattern(const world::KnownDevice& device, const std::string& pattern) {
     list.patterns.push_back(before_of(device, is_alone_) + pattern + "$");
@@ -75,15 +83,15 @@ std::string registers_with_bits(const RegisterMap& map) {
 
 /// Adds the spellings of a row's register, if this firmware has it.
 void add_register(Names& names, const world::KnownDevice& device, const RegisterRow& row,
-                  const std::string& name) {
+                  const std::string& name, const std::string& meaning) {
   const RegisterMap& map = *device.model->registers;
   std::string known = name;
   if (!map.find(known, device.firmware)) known = std::string(to_string(row.table)) + "." + name;
   if (!map.find(known, device.firmware)) return;
-  names.add(device, known);
+  names.add_register(device, known, meaning);
   for (const BitField& field : row.fields) {
     const std::string whole = known + "." + std::string(field.name);
-    if (map.find(whole, device.firmware)) names.add(device, whole);
+    if (map.find(whole, device.firmware)) names.add_register(device, whole, meaning);
   }
 }
 
@@ -96,10 +104,11 @@ void add_registers(Names& names, const world::KnownDevice& device) {
         const bool is_of_the_first = row.count > 1 && pattern.find("{}") == std::string_view::npos;
         if (is_of_the_first && index > 0) continue;
         const std::string name = RegisterMap::name_of(row, index, pattern);
-        add_register(names, device, row, name);
+        const std::string meaning = meaning_of(row, index);
+        add_register(names, device, row, name, meaning);
         if (!is_32_bit(row.type)) continue;
-        add_register(names, device, row, name + std::string(row.low_half));
-        add_register(names, device, row, name + std::string(row.high_half));
+        add_register(names, device, row, name + std::string(row.low_half), meaning);
+        add_register(names, device, row, name + std::string(row.high_half), meaning);
       }
     }
   }
@@ -147,6 +156,7 @@ NameList bench_names(const world::Bench& bench, world::Schema::Of sort) {
       break;
     case world::Schema::Of::registers:
       for (const world::KnownDevice& device : devices) add_registers(names, device);
+      if (!names.list.meanings.empty()) names.list.meanings.resize(names.list.names.size());
       break;
   }
   return names.list;

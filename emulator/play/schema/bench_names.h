@@ -11,6 +11,8 @@ namespace understudy::emulator::play {
 
 struct NameList {
   std::vector<std::string> names;
+  /// What each name stands for, if it is a register: one for each name, or none at all.
+  std::vector<std::string> meanings;
   /// Regular expressions (ECMA) for names that are too many to list, such as addresses and numbers of bits.
   std::vector<std::string> patterns;
 };

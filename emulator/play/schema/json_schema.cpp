@@ -127,6 +127,8 @@ class SchemaWriter {
   Json definition(const NameList& list) const {
     Json ways = Json::array();
     if (!list.names.empty()) ways.push_back(Json{{"enum", list.names}});
+    // Editors show these beside the names.
+    if (!list.meanings.empty()) ways.back()["enumDescriptions"] = list.meanings;
     for (const std::string& pattern : list.patterns) {
       ways.push_back(Json{{"type", "string"}, {"pattern", pattern}});
     }

@@ -173,10 +173,17 @@ Json axis_of(const world::World& world, std::size_t device, std::size_t place) {
   return axis;
 }
 
-/// Returns the register that makes the controller use a terminal for its function: a persistent switch that
-/// the manual names after the terminal (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if there is
-/// none.
+/// Returns the register that makes the controller use a terminal for its function: one that the model names
+/// for its limit inputs, or a persistent switch that the manual names after the terminal
+/// (DIN2_Aaxis_UP_Limit, for DIN_2). Returns an empty text if there is none.
 std::string_view register_using(const Model& model, const TerminalRow& terminal) {
+  const auto number = static_cast<int>(&terminal - model.terminals.data());
+  for (const AxisRow& axis : model.axes) {
+    if (axis.upper_limit_input == number && !axis.upper_limit_used_by.empty())
+      return axis.upper_limit_used_by;
+    if (axis.lower_limit_input == number && !axis.lower_limit_used_by.empty())
+      return axis.lower_limit_used_by;
+  }
   std::string begin(terminal.name);
   std::erase(begin, '_');
   begin += '_';
@@ -199,53 +206,57 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
   return terminal;
 }
 
-/// Describes all that an observer needs to show a device.
-ReplyTask device_message(Daemon& daemon, std::size_t number) {
+/// Describes all that an observer needs to show a device: `device`, or `devices` for all of them.
+ReplyTask device_message(Daemon& daemon, std::optional<std::size_t> only) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();
-  const Device& device = world.device(number);
-  const Model& model = device.model();
   ReplyText text;
-  text.open_object("device");
-  text.member("name", device.name());
-  text.open_list("axes");
-  for (std::size_t a = 0; a < model.axes.size(); ++a) {
-    if (!device.axes()->has_axis(static_cast<int>(a))) continue;
-    text.element(axis_of(world, number, a));
+  if (!only) text.open_list("devices");
+  for (std::size_t number = only.value_or(0); number < (only ? *only + 1 : world.device_count()); ++number) {
+    const Device& device = world.device(number);
+    const Model& model = device.model();
+    only ? text.open_object("device") : text.open_object();
+    text.member("name", device.name());
+    text.open_list("axes");
+    for (std::size_t a = 0; a < model.axes.size(); ++a) {
+      if (!device.axes()->has_axis(static_cast<int>(a))) continue;
+      text.element(axis_of(world, number, a));
+      co_await pause;
+    }
+    text.close_list();
+    const auto functions = functions_of(model, world, number);
+    text.open_list("terminals");
+    for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+      if (device.terminals() != nullptr && !device.terminals()->has_terminal(static_cast<int>(i))) continue;
+      text.element(terminal_of(model.terminals[i], functions[i], register_using(model, model.terminals[i])));
+      co_await pause;
+    }
+    text.close_list();
+    text.open_list("groups");
+    for (const TerminalGroup& group : model.terminal_groups) {
+      text.element(
+          {{"name", group.name}, {"first", name_of_terminal(model, group.first)}, {"count", group.count}});
+      co_await pause;
+    }
+    text.close_list();
+    text.member("state_registers", names_json(model.state_registers));
     co_await pause;
-  }
-  text.close_list();
-  const auto functions = functions_of(model, world, number);
-  text.open_list("terminals");
-  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
-    if (device.terminals() != nullptr && !device.terminals()->has_terminal(static_cast<int>(i))) continue;
-    text.element(terminal_of(model.terminals[i], functions[i], register_using(model, model.terminals[i])));
+    text.member("sections", sections_of(model));
     co_await pause;
+    text.member("registers", model.registers != nullptr);
+    text.member("commands", !model.commands.empty() || model.window != nullptr);
+    if (model.language != nullptr) {
+      Json program{{"language", model.language->name()},
+                   {"file_ending", model.language->file_ending()},
+                   {"controls", controls_of(*model.language)}};
+      if (model.language->parts_run_at_once()) program["at_once"] = true;
+      text.member("program", program);
+    }
+    if (Json moves = first_move_of(device); !moves.empty()) text.member("first_move", moves);
+    text.member("gaps", names_json(model.gaps));
+    text.close_object();
   }
-  text.close_list();
-  text.open_list("groups");
-  for (const TerminalGroup& group : model.terminal_groups) {
-    text.element(
-        {{"name", group.name}, {"first", name_of_terminal(model, group.first)}, {"count", group.count}});
-    co_await pause;
-  }
-  text.close_list();
-  text.member("state_registers", names_json(model.state_registers));
-  co_await pause;
-  text.member("sections", sections_of(model));
-  co_await pause;
-  text.member("registers", model.registers != nullptr);
-  text.member("commands", !model.commands.empty() || model.window != nullptr);
-  if (model.language != nullptr) {
-    Json program{{"language", model.language->name()},
-                 {"file_ending", model.language->file_ending()},
-                 {"controls", controls_of(*model.language)}};
-    if (model.language->parts_run_at_once()) program["at_once"] = true;
-    text.member("program", program);
-  }
-  if (Json moves = first_move_of(model); !moves.empty()) text.member("first_move", moves);
-  text.member("gaps", names_json(model.gaps));
-  text.close_object();
+  if (!only) text.close_list();
   co_return text.take();
 }
 
@@ -319,6 +330,7 @@ ReplyTask whole_bench_message(Daemon& daemon) {
 
 ReplyTask bench_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "device"});
+  if (message.contains("device") && message["device"] == "*") return device_message(daemon, std::nullopt);
   if (message.contains("device")) return device_message(daemon, require_device(daemon, message));
   return whole_bench_message(daemon);
 }

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/text/parse_integer.h"
+#include "emulator/device/device.h"
 #include "emulator/device/model.h"
+#include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 
 namespace understudy::emulator::serve {
@@ -39,11 +41,35 @@ Json values_in(std::string_view pairs) {
   return values;
 }
 
+/// Returns the program in the model's first bench, or an empty text: the lines behind "program: |".
+std::string first_program(std::string_view bench) {
+  constexpr std::string_view kKey = "program: |\n";
+  const std::size_t at = bench.find(kKey);
+  if (at == std::string_view::npos) return {};
+  bench.remove_prefix(at + kKey.size());
+  const std::size_t indent = bench.find_first_not_of(' ');
+  std::string program;
+  while (indent != std::string_view::npos && bench.substr(0, indent) == std::string(indent, ' ')) {
+    const std::string_view line = bench.substr(0, bench.find('\n'));
+    bench.remove_prefix(std::min(bench.size(), line.size() + 1));
+    program += std::string(line.substr(indent)) + "\n";
+  }
+  return program;
+}
+
 }  // namespace
 
-Json first_move_of(const Model& model) {
+Json first_move_of(const Device& device) {
   Json messages = Json::array();
-  std::string_view steps = model.first_files == nullptr ? std::string_view() : model.first_files->steps;
+  const FirstFiles* const files = device.model().first_files;
+  if (files == nullptr) return messages;
+  std::string_view steps = files->first_move.empty() ? files->steps : files->first_move;
+  // The move of a bench whose device has a program is that program's.
+  const UserProgram* const own = device.user_program();
+  if (const std::string program = first_program(files->bench);
+      !program.empty() && own != nullptr && own->program_text().empty()) {
+    messages.push_back({{"program", program}});
+  }
   while (!steps.empty()) {
     const std::string_view line = steps.substr(0, steps.find('\n'));
     steps.remove_prefix(std::min(steps.size(), line.size() + 1));

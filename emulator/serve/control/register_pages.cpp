@@ -18,6 +18,7 @@
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/register_names.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
@@ -134,6 +135,8 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
     entry["max"] = number_json(row.max, row.type);
   }
   if (!row.unit.empty()) entry["unit"] = row.unit;
+  if (std::string meaning = meaning_of(row, index); !meaning.empty()) entry["meaning"] = std::move(meaning);
+  if (std::string heading = heading_of(row, index); !heading.empty()) entry["heading"] = std::move(heading);
   if (!row.fields.empty()) {
     entry["bits"] = Json::array();
     for (const BitField& field : row.fields) {
@@ -180,8 +183,8 @@ bool is_number_of(unsigned address, const std::string& find) {
   return hex == find || hex.substr(2) == find || std::to_string(address) == find;
 }
 
-/// Returns true if the text is part of one of the register's names, or its address. A 32-bit register has two
-/// of both.
+/// Returns true if the text is part of one of the register's names or of what it stands for, or its address.
+/// A 32-bit register has two names and two addresses.
 bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
   const auto address = static_cast<unsigned>(row.address + index * row.stride);
   if (is_number_of(address, find) || (is_32_bit(row.type) && is_number_of(address + 1, find))) return true;
@@ -194,7 +197,8 @@ bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
       if (name + in_lower_case(half) == find) return true;
     }
   }
-  return false;
+  return in_lower_case(meaning_of(row, index)).find(find) != std::string::npos ||
+         in_lower_case(heading_of(row, index)).find(find) != std::string::npos;
 }
 
 bool is_found(const Listed& listed, const std::string& find) {

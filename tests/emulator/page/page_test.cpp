@@ -73,6 +73,16 @@ TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
     }
     EXPECT_FALSE(browser.read_all().empty());
   }
+  for (const std::string path : {"/", "/first.js", "/rest.js", "/preact.js", "/page.css"}) {
+    TestBrowser plain(rig.page.port());
+    TestBrowser packing(rig.page.port());
+    const std::string request = "GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + at + "\r\n";
+    EXPECT_EQ(plain.ask(request), "HTTP/1.1 200") << path;
+    EXPECT_EQ(packing.ask(request + "Accept-Encoding: gzip, br\r\n"), "HTTP/1.1 200") << path;
+    EXPECT_EQ(plain.head().find("Content-Encoding"), std::string::npos) << path;
+    EXPECT_NE(packing.head().find("Content-Encoding: gzip"), std::string::npos) << path;
+    EXPECT_LT(packing.read_all().size(), plain.read_all().size()) << path;
+  }
   std::size_t bytes = 0;
   for (const EmbeddedFile& file : embedded_files()) bytes += file.bytes.size();
   EXPECT_LT(bytes, 300'000U);

@@ -366,14 +366,18 @@ TEST(Languages, DescribeHasOperandsAreasSizesAndCosts) {
 TEST(Languages, DescribeHasParametersByTheirOwnNumbers) {
   const std::string text = format_sheet(*describe(model(), "parameters", SheetFormat::csv), SheetFormat::csv);
   EXPECT_TRUE(
-      text.starts_with("number,name,address,width,persistent,meaning\n"
-                       "P20,Speed_X,0x0000,16,1,speed of an axis\n"
-                       "P20,Speed_Y,0x0001,16,1,speed of an axis\n"
-                       "P20,Speed_Z,0x0002,16,1,speed of an axis\n"
-                       "D100,D0,0x0064,16,0,\n"
-                       "D101,D1,0x0065,16,0,\n"))
+      text.starts_with("number,name,address,width,persistent\n"
+                       "P20,Speed_X,0x0000,16,1\n"
+                       "P20,Speed_Y,0x0001,16,1\n"
+                       "P20,Speed_Z,0x0002,16,1\n"
+                       "D100,D0,0x0064,16,0\n"
+                       "D101,D1,0x0065,16,0\n"))
       << text;
-  EXPECT_TRUE(text.ends_with("D224,D124,0x00E0,16,0,\n7,Offset,0x0008,16,0,\n")) << text;
+  EXPECT_TRUE(text.ends_with("D224,D124,0x00E0,16,0\n7,Offset,0x0008,16,0\n")) << text;
+  const Sheet told = *describe(model(), "parameters", SheetFormat::json);
+  EXPECT_EQ(told.columns.back(), "meaning");
+  EXPECT_EQ(told.rows[1].back(), "speed of axis Y");
+  EXPECT_EQ(told.rows.back().back(), "");
 }
 
 /// Its devices accept programs, but the model has no language for them.

@@ -49,6 +49,7 @@ inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_drivin
 
 inline constexpr RegisterRow kRows[] = {
     reg(0x0000, "Speed_{}", Type::u16, Access::read_write)
+        .means("speed of axis {}")
         .each(kAxes, 1)
         .range(1, 4000)
         .from_factory(100)

@@ -331,11 +331,7 @@ inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Positio
 
 /// One number for every axis, and numbers that are counters.
 inline constexpr ParameterRow kParameters[] = {
-    {.first = 20,
-     .register_name = "Speed_{}",
-     .letter = "P",
-     .of_each_axis = true,
-     .meaning = "speed of an axis"},
+    {.first = 20, .register_name = "Speed_{}", .letter = "P", .of_each_axis = true},
     {.first = 100, .count = 125, .register_name = "D{}", .letter = "D"},
     {.first = 7, .register_name = "Offset"}};
 

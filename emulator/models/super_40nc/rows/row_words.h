@@ -17,6 +17,7 @@ inline constexpr Access R = Access::read;
 inline constexpr Access RW = Access::read_write;
 
 inline constexpr int kAxisCount = 4;
+inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
 
 // What writes can do. The PLC and the programs use contacts and present values for anything, so a contact can
 // do all that they do.
@@ -47,7 +48,7 @@ constexpr RegisterRow axis_relays(int first_of_x, int last_of_x, int axis) {
   return relays(first_of_x + 100 * axis, last_of_x + 100 * axis);
 }
 constexpr RegisterRow axis_relay(int of_x, Access access = RW) {
-  return relay(of_x, access).times(kAxisCount, 100, of_x).numbered_by(100);
+  return relay(of_x, access).times(kAxisCount, 100, of_x).numbered_by(100).of_axes(kAxisNames);
 }
 
 /// Make a row of one data register D, or of several.
@@ -59,7 +60,7 @@ constexpr RegisterRow data(int first, int last, Access access = RW) {
 }
 /// Makes a row of D81.., D82.., D83.., D84.. or D91.. and so on: one for each axis, X first.
 constexpr RegisterRow axis_data(int of_x, Access access = RW) {
-  return data(of_x, access).times(kAxisCount, 200, of_x).numbered_by(100);
+  return data(of_x, access).times(kAxisCount, 200, of_x).numbered_by(100).of_axes(kAxisNames);
 }
 /// Makes a row of several adjacent registers of one axis.
 constexpr RegisterRow axis_data(int first_of_x, int last_of_x, int axis) {

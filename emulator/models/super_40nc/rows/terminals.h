@@ -45,20 +45,26 @@ inline constexpr std::int32_t kVoltageSteps = 1000;
 inline constexpr std::int32_t kMaxMillivolts = 3300;
 inline constexpr std::int32_t kMaxMillivoltsIn = 5000;
 
-inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
 inline constexpr int kFactoryPulsesPerRevolution = 4000;
+
+// D9x63 and D9x64: how each axis uses its limit inputs.
+inline constexpr std::array<std::string_view, kAxisCount> kPlusLimitUses{"D9163", "D9263", "D9363", "D9463"};
+inline constexpr std::array<std::string_view, kAxisCount> kMinusLimitUses{"D9164", "D9264", "D9364", "D9464"};
 
 inline constexpr std::array<AxisRow, kAxisCount> kAxes = [] {
   std::array<AxisRow, kAxisCount> rows;
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    rows[static_cast<std::size_t>(axis)] = {.name = kAxisNames[static_cast<std::size_t>(axis)],
-                                            .upper_limit_input = limit_plus_input(axis),
-                                            .lower_limit_input = limit_minus_input(axis),
-                                            .home_input = dog_input(axis),
-                                            .alarm_input = pin_of(axis, kAlarmPin),
-                                            .ready_input = pin_of(axis, kReadyPin),
-                                            .pulses_per_revolution = kFactoryPulsesPerRevolution,
-                                            .index_input = pin_of(axis, kIndexPin)};
+    rows[static_cast<std::size_t>(axis)] = {
+        .name = kAxisNames[static_cast<std::size_t>(axis)],
+        .upper_limit_input = limit_plus_input(axis),
+        .lower_limit_input = limit_minus_input(axis),
+        .home_input = dog_input(axis),
+        .alarm_input = pin_of(axis, kAlarmPin),
+        .ready_input = pin_of(axis, kReadyPin),
+        .pulses_per_revolution = kFactoryPulsesPerRevolution,
+        .index_input = pin_of(axis, kIndexPin),
+        .upper_limit_used_by = kPlusLimitUses[static_cast<std::size_t>(axis)],
+        .lower_limit_used_by = kMinusLimitUses[static_cast<std::size_t>(axis)]};
   }
   return rows;
 }();

@@ -352,6 +352,34 @@ def story(options):
         visit.close()
 
 
+def path(options):
+    """A newcomer without a host: a first move; then three axes in space; groups of signals; a ladder with its values."""
+    with Stage(options, '--model', 'super-40nc') as stage:
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        visit.find('button[title^="a first move"]')[0].click()
+        visit.until('an axis moves, by a program that the page has loaded', lambda: stage.value('device.D8117') == 1000)
+        visit.until('the page shows where it is', lambda: visit.texts('.reading.wide output')[0] != '0')
+        doing.select(visit, 'third axis', 'Z')
+        picture = lambda: visit.driver.execute_script('return document.querySelector(".plane canvas").toDataURL()')
+        visit.until('three axes are in space', lambda: visit.find('.plane canvas.turnable'))
+        before = picture()
+        visit.find('.plane canvas')[0].send_keys(Keys.ARROW_RIGHT)
+        visit.until('and can be turned', lambda: picture() != before)
+        visit.picture('path')
+        visit.show('Signals')
+        groups = lambda: visit.find('details.group summary')
+        visit.until('inputs are in groups', lambda: any(text.startswith('X16 to X31') for text in visit.texts('details.group summary')))
+        next(it for it in groups() if it.text.startswith('X16')).click()
+        visit.until('which open', lambda: any(button.text.startswith('X16') for button in visit.find('button.signal')))
+        next(it for it in visit.find('button.signal') if it.text.startswith('X16')).click()
+        visit.until('and say what is on and has changed', lambda: any('1 on' in text and '1 changed' in text for text in visit.texts('details.group summary')))
+        visit.show('Program')
+        visit.until('state registers have their meaning', lambda: any('work coordinates' in text for text in visit.texts('.values tr')))
+        visit.close()
+
+
 def crowd(options):
     """Connects sixteen browsers, one of which never reads again, and then one more than allowed."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
@@ -405,7 +433,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'path': path, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():

@@ -61,7 +61,8 @@ class Judge {
   std::string judge(const std::string& keyword, const json& rule, const json& schema, const json& value,
                     const std::string& at) const {
     const auto refuse_if = [&](bool is_wrong) { return is_wrong ? at + ": " + keyword : std::string(); };
-    if (keyword == "$schema" || keyword == "title" || keyword == "description" || keyword == "definitions")
+    if (keyword == "$schema" || keyword == "title" || keyword == "description" || keyword == "definitions" ||
+        keyword == "enumDescriptions")
       return "";
     if (keyword == "$ref") {
       return diagnostic(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value, at);

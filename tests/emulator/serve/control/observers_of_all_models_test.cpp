@@ -27,16 +27,16 @@ struct OneDevice {
     return reply;
   }
   void run(int ms) { daemon.world().advance_to(daemon.world().now() + std::chrono::milliseconds(ms)); }
-  /// "set NAME=VALUE", "command TEXT", "text TEXT", "program TEXT".
+  /// "set NAME=VALUE", "input NAME=LEVEL", "command TEXT", "text TEXT", "program TEXT".
   void act(const std::string& what) {
     const std::string word = what.substr(0, what.find(' '));
     const std::string rest = what.substr(word.size() + 1);
     if (word == "command") ask({{"do", "command"}, {"text", rest}});
     if (word == "program") ask({{"do", "program"}, {"text", rest}});
     if (word == "text") ask({{"do", "send"}, {"line", "a"}, {"text", rest}});
-    if (word == "set") {
+    if (word == "set" || word == "input") {
       const std::size_t sign = rest.find('=');
-      ask({{"do", "set"}, {"values", {{rest.substr(0, sign), std::stoll(rest.substr(sign + 1))}}}});
+      ask({{"do", word}, {"values", {{rest.substr(0, sign), std::stoll(rest.substr(sign + 1))}}}});
     }
     run(100);
   }
@@ -271,8 +271,13 @@ TEST(KeptWrites, AreCountedWhenTheyAreDone) {
 /// Somebody without a host can try these, so every message must be accepted and something must move.
 TEST(FirstMoves, AreAcceptedAndMoveAnAxis) {
   using Ordered = nlohmann::ordered_json;  // registers are written in the order of the message
-  for (const std::string model : {"simple2-r3", "rs-m8194h", "slim"}) {
-    OneDevice one(model, model == "slim" ? ", modules: 2" : "");
+  constexpr std::pair<const char*, const char*> kDevices[] = {{"simple2-r3", ""},
+                                                              {"rs-m8194h", ""},
+                                                              {"super-40nc", ""},
+                                                              {"slim", ", modules: 1"},
+                                                              {"slim", ", modules: 2"}};
+  for (const auto& [model, more] : kDevices) {
+    OneDevice one(model, more);
     const auto tell = [&](const Ordered& message) {
       Ordered reply;
       handle_message(one.daemon, message.dump(),
@@ -283,7 +288,9 @@ TEST(FirstMoves, AreAcceptedAndMoveAnAxis) {
     const Ordered device = tell({{"do", "bench"}, {"device", "d"}})["device"];
     ASSERT_TRUE(device.contains("first_move")) << model;
     for (const Ordered& message : device["first_move"]) {
-      if (message.contains("command")) {
+      if (message.contains("program")) {
+        tell({{"do", "program"}, {"device", "d"}, {"text", message["program"]}});
+      } else if (message.contains("command")) {
         tell({{"do", "command"}, {"text", message["command"]}});
       } else {
         Ordered values = Ordered::object();
@@ -298,9 +305,14 @@ TEST(FirstMoves, AreAcceptedAndMoveAnAxis) {
       moved += std::abs(one.value("d." + axis["name"].get<std::string>() + ".position").get<double>());
     EXPECT_GT(moved, 0) << model << device["first_move"];
   }
+  // A program of one's own is not replaced.
   OneDevice mill("super-40nc");
+  mill.ask({{"do", "program"}, {"device", "d"}, {"text", "AREA X\nEND\n"}});
   EXPECT_EQ(mill.ask({{"do", "bench"}, {"device", "d"}})["device"]["first_move"],
             Json::parse(R"([{"set":{"M8100":1}}])"));
+  OneDevice blank("super-40nc");
+  EXPECT_EQ(blank.ask({{"do", "bench"}, {"device", "d"}})["device"]["first_move"],
+            Json::parse(R"([{"program":"AREA X\nRPM K100\nDRV K1000\nEND\n"},{"set":{"M8100":1}}])"));
 }
 
 /// Takes the last frame that the device has sent.
@@ -323,6 +335,45 @@ TEST(ErrorLines, HaveTheirMeaningAndAreRefusals) {
   OneDevice same("slim", ", choices: { error_codes: 1_for_all }");
   same.act("text NONSENSE");
   EXPECT_NE(last_reply(same).value("text", "").find("error_codes"), std::string::npos) << last_reply(same);
+}
+
+/// A limit switch that a device ignores needs no search through its parameters.
+TEST(Terminals, NameTheRegisterThatUsesThem) {
+  OneDevice mill("super-40nc");
+  std::map<std::string, std::string> used;
+  const Json device = mill.ask({{"do", "bench"}, {"device", "d"}})["device"];
+  for (const Json& terminal : device["terminals"])
+    if (terminal.contains("used_by")) used[terminal["name"]] = terminal["used_by"];
+  EXPECT_EQ(used.size(), 8U);
+  std::set<std::string> registers;
+  for (const auto& [terminal, name] : used) registers.insert(name);
+  EXPECT_EQ(registers,
+            (std::set<std::string>{"D9163", "D9164", "D9263", "D9264", "D9363", "D9364", "D9463", "D9464"}));
+}
+
+TEST(BenchMessage, DescribesAllDevicesAtOnce) {
+  OneDevice one("simple2-r3");
+  const Json all = one.ask({{"do", "bench"}, {"device", "*"}})["devices"];
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0], one.ask({{"do", "bench"}, {"device", "d"}})["device"]);
+}
+
+/// Newcomers know what they want, and not what the manual calls it.
+TEST(RegistersMessage, FindsByMeaningAndByTheManualsWords) {
+  struct Case {
+    const char* model;
+    const char* find;
+    const char* name;
+  };
+  for (const Case& c :
+       {Case{"super-40nc", "position in work", "D8117"}, Case{"super-40nc", "原點低速", "D9180"},
+        Case{"super-40nc", "座標", "M8107"}, Case{"simple2-r3", "acceleration", "Aaxis_AccTime"},
+        Case{"simple2-r3", "座標", "Cord_A"}, Case{"rs-m8194h", "axes that drive", "DRIVING_AXIS"}}) {
+    OneDevice one(c.model);
+    const Json found = one.ask({{"do", "registers"}, {"device", "d"}, {"find", c.find}})["registers"];
+    const auto is_it = [&](const Json& row) { return row["name"] == c.name; };
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), is_it)) << c.find << found.dump();
+  }
 }
 
 }  // namespace observers_of_all_models_test
