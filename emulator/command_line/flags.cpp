@@ -376,8 +376,9 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
      &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
     {"hunt",
-     "Search for what breaks a scenario, or a command beside it: hunt FILE [-- COMMAND]; shrink it to the "
-     "least that does",
+     "Search for disturbances that break a scenario, or a command beside it (hunt FILE -- COMMAND), and "
+     "reduce "
+     "them to the fewest that do",
      &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},

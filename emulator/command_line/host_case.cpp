@@ -25,10 +25,12 @@
 #include "emulator/command_line/log.h"
 #include "emulator/play/performing/side_scenario.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/host_time/host_library.h"
 #include "emulator/serve/host_time/host_program.h"
 #include "emulator/serve/loop/child.h"
 #include "emulator/serve/loop/parent_signals.h"
 #include "emulator/serve/ports/private_folder.h"
+#include "emulator/serve/ports/tty_shim.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::command_line {
@@ -159,6 +161,7 @@ std::optional<int> code_of_unusable(const HostArguments& host, const std::string
     return kExitNotStarted;
   }
   if (!host.host_time) return std::nullopt;
+  serve::require_host_library(serve::library_path(serve::kHostTimeLibrary));
   const std::string why = serve::why_not_in_host_time(program);
   if (why.empty()) return std::nullopt;
   std::fprintf(stderr, "understudy: %s: --host-time: %s\n", verb.c_str(), why.c_str());
