@@ -23,29 +23,38 @@ FAULTS = PROJECT / "tests" / "planted_faults"
 
 
 class Fault:
-    """A scenario with `hunt`."""
+    """A scenario with `hunt`, and the host beside which it is played, if it has one."""
 
-    def __init__(self, path):
+    def __init__(self, path, build, folder):
         self.path = path
         self.name = path.stem
         self.text = path.read_text()
+        host = re.search(r"^# host: (.*)", self.text, re.M)
+        self.command = host[1].split() if host else []
+        if self.command[:1] == ["planted_host"]:
+            self.command[0] = str(build / "tests" / "planted_host")
+        elif self.command[:1] == ["watch"]:
+            self.command[0] = str(compiled_watch(folder))
 
     def of_kind(self, kind, folder):
-        """Returns the path of the scenario with the fault ("careless"), or of its mended twin ("careful")."""
+        """Returns the words that hunt this fault, or its mended twin ("careful")."""
+        if self.command:
+            return [str(self.path)], ["--"] + [kind if word == "KIND" else word for word in self.command]
         if kind == "careless":
-            return str(self.path)
+            return [str(self.path)], []
         change = re.search(r"^# mended by: (.*)", self.text, re.M)[1]
         mended = pathlib.Path(folder) / self.path.name
         script = "/^#/!{\n" + change + "\n}"
         mended.write_text(subprocess.run(["sed", "-E", script, self.path], stdout=subprocess.PIPE, text=True,
                                          check=True).stdout)
-        return str(mended)
+        return [str(mended)], []
 
 
 def hunt(build, fault, kind, flags, limit=None):
     """Hunts until something is found, or to the end. Returns seconds, course and text of the finding, or None."""
     with tempfile.TemporaryDirectory() as folder:
-        words = [str(build / "understudy"), "hunt", fault.of_kind(kind, folder)] + flags + ["--found", folder]
+        scenario, command = fault.of_kind(kind, folder)
+        words = [str(build / "understudy"), "hunt"] + scenario + flags + ["--found", folder] + command
         if limit:
             words[3:3] = ["--for", f"{limit}s"]
         begin = time.monotonic()
@@ -63,6 +72,14 @@ def hunt(build, fault, kind, flags, limit=None):
         if process.returncode != 0:
             sys.exit(f"{fault.name}: {errors}")
         return None
+
+
+def compiled_watch(folder):
+    """Compiles the host in C. Returns its path."""
+    program = pathlib.Path(folder) / "watch"
+    subprocess.run(["cc", "-O1", "-I/usr/include/modbus", "-o", program, FAULTS / "hosts" / "watch.c", "-lmodbus"],
+                   check=True)
+    return program
 
 
 def middle(values):
@@ -124,17 +141,18 @@ def main():
     given = parser.parse_args()
     if given.rate:
         return measure_rate(given.build, given.rate)
-    measure(given)
+    with tempfile.TemporaryDirectory() as folder:
+        measure(given, folder)
 
 
-def measure(given):
+def measure(given, folder):
     print("| fault | found | seconds | courses | disturbances | steps | unguided: found | courses | mended |")
     print("|---|---|---|---|---|---|---|---|---|")
     medians = []
     for path in sorted(FAULTS.glob("*.yaml")):
         if given.only and path.stem not in given.only:
             continue
-        fault = Fault(path)
+        fault = Fault(path, given.build, folder)
         columns = {}
         for guidance in ([], ["--unguided"])[: 1 if given.guided_alone else 2]:
             columns[bool(guidance)] = [

@@ -140,7 +140,9 @@ struct HuntArguments {
   std::string corpus;       // a file of courses to start from
   std::string coverage;     // files, as of `run`
   std::string device_coverage;
-  std::string found = "found";  // the folder for findings
+  std::string found = "found";  // the folder for what is found
+  HostArguments host;           // the command beside which courses are played; none if it has no words
+  std::string timeout = "10s";  // of real time, for the command in a course
   std::string version;          // the version of this program
 };
 /// Searches for disturbances that break a scenario.

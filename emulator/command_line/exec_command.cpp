@@ -15,6 +15,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/exec_courses.h"
+#include "emulator/command_line/host_case.h"
 #include "emulator/command_line/host_course.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
@@ -39,10 +40,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-// These are the codes of timeout(1) and of shells.
-constexpr int kExitTimedOut = 124;
-constexpr int kExitNotStarted = 127;
-constexpr int kExitNoHostTime = 125;  // the command cannot run in simulated time
+constexpr int kExitTimedOut = 124;  // as of timeout(1)
 
 /// Puts everything without a given path into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
@@ -237,24 +235,6 @@ void require_bench_flags(const ExecArguments& arguments) {
   require_none(of_cases, "is for the cases of a scenario; expected a scenario instead of the bench");
 }
 
-/// Returns an exit code, and says why, if the command cannot run in each case. A program whose name depends
-/// on the case is checked when it is started.
-std::optional<int> code_of_unusable(const HostArguments& host) {
-  const std::string& program = host.command[0];
-  if (program.find("${") != std::string::npos) return std::nullopt;
-  if (!serve::can_be_started(program)) {
-    std::fprintf(stderr, "understudy: exec: %s: cannot be started; expected a program\n",
-                 one_line(program).c_str());
-    return kExitNotStarted;
-  }
-  if (!host.host_time) return std::nullopt;
-  serve::require_host_library(serve::library_path(serve::kHostTimeLibrary));
-  const std::string why = serve::why_not_in_host_time(program);
-  if (why.empty()) return std::nullopt;
-  std::fprintf(stderr, "understudy: exec: --host-time: %s\n", why.c_str());
-  return kExitNoHostTime;
-}
-
 /// Runs the command in each case of a scenario.
 int execute_cases(ModelList models, const ExecArguments& arguments) {
   const ServeArguments& serve = arguments.serve;
@@ -280,7 +260,7 @@ int execute_cases(ModelList models, const ExecArguments& arguments) {
                                             {"--coverage", !serve.coverage.empty()},
                                             {"--device-coverage", !serve.device_coverage.empty()}}};
   require_none(of_bench, "is not for the cases of a scenario; expected a bench, or the scenario alone");
-  if (const auto code = code_of_unusable(arguments.host)) return *code;
+  if (const auto code = code_of_unusable(arguments.host, "exec")) return *code;
   RunArguments run = arguments.cases;
   run.scenarios = {serve.bench};
   run.real_time = !arguments.host.host_time;

@@ -375,7 +375,10 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"exec", "Run a command against a bench, or in each case of a scenario: exec FILE -- COMMAND",
      &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
-    {"hunt", "Search for disturbances that break a scenario, and reduce them to the fewest that do",
+    {"hunt",
+     "Search for disturbances that break a scenario, or a command beside it (hunt FILE -- COMMAND), and "
+     "reduce "
+     "them to the fewest that do",
      &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
@@ -410,11 +413,12 @@ const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
 }  // namespace
 
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models) {
-  // The words of `exec`'s command are never parsed as our flags.
+  // The words of a command that is run are never parsed as our flags.
   char** const end = argv + argc;
   char** own_end = end;
   std::vector<std::string> of_others;
-  if (argc > 1 && std::string_view(argv[1]) == "exec") {
+  const std::string_view verb = argc > 1 ? argv[1] : "";
+  if (verb == "exec" || verb == "hunt") {
     own_end = std::find_if(argv, end, [](const char* word) { return std::string_view(word) == "--"; });
     if (own_end != end) of_others.assign(own_end + 1, end);
   }
@@ -422,6 +426,7 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
   const auto make_line = [&](std::optional<CommandLine::Words> among) {
     auto line = std::make_shared<CommandLine>(models, among);
     line->exec.host.command = of_others;
+    line->hunt.host = {.command = of_others, .host_time = true};
     return line;
   };
   const auto parsed = [&](const std::shared_ptr<CommandLine>& line) -> std::function<int()> {

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
+#include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -23,9 +25,12 @@
 #include "emulator/command_line/log.h"
 #include "emulator/play/performing/side_scenario.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/host_time/host_library.h"
+#include "emulator/serve/host_time/host_program.h"
 #include "emulator/serve/loop/child.h"
 #include "emulator/serve/loop/parent_signals.h"
 #include "emulator/serve/ports/private_folder.h"
+#include "emulator/serve/ports/tty_shim.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::command_line {
@@ -114,9 +119,7 @@ std::string rerun_of(const play::Scenario& scenario, const RunArguments& argumen
   if (!arguments.timeout.empty()) text += " --timeout " + shell_word(arguments.timeout);
   if (arguments.seed) text += " --seed " + std::to_string(*arguments.seed);
   if (scenario.which.is_varied) text += " --filter " + play::identity_text(play::identity_of(scenario.which));
-  text += " --";
-  for (const std::string& word : host.command) text += " " + shell_word(word);
-  return text;
+  return text + " -- " + shell_text(host.command);
 }
 
 /// Returns why the case has failed, apart from its steps; or an empty text.
@@ -134,13 +137,35 @@ std::string why_failed(const CourseEnd& end, const play::Scenario& scenario, con
 
 }  // namespace
 
-void require_steps_for(const play::Scenario& scenario, bool has_command) {
+void require_steps_for(const play::Scenario& scenario, bool has_command, const std::string& verb) {
   if (has_command) return play::require_steps_beside_host(scenario);
   const auto step = std::ranges::find_if(scenario.steps, is_command_end);
   if (step == scenario.steps.end()) return;
   throw FileError(step->file + ":" + std::to_string(step->line) + ": " + step->text +
-                  ": no command runs beside this scenario; expected `understudy exec " + scenario.file +
-                  " -- COMMAND`");
+                  ": no command runs beside this scenario; expected `understudy " + verb + " " +
+                  scenario.file + " -- COMMAND`");
+}
+
+std::string shell_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
+  return text;
+}
+
+std::optional<int> code_of_unusable(const HostArguments& host, const std::string& verb) {
+  const std::string& program = host.command[0];
+  if (program.find("${") != std::string::npos) return std::nullopt;
+  if (!serve::can_be_started(program)) {
+    std::fprintf(stderr, "understudy: %s: %s: cannot be started; expected a program\n", verb.c_str(),
+                 one_line(program).c_str());
+    return kExitNotStarted;
+  }
+  if (!host.host_time) return std::nullopt;
+  serve::require_host_library(serve::library_path(serve::kHostTimeLibrary));
+  const std::string why = serve::why_not_in_host_time(program);
+  if (why.empty()) return std::nullopt;
+  std::fprintf(stderr, "understudy: %s: --host-time: %s\n", verb.c_str(), why.c_str());
+  return kExitNoHostTime;
 }
 
 std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, play::RunOptions options,

@@ -1,6 +1,7 @@
 // Runs one case of a campaign over a host program: `exec SCENARIO -- COMMAND`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,21 @@
 
 namespace understudy::emulator::command_line {
 
+// Exit codes for a command that cannot run.
+inline constexpr int kExitNoHostTime = 125;  // not in simulated time
+inline constexpr int kExitNotStarted = 127;  // as of shells
+
 /// Throws FileError at the first step that this run cannot take: with a command, one that uses a line;
-/// without one, a `host` step.
-void require_steps_for(const play::Scenario& scenario, bool has_command);
+/// without one, a `host` step. `verb` is what runs a scenario with a command.
+void require_steps_for(const play::Scenario& scenario, bool has_command, const std::string& verb = "exec");
+/// Returns a command as it is typed in a shell.
+std::string shell_text(const std::vector<std::string>& words);
+/// Returns an exit code if the command cannot be what runs in each case, and says why, for `verb`. A program
+/// whose name depends on the case is looked for when it is started.
+std::optional<int> code_of_unusable(const HostArguments& host, const std::string& verb);
 
 /// Runs the scenario with its command on ports of its own. The command must exit with code 0, unless the
-/// scenario has a `host` step. `recording` is the path of the recording.
+/// scenario has a `host` step. `recording` is where the recording goes; empty: there is none.
 std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, play::RunOptions options,
                                                 const RunArguments& arguments, const std::string& recording);
 

@@ -19,7 +19,10 @@
 #include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/ctl_coverage.h"
 #include "emulator/command_line/device_coverage_file.h"
+#include "emulator/command_line/host_case.h"
+#include "emulator/command_line/host_course.h"
 #include "emulator/command_line/hunt_files.h"
+#include "emulator/command_line/hunt_hosts.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/terminal.h"
@@ -27,8 +30,8 @@
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/hunt.h"
 #include "emulator/hunt/reach.h"
+#include "emulator/hunt/stage.h"
 #include "emulator/play/performing/case_list.h"
-#include "emulator/play/performing/run.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
 
@@ -65,7 +68,12 @@ play::Shard shard_of_hunt(const HuntArguments& arguments) {
                    " is not a part; expected I/N such as 1/4, I up to N");
 }
 
-void require_hunted(const play::Scenario& scenario) {
+std::optional<std::uint64_t> courses_of(const HuntArguments& arguments) {
+  if (arguments.courses == 0U) throw UsageError("--courses: 0 is too few; expected 1 or more");
+  return arguments.courses;
+}
+
+void require_hunted(const play::Scenario& scenario, ModelList models, bool has_command) {
   if (scenario.hunt == nullptr) {
     throw FileError(scenario.file +
                     ": hunt: is missing; expected `hunt:` with what may happen, as in "
@@ -75,6 +83,7 @@ void require_hunted(const play::Scenario& scenario) {
     throw FileError(scenario.file +
                     ": save: cannot be used in a hunt, because its courses would write the same file");
   }
+  require_hunted_steps(scenario, models, has_command);
 }
 
 RunArguments coverage_arguments(const HuntArguments& arguments) {
@@ -170,20 +179,25 @@ void print_summary(const hunt::Hunt& hunt) {
 }  // namespace
 
 int hunt_scenario(ModelList models, const HuntArguments& arguments) {
+  const bool has_command = !arguments.host.command.empty();
+  if (has_command) {
+    parse_timeout(arguments.timeout);
+    if (const auto code = code_of_unusable(arguments.host, "hunt")) return *code;
+  }
   CorpusFile corpus(arguments.corpus);
   hunt::HuntOptions options{.seed = arguments.seed,
                             .jobs = jobs_of_hunt(arguments),
-                            .courses = arguments.courses.value_or(UINT64_MAX),
+                            .courses = courses_of(arguments).value_or(UINT64_MAX),
                             .shard = shard_of_hunt(arguments),
                             .first = corpus.next_course(arguments.seed),
                             .corpus = corpus.courses(),
                             .is_guided = !arguments.unguided};
   if (arguments.unguided && corpus.is_wanted())
     throw UsageError("--unguided: uses no earlier courses; expected no --corpus");
-  play::CaseList cases(models, {});
+  play::CaseList cases(models, {.command = arguments.host.command});
   FileClaims claims;
   cases.add(arguments.scenario, [&](const play::Scenario& scenario) {
-    require_hunted(scenario);
+    require_hunted(scenario, models, has_command);
     claims.add(scenario.files);
   });
   const RunArguments covered = coverage_arguments(arguments);
@@ -191,11 +205,13 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
   require_device_coverage(claims, covered.device_coverage);
   require_output(claims, "--corpus", arguments.corpus);
   RunCoverage coverage(covered);
-  FoundFiles files(models, arguments, std::move(claims));
+  std::optional<HuntHosts> hosts;
+  if (has_command) hosts.emplace(cases, models, arguments, options.jobs);
+  FoundFiles files(models, arguments, std::move(claims), hosts ? &*hosts : nullptr);
   const auto end = end_of(arguments);
   watch_for_interruption();
   options.is_over = [&end] { return is_interrupted() || (end && Clock::now() >= *end); };
-  hunt::Hunt hunt(cases, models, options, play::run_scenario);
+  hunt::Hunt hunt(cases, models, options, [&] { return hosts ? hosts->player() : hunt::Player{}; });
   {
     HuntProgress state(hunt);
     ProgressLine progress([&](double seconds) { return state.text(seconds); });

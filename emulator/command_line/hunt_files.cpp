@@ -20,6 +20,8 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/failure_story.h"
+#include "emulator/command_line/host_case.h"
+#include "emulator/command_line/hunt_hosts.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
@@ -31,11 +33,13 @@
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/report/page.h"
 #include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/bench_file/yaml_text.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/world.h"
@@ -50,10 +54,30 @@ constexpr const char* kScenarioEnding = ".yaml";
 constexpr const char* kRecordingEnding = ".jsonl";
 constexpr const char* kPageEnding = ".html";
 
+void write_found(const std::string& path, const std::string& text, ContentKind kind) {
+  const std::string why = replace_text_file(path, text, kind);
+  if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
+}
+
+/// Returns the words of the command as a file has them: nothing in them is a parameter.
+std::vector<std::string> without_parameters(std::vector<std::string> words) {
+  for (std::string& word : words) {
+    for (std::size_t at = 0; (at = word.find("${", at)) != std::string::npos; at += 3) word.insert(at, "$");
+  }
+  return words;
+}
+
+play::Scenario load_found(ModelList models, const std::string& path,
+                          const std::vector<std::string>& command) {
+  play::SharedReading shared{.models = models, .benches = {}, .included = {}};
+  play::ScenarioFile file(path, {.command = command}, shared);
+  return file.read(0);
+}
+
 }  // namespace
 
-FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims)
-    : models_(models), arguments_(arguments), claims_(std::move(claims)) {
+FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims, HuntHosts* hosts)
+    : models_(models), arguments_(arguments), claims_(std::move(claims)), hosts_(hosts) {
   if (fs::exists(arguments.found) && !fs::is_directory(arguments.found)) {
     throw UsageError("--found: " + arguments.found + ": is not a folder; expected one");
   }
@@ -68,17 +92,30 @@ void FoundFiles::add(const hunt::Finding& finding) {
                       .course = finding.course,
                       .disturbances = finding.disturbances};
   if (arguments_.seed != 0) origin.command += " --seed " + std::to_string(arguments_.seed);
-  write(path + kScenarioEnding, hunt::text_of_finding(stage, finding.shrunk, origin, arguments_.found),
-        ContentKind::scenario);
+  if (hosts_ != nullptr) {
+    origin.command += " -- " + shell_text(arguments_.host.command);
+    origin.again = again_with(finding, path);
+  }
+  for (const char* const ending : {kScenarioEnding, kRecordingEnding, kPageEnding})
+    require_writable(path + ending);
+  write_found(path + kScenarioEnding, hunt::text_of_finding(stage, finding.shrunk, origin, arguments_.found),
+              ContentKind::scenario);
   print(finding, path);
   play(finding, path);
   std::fflush(stdout);
 }
 
-void FoundFiles::write(const std::string& path, const std::string& text, ContentKind kind) {
-  std::string why = claims_.objection_to(path);
-  if (why.empty()) why = replace_text_file(path, text, kind);
+void FoundFiles::require_writable(const std::string& path) const {
+  const std::string why = claims_.objection_to(path);
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
+}
+
+/// Returns the command that runs the scenario of a finding in a command.
+std::string FoundFiles::again_with(const hunt::Finding& finding, const std::string& path) const {
+  const std::vector<std::string> words = without_parameters(finding.stage->scenario().command);
+  std::string text = "understudy exec " + shell_text({path + kScenarioEnding}) + " --host-time";
+  if (arguments_.timeout != HuntArguments{}.timeout) text += " --timeout " + arguments_.timeout;
+  return text + " -- " + shell_text(words);
 }
 
 void FoundFiles::print(const hunt::Finding& finding, const std::string& path) const {
@@ -92,41 +129,55 @@ void FoundFiles::print(const hunt::Finding& finding, const std::string& path) co
     return;
   }
   for (const play::Disturbance& one : found.course.disturbances) {
-    std::string step = world::flow_text(finding.stage->plan().step_of(one));
-    step = step.substr(2, step.size() - 4);  // without its braces
-    std::printf("      %s\n", one_line(step).c_str());
+    for (const world::YamlFields& fields : finding.stage->plan().steps_of(one)) {
+      std::string step = world::flow_text(fields);
+      step = step.substr(2, step.size() - 4);  // without its braces
+      std::printf("      %s\n", one_line(step).c_str());
+    }
   }
   std::printf("      course %" PRIu64 ": %zu of %zu disturbances, shrunk in %d more courses\n",
               finding.course, found.course.disturbances.size(), finding.disturbances, found.plays);
+  if (hosts_ != nullptr) std::printf("      %s\n", again_with(finding, path).c_str());
 }
 
-/// Plays the written file once more, with a recorder, as `run` does.
+/// Plays the written file once more.
 void FoundFiles::play(const hunt::Finding& finding, const std::string& path) {
-  std::vector<play::Scenario> scenarios = play::load_scenarios(models_, path + kScenarioEnding);
-  const play::Scenario& scenario = scenarios.front();
+  const std::vector<play::ScenarioResult> results =
+      hosts_ != nullptr ? hosts_->show(path, without_parameters(finding.stage->scenario().command))
+                        : show_finding(models_, arguments_, path, {});
+  const bool fails = std::ranges::any_of(results, [&](const play::ScenarioResult& result) {
+    return result.failure && result.branch == finding.shrunk.outcome.failed->branch;
+  });
+  if (!fails) log_line("hunt: " + path + kScenarioEnding + " does not fail; this is a bug in understudy");
+}
+
+std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArguments& arguments,
+                                               const std::string& path,
+                                               const std::vector<std::string>& command) {
+  const play::Scenario scenario = load_found(models, path + kScenarioEnding, command);
+  const std::string recording = path + kRecordingEnding;
   play::RunOptions options;
   options.observers.push_back([](world::World& world) { return std::make_unique<play::RunLogger>(world); });
-  const std::string recording = path + kRecordingEnding;
-  if (const std::string why = claims_.objection_to(recording); !why.empty())
-    throw GrowingFileError("--found: " + recording + " cannot be written: " + why);
-  options.observers.push_back([&](world::World& world) {
-    world::RecordingHeader header{.version = arguments_.version,
-                                  .bench = world::to_text(scenario.bench),
-                                  .options = {},
-                                  .seed = scenario.bench.seed,
-                                  .snapshot = {}};
-    header.options.strict_framing = true;
-    return std::make_unique<play::PerformanceRecorder>(world, std::move(header), recording);
-  });
-  std::vector<play::ScenarioResult> results = play::run_scenario(scenario, options);
-  bool fails = false;
-  for (play::ScenarioResult& result : results) {
-    if (!result.failure) continue;
-    fails = fails || result.branch == finding.shrunk.outcome.failed->branch;
-    result.failure->led_to = what_led_to_it(models_, recording);
+  std::vector<play::ScenarioResult> results;
+  if (command.empty()) {
+    options.observers.push_back([&](world::World& world) {
+      world::RecordingHeader header{.version = arguments.version,
+                                    .bench = world::to_text(scenario.bench),
+                                    .options = {},
+                                    .seed = scenario.bench.seed,
+                                    .snapshot = {}};
+      header.options.strict_framing = true;
+      return std::make_unique<play::PerformanceRecorder>(world, std::move(header), recording);
+    });
+    results = play::run_scenario(scenario, options);
+  } else {
+    results = run_beside(scenario, std::move(options), arguments, recording);
   }
-  if (!fails) log_line("hunt: " + path + kScenarioEnding + " does not fail; this is a bug in understudy");
-  write(path + kPageEnding, play::report_page(results, arguments_.version), ContentKind::page);
+  for (play::ScenarioResult& result : results) {
+    if (result.failure) result.failure->led_to = what_led_to_it(models, recording);
+  }
+  write_found(path + kPageEnding, play::report_page(results, arguments.version), ContentKind::page);
+  return results;
 }
 
 CorpusFile::CorpusFile(const std::string& path) : path_(path) {

@@ -6,33 +6,43 @@
 #include <string>
 #include <vector>
 
-#include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/device/model.h"
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
 #include "emulator/hunt/hunt.h"
+#include "emulator/play/results/result.h"
 
 namespace understudy::emulator::command_line {
 
-/// Keeps findings in a folder, and prints them.
+class HuntHosts;  // hunt_hosts.h
+
+/// Plays a scenario that was written about a finding, as `run` or `exec` does, and writes its recording and
+/// its page beside it. `path` has no ending. Throws GrowingFileError.
+std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArguments& arguments,
+                                               const std::string& path,
+                                               const std::vector<std::string>& command);
+
+/// Keeps what is found in a folder, and tells people about it.
 class FoundFiles {
  public:
-  /// Throws UsageError if the path is a file.
-  FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims);
+  /// Throws UsageError if the folder cannot be one. `hosts` is null if no command runs beside courses.
+  FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims, HuntHosts* hosts);
 
   /// Writes and prints a finding. Throws GrowingFileError.
   void add(const hunt::Finding& finding);
 
  private:
-  void write(const std::string& path, const std::string& text, ContentKind kind);
+  void require_writable(const std::string& path) const;
+  std::string again_with(const hunt::Finding& finding, const std::string& path) const;
   void print(const hunt::Finding& finding, const std::string& path) const;
   void play(const hunt::Finding& finding, const std::string& path);
 
   ModelList models_;
   const HuntArguments& arguments_;
   FileClaims claims_;
+  HuntHosts* hosts_;
 };
 
 /// The file of `--corpus`: courses that reached something new, and how far each seed has come.

@@ -45,6 +45,7 @@
 #include "emulator/play/report/run_logger.h"
 #include "emulator/play/results/junit.h"
 #include "emulator/play/results/result.h"
+#include "emulator/play/results/result_state.h"
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_executor.h"
@@ -336,13 +337,19 @@ class Players {
  public:
   Players(const Stagehand& stagehand, const play::CaseList& case_list, bool have_processes, int threads)
       : stagehand_(stagehand), case_list_(case_list) {
-    if (have_processes) workers_.emplace(threads, [this] { return make_here(); });
+    if (have_processes) workers_.emplace(threads, [this] { return make_work(); });
   }
   /// May be called on any thread.
   play::Play make() {
     if (!workers_) return make_here();
     return [this, worker = taken_++](const play::CaseId& which_case) {
-      return workers_->play(worker, which_case);
+      StateWriter question;
+      question.write(which_case.file);
+      question.write(which_case.number);
+      const std::vector<std::byte> answer = workers_->ask(worker, question.take());
+      std::vector<play::ScenarioResult> results;
+      StateReader(answer).read(results);
+      return results;
     };
   }
 
@@ -350,6 +357,18 @@ class Players {
   play::Play make_here() const {
     return [this, own = std::make_shared<play::CaseReader>(case_list_)](const play::CaseId& which_case) {
       return stagehand_.play(*own, which_case, case_list_);
+    };
+  }
+
+  Work make_work() const {
+    return [play = make_here()](std::span<const std::byte> question) {
+      play::CaseId which_case;
+      StateReader reader(question);
+      reader.read(which_case.file);
+      reader.read(which_case.number);
+      StateWriter answer;
+      answer.write(play(which_case));
+      return answer.take();
     };
   }
 

@@ -101,6 +101,11 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
                   "Folder for the findings: a scenario, a recording and a page for each kind of failure")
       ->capture_default_str()
       ->check(kNotEmpty);
+  command
+      .add_option("--timeout", hunt.timeout,
+                  "End the command of `-- COMMAND` after this much real time in a course")
+      ->capture_default_str()
+      ->check(kNotEmpty);
 }
 
 /// The flags of `exec` besides those of `serve`.

@@ -11,24 +11,19 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "base/state/state_bytes.h"
-#include "emulator/play/results/result_state.h"
+#include "base/files/descriptor.h"
 #include "pty/port_link.h"
 
 namespace understudy::emulator::command_line {
 
 namespace {
-
-/// A worker's reply to a case.
-struct Answer {
-  std::string error;  // empty: none
-  std::vector<play::ScenarioResult> results;
-};
 
 /// Returns false if the other side has ended.
 bool put(int wire, const void* data, std::size_t size) {
@@ -55,37 +50,43 @@ bool take(int wire, void* data, std::size_t size) {
   return true;
 }
 
-Answer answer_to(const play::Play& play, const play::CaseId& which_case) {
+/// The bytes begin with their number and, in an answer, with whether they are one or the message of an error.
+bool put(int wire, bool is_error, std::span<const std::byte> bytes) {
+  const std::uint64_t size = bytes.size();
+  return put(wire, &is_error, sizeof is_error) && put(wire, &size, sizeof size) &&
+         put(wire, bytes.data(), bytes.size());
+}
+
+bool take(int wire, bool& is_error, std::vector<std::byte>& bytes) {
+  std::uint64_t size = 0;
+  if (!take(wire, &is_error, sizeof is_error) || !take(wire, &size, sizeof size)) return false;
+  bytes.resize(size);
+  return take(wire, bytes.data(), bytes.size());
+}
+
+bool put_answer(int wire, const Work& work, std::span<const std::byte> question) {
   try {
-    return {.error = {}, .results = play(which_case)};
+    return put(wire, false, work(question));
   } catch (const std::exception& error) {
-    return {.error = error.what(), .results = {}};
+    return put(wire, true, std::as_bytes(std::span(std::string_view(error.what()))));
   }
 }
 
-bool put(int wire, const Answer& answer) {
-  StateWriter writer;
-  writer.write(answer.error);
-  writer.write(answer.results);
-  const std::vector<std::byte> bytes = writer.take();
-  const std::uint64_t size = bytes.size();
-  return put(wire, &size, sizeof size) && put(wire, bytes.data(), bytes.size());
-}
-
-/// Runs cases until the parent closes the wire or ends.
-[[noreturn]] void work(int wire, pid_t parent, const std::function<play::Play()>& make_play) {
+/// Ends with its parent, however that ends.
+[[noreturn]] void work(int wire, pid_t parent, const std::function<Work()>& make_work) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);
-  const play::Play play = make_play();
-  play::CaseId which_case;
-  while (take(wire, &which_case, sizeof which_case) && put(wire, answer_to(play, which_case))) {
+  const Work its_work = make_work();
+  bool ignored = false;
+  std::vector<std::byte> question;
+  while (take(wire, ignored, question) && put_answer(wire, its_work, question)) {
   }
   _exit(0);
 }
 
 }  // namespace
 
-WorkerProcesses::WorkerProcesses(int count, const std::function<play::Play()>& make_play) {
+WorkerProcesses::WorkerProcesses(int count, const std::function<Work()>& make_work) {
   const pid_t parent = getpid();
   for (int i = 0; i < count; ++i) {
     int ends[2];
@@ -98,7 +99,7 @@ WorkerProcesses::WorkerProcesses(int count, const std::function<play::Play()>& m
     if (process == 0) {
       ours.close();
       workers_.clear();
-      work(theirs.get(), parent, make_play);
+      work(theirs.get(), parent, make_work);
     }
     workers_.push_back({process, std::move(ours)});
   }
@@ -112,23 +113,15 @@ WorkerProcesses::~WorkerProcesses() {
   }
 }
 
-std::vector<play::ScenarioResult> WorkerProcesses::play(std::size_t worker,
-                                                        const play::CaseId& which_case) const {
+std::vector<std::byte> WorkerProcesses::ask(std::size_t worker, std::span<const std::byte> question) const {
   const int wire = workers_[worker].wire.get();
-  std::uint64_t size = 0;
-  std::vector<std::byte> bytes;
-  const auto take_answer = [&] {
-    if (!put(wire, &which_case, sizeof which_case) || !take(wire, &size, sizeof size)) return false;
-    bytes.resize(size);
-    return take(wire, bytes.data(), bytes.size());
-  };
-  if (!take_answer()) throw pty::PortError("a worker process ended early; expected it to run its cases");
-  StateReader reader(bytes);
-  Answer answer;
-  reader.read(answer.error);
-  reader.read(answer.results);
-  if (!answer.error.empty()) throw pty::PortError(answer.error);
-  return std::move(answer.results);
+  bool is_error = false;
+  std::vector<std::byte> answer;
+  if (!put(wire, false, question) || !take(wire, is_error, answer))
+    throw pty::PortError("a worker process ended early; expected it to run its cases");
+  if (is_error)
+    throw pty::PortError(std::string(reinterpret_cast<const char*>(answer.data()), answer.size()));
+  return answer;
 }
 
 }  // namespace understudy::emulator::command_line

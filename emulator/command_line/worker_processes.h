@@ -1,31 +1,35 @@
-// Runs cases in separate processes, because a case with a command needs its own children and signals.
+// Works in processes of their own: a case with a command has children and signals, of which a process has
+// one set.
 #pragma once
 
 #include <sys/types.h>
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/files/descriptor.h"
-#include "emulator/play/performing/suite.h"
-#include "emulator/play/results/result.h"
 
 namespace understudy::emulator::command_line {
 
+/// Answers a question. Both are bytes (base/state/state_bytes.h).
+using Work = std::function<std::vector<std::byte>(std::span<const std::byte>)>;
+
 class WorkerProcesses {
  public:
-  /// Starts `count` processes; each makes a Play. Must be called while this process has one thread.
-  WorkerProcesses(int count, const std::function<play::Play()>& make_play);
-  /// Ends them, and waits until they have ended.
+  /// Starts `count` processes, each of which makes its Work. Must be called while this process has one
+  /// thread.
+  WorkerProcesses(int count, const std::function<Work()>& make_work);
+  /// Lets them end, and waits for that.
   ~WorkerProcesses();
   WorkerProcesses(const WorkerProcesses&) = delete;
   WorkerProcesses& operator=(const WorkerProcesses&) = delete;
 
   std::size_t count() const { return workers_.size(); }
-  /// Runs a case in that worker, which no other thread may use meanwhile. Throws pty::PortError if the worker
-  /// has ended, or with the message of its exception.
-  std::vector<play::ScenarioResult> play(std::size_t worker, const play::CaseId& which_case) const;
+  /// Asks that worker, which no other thread may use meanwhile. Throws pty::PortError with the message of
+  /// what the worker has thrown, or if it has ended.
+  std::vector<std::byte> ask(std::size_t worker, std::span<const std::byte> question) const;
 
  private:
   struct Worker {

@@ -23,9 +23,10 @@ namespace {
 using Json = nlohmann::json;
 using When = play::Disturbance::When;
 
-constexpr std::size_t kMaxMoments = 16;  // for each seed
-constexpr std::size_t kMaxRead = 64;     // disturbances of a course in a file
-constexpr std::array<std::string_view, 3> kWhen{"here", "at", "nth"};
+constexpr std::size_t kMaxMoments = 16;   // for each seed
+constexpr std::size_t kMaxFeatures = 16;  // for each seed
+constexpr std::size_t kMaxRead = 64;      // disturbances of a course in a file
+constexpr std::array<std::string_view, 4> kWhen{"here", "at", "nth", "late"};
 
 template <typename Number>
 bool read(const Json& object, const char* key, Number& number) {
@@ -60,17 +61,21 @@ std::optional<play::Disturbance> parse_disturbance(const Json& object) {
 
 bool Corpus::add(const Course& course, const Reached& reached) {
   std::vector<SimTime> moments;
+  std::vector<Feature> features;
   bool is_new = false;
   Sort sort = Sort::order;
   for (const auto& [feature, when] : reached.when) {
-    if (!reached_.insert(feature).second) continue;
+    if (++hits_[feature] > 1) continue;
     is_new = true;
+    features.push_back(feature);
     sort = std::min(sort, sort_of(feature));
     ++counts_[static_cast<std::size_t>(sort_of(feature))];
     moments.push_back(when);
   }
   if (!is_new) return false;
   // The order in which features are iterated must not matter.
+  std::sort(features.begin(), features.end());
+  if (features.size() > kMaxFeatures) features.resize(kMaxFeatures);
   std::sort(moments.begin(), moments.end());
   moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
   if (moments.size() > kMaxMoments) {
@@ -78,16 +83,38 @@ bool Corpus::add(const Course& course, const Reached& reached) {
     for (std::size_t i = 0; i < kMaxMoments; ++i) few.push_back(moments[i * moments.size() / kMaxMoments]);
     moments = std::move(few);
   }
-  coming_.push_back({.course = course, .moments = std::move(moments), .sort = sort});
+  coming_.push_back(
+      {.course = course, .moments = std::move(moments), .sort = sort, .features = std::move(features)});
   return true;
 }
 
 void Corpus::renew() {
   for (Seed& seed : coming_) {
-    by_sort_[static_cast<std::size_t>(seed.sort)].push_back(seeds_.size());
+    by_sort_[static_cast<std::size_t>(seed.sort)].numbers.push_back(seeds_.size());
     seeds_.push_back(std::move(seed));
   }
   coming_.clear();
+  for (Weighed& weighed : by_sort_) {
+    weighed.sums.clear();
+    std::uint64_t sum = 0;
+    for (const std::size_t number : weighed.numbers) {
+      std::uint64_t rarest = UINT64_MAX;
+      for (const Feature feature : seeds_[number].features) rarest = std::min(rarest, hits_.at(feature));
+      constexpr std::uint64_t kFull = 1 << 16;  // the weight of what only one course has reached
+      weighed.sums.push_back(sum += std::max<std::uint64_t>(1, kFull / rarest));
+    }
+  }
+}
+
+std::size_t Corpus::draw_seed(Dice& dice) const {
+  std::vector<const Weighed*> sorts;
+  for (const Weighed& weighed : by_sort_) {
+    if (!weighed.numbers.empty()) sorts.push_back(&weighed);
+  }
+  const Weighed& weighed = *sorts[dice.below(sorts.size())];
+  const auto drawn =
+      std::upper_bound(weighed.sums.begin(), weighed.sums.end(), dice.below(weighed.sums.back()));
+  return weighed.numbers[static_cast<std::size_t>(drawn - weighed.sums.begin())];
 }
 
 std::string json_text(const Course& course) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -20,8 +20,9 @@ namespace understudy::emulator::hunt {
 /// A course that reached something new.
 struct Seed {
   Course course;
-  std::vector<SimTime> moments;  // when it did; at most a few
-  Sort sort = Sort::order;       // the first sort in which something was new
+  std::vector<SimTime> moments;     // at which it did, a few of them
+  Sort sort = Sort::order;          // the first sort of what was new
+  std::vector<Feature> features{};  // what was new, some of it
 };
 
 /// The number of things reached, by sort.
@@ -32,20 +33,26 @@ class Corpus {
   /// Keeps the course if it reached anything that no course before it did. Returns true if it did. It is not
   /// among the seeds until they are renewed.
   bool add(const Course& course, const Reached& reached);
-  /// Makes all courses so far seeds.
+  /// Makes all courses so far seeds, and weighs them.
   void renew();
 
   const std::vector<Seed>& seeds() const { return seeds_; }
-  /// Returns the numbers of the seeds of a sort. New orders are so common that they would hide the rest.
-  const std::vector<std::size_t>& seeds_of(Sort sort) const {
-    return by_sort_[static_cast<std::size_t>(sort)];
-  }
+  /// Draws the number of a seed, of which there must be one: each sort as often as another, since new orders
+  /// are so common that they would hide the rest; and of a sort, a seed whose features few courses have
+  /// reached more often than others.
+  std::size_t draw_seed(Dice& dice) const;
   const Counts& counts() const { return counts_; }
 
  private:
-  std::unordered_set<Feature> reached_;
+  /// The seeds of a sort.
+  struct Weighed {
+    std::vector<std::size_t> numbers;
+    std::vector<std::uint64_t> sums;  // of the weights up to each
+  };
+
+  std::unordered_map<Feature, std::uint64_t> hits_;  // how many courses have reached each
   std::vector<Seed> seeds_;
-  std::array<std::vector<std::size_t>, kSorts.size()> by_sort_;
+  std::array<Weighed, kSorts.size()> by_sort_;
   std::vector<Seed> coming_;
   Counts counts_{};
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -24,15 +25,22 @@ constexpr std::uint64_t kMaxDisturbances = 16;
 constexpr SimTime kNear = std::chrono::milliseconds(5);  // this close to the beginning or the end of a step
 constexpr SimTime kFine = std::chrono::microseconds(100);
 
-/// Draws a time from `low` to `high`: any millisecond or, equally often, a moment near the beginning or the
-/// end of a step, where things meet, or near one at which something new happened.
+/// Draws a number from -1024 to 1024, small ones more often.
+std::int64_t draw_distance(Dice& dice, std::uint64_t powers = 11) {
+  const std::int64_t most = std::int64_t{1} << dice.below(powers);
+  return static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * most) + 1)) - most;
+}
+
+/// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,
+/// where things meet, or near one at which something new happened.
 SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
   if (dice.one_in(2)) {
     const Undisturbed& undisturbed = ground.undisturbed;
     const std::size_t step = dice.below(undisturbed.begins.size());
-    SimTime edge = dice.one_in(2) ? undisturbed.begins[step] : undisturbed.ends[step];
-    if (!ground.moments.empty() && dice.one_in(2)) edge = ground.moments[dice.below(ground.moments.size())];
-    const SimTime near = edge - kNear + kFine * static_cast<std::int64_t>(dice.below(2 * kNear / kFine + 1));
+    const SimTime edge = dice.one_in(2) ? undisturbed.begins[step] : undisturbed.ends[step];
+    SimTime near = edge - kNear + kFine * static_cast<std::int64_t>(dice.below(2 * kNear / kFine + 1));
+    if (!ground.moments.empty() && dice.one_in(2))
+      near = ground.moments[dice.below(ground.moments.size())] + kFine * draw_distance(dice);
     if (near >= low && near <= high) return near;
   }
   const auto ticks = static_cast<std::uint64_t>((high - low) / kTickLength) + 1;
@@ -58,7 +66,8 @@ void draw_moment(Disturbance& drawn, const Ground& ground, Dice& dice) {
       drawn.step = steps[dice.below(steps.size())];
       break;
     }
-    case When::at: {
+    case When::at:
+    case When::late: {
       const Window window = window_of(entry, ground.undisturbed);
       drawn.moment = draw_time(ground, window.low, window.high, dice).count();
       break;
@@ -74,7 +83,7 @@ void draw_moment(Disturbance& drawn, const Ground& ground, Dice& dice) {
 
 Disturbance draw_one(const Ground& ground, std::size_t number, Dice& dice) {
   const HuntPlan::Entry& entry = ground.plan.entries()[number];
-  Disturbance drawn{.entry = number, .step = entry.first, .values = {}};
+  Disturbance drawn{.entry = number, .step = entry.at_step, .values = {}};
   for (const play::Variation& value : entry.values) drawn.values.push_back(draw_value(value, dice));
   draw_moment(drawn, ground, dice);
   return drawn;
@@ -101,7 +110,7 @@ void gather(std::vector<Disturbance>& all, const HuntPlan& plan, Dice& dice) {
 /// Moves times that were changed too far to the nearest possible ones.
 void keep_in_windows(std::vector<Disturbance>& all, const Ground& ground) {
   for (Disturbance& one : all) {
-    if (one.when != When::at) continue;
+    if (!has_time(one)) continue;
     const Window window = window_of(ground.plan.entries()[one.entry], ground.undisturbed);
     one.moment = std::clamp(one.moment, window.low.count(), window.high.count());
   }
@@ -116,15 +125,12 @@ std::size_t count_of(const std::vector<Disturbance>& all, std::size_t entry) {
 void change_moment(Disturbance& one, const std::vector<Disturbance>& all, const Ground& ground, Dice& dice) {
   const Disturbance& other = all[dice.below(all.size())];
   if (one.when == When::here || other.when != one.when || dice.one_in(4)) {
-    one.step = ground.plan.entries()[one.entry].first;
+    one.step = ground.plan.entries()[one.entry].at_step;
     return draw_moment(one, ground, dice);
   }
   const bool is_number = one.when == When::nth;
   const std::int64_t unit = is_number ? 1 : kFine.count();
-  const std::int64_t most = std::int64_t{1} << dice.below(is_number ? 4 : 11);  // units
-  const std::int64_t moved =
-      other.moment +
-      unit * (static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * most) + 1)) - most);
+  const std::int64_t moved = other.moment + unit * draw_distance(dice, is_number ? 4 : 11);
   one.moment = std::max<std::int64_t>(moved, is_number ? 1 : 0);
 }
 
@@ -143,6 +149,8 @@ void change_value(Disturbance& one, const Ground& ground, Dice& dice) {
 }
 
 }  // namespace
+
+bool has_time(const Disturbance& one) { return one.when == When::at || one.when == When::late; }
 
 Window window_of(const HuntPlan::Entry& entry, const Undisturbed& undisturbed) {
   constexpr int kMore = 4;  // disturbances make a course longer, by a quarter as a guess
@@ -163,8 +171,12 @@ std::uint64_t Dice::below(std::uint64_t count) {
 }
 
 void arrange(std::vector<Disturbance>& disturbances) {
+  // Steps that wait for their moments come after those that act at once.
+  const auto place = [](const Disturbance& one) {
+    return std::pair(one.step, one.when == When::late ? one.moment : -1);
+  };
   std::stable_sort(disturbances.begin(), disturbances.end(),
-                   [](const Disturbance& a, const Disturbance& b) { return a.step < b.step; });
+                   [&](const Disturbance& a, const Disturbance& b) { return place(a) < place(b); });
 }
 
 std::vector<Disturbance> draw_disturbances(const Ground& ground, Dice& dice) {
@@ -197,9 +209,11 @@ std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const D
   for (std::uint64_t i = 0; i < changes; ++i) {
     const std::uint64_t how = all.empty() ? 0 : dice.below(6);
     if (how <= 1) {  // one more, of its own or of another course
-      const Disturbance one = how == 1 && !others.empty()
-                                  ? others[dice.below(others.size())]
-                                  : draw_one(ground, dice.below(entries.size()), dice);
+      const bool is_taken = how == 1 && !others.empty();
+      Disturbance one =
+          is_taken ? others[dice.below(others.size())] : draw_one(ground, dice.below(entries.size()), dice);
+      // What happens soon after something else often goes on with it.
+      if (!is_taken && !all.empty() && dice.one_in(2)) change_moment(one, all, ground, dice);
       const bool has_room =
           all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].most;
       if (has_room) all.push_back(one);
@@ -222,15 +236,15 @@ bool is_possible(const Disturbance& one, const Ground& ground) {
   if (one.entry >= plan.entries().size()) return false;
   const HuntPlan::Entry& entry = plan.entries()[one.entry];
   const bool has_way = std::find(entry.ways.begin(), entry.ways.end(), one.when) != entry.ways.end();
-  const bool is_in_time = one.when == When::here
-                              ? one.step >= entry.first && one.step <= entry.last &&
-                                    plan.has_room_before(one.step) && one.moment == 0
-                              : one.step == entry.first && one.moment >= 0 && one.moment <= kHorizon.count();
+  const bool is_in_time =
+      one.when == When::here ? one.step >= entry.first && one.step <= entry.last &&
+                                   plan.has_room_before(one.step) && one.moment == 0
+                             : one.step == entry.at_step && one.moment >= 0 && one.moment <= kHorizon.count();
   if (!has_way || !is_in_time || one.values.size() != entry.values.size()) return false;
   if (one.when == When::nth && one.moment == 0) return false;
   const Window window = window_of(entry, ground.undisturbed);
   const SimTime moment(one.moment);
-  if (one.when == When::at && (moment < window.low || moment > window.high)) return false;
+  if (has_time(one) && (moment < window.low || moment > window.high)) return false;
   for (std::size_t i = 0; i < one.values.size(); ++i) {
     if (one.values[i] >= entry.values[i].places()) return false;
   }

@@ -29,11 +29,13 @@ struct Undisturbed {
   std::int64_t requests = 0;    // of all stations
 };
 
-/// The times at which a fault of an entry may begin.
+/// The times at which a disturbance of an entry may begin.
 struct Window {
   SimTime low{0};
   SimTime high{0};
 };
+/// Returns true if its moment is a time.
+bool has_time(const play::Disturbance& disturbance);
 Window window_of(const play::HuntPlan::Entry& entry, const Undisturbed& undisturbed);
 
 /// Random numbers from a seed, the same everywhere.

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/state/state_bytes.h"
@@ -129,6 +130,7 @@ std::string heading(const Stage& stage, const Shrunk& found, const Origin& origi
                                    " the scenario does not fail in this way.\n"
                              : ".\n";
   }
+  if (!origin.again.empty()) text += "# `" + one_line(origin.again) + "` runs it again.\n";
   if (!stage.scenario().which.values.empty())
     text += "# The case is " + one_line(play::to_text(stage.scenario().which)) + ".\n";
   return text;
@@ -154,6 +156,10 @@ std::string text_of_finding(const Stage& stage, const Shrunk& found, const Origi
   text += "name: " + name_of_finding(stage, found) + "\n";
   for (const auto& [key, value] : writer.moved(stage.plan().head()).entries())
     text += world::block_text(key, value, "", "");
+  if (!stage.scenario().choice.empty()) {
+    text += "choice: { " + stage.scenario().choice + ": [ " + stage.scenario().which.values.front().second +
+            " ] }\n";
+  }
   if (stage.scenario().seed != 0 && !stage.plan().head().has("seed"))
     text += "seed: " + std::to_string(stage.scenario().seed) + "\n";
   text += "steps:\n";
@@ -165,7 +171,11 @@ std::string text_of_finding(const Stage& stage, const Shrunk& found, const Origi
   const auto& steps = stage.plan().steps();
   for (std::size_t i = 0; i < steps.size() && i < found.course.end; ++i) {
     for (; next != found.course.disturbances.end() && next->step <= i; ++next) {
-      text += with_comment(writer.step(stage.plan().step_of(*next)),
+      std::vector<world::YamlFields> its_steps = stage.plan().steps_of(*next);
+      const world::YamlFields last = std::move(its_steps.back());
+      its_steps.pop_back();
+      for (const world::YamlFields& step : its_steps) text += writer.step(step);
+      text += with_comment(writer.step(last),
                            "disturbance " + std::to_string(++number) + " of " + std::to_string(count));
     }
     if (found.course.left_out.contains(i) || steps[i].continues) continue;

@@ -11,7 +11,8 @@ namespace understudy::emulator::hunt {
 
 /// The origin of a finding, for people.
 struct Origin {
-  std::string command;           // finds it again
+  std::string command;           // with which it is found again
+  std::string again{};           // the command that runs it, if that is not `run`
   std::uint64_t course = 0;      // its number
   std::size_t disturbances = 0;  // of the course
 };

@@ -16,6 +16,7 @@
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
 #include "emulator/hunt/stage.h"
+#include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/suite.h"
@@ -25,70 +26,39 @@
 
 namespace understudy::emulator::hunt {
 
-namespace {
+Hunt::Hunt(const play::CaseList& cases, ModelList models, HuntOptions options,
+           std::function<Player()> make_player)
+    : cases_(cases), models_(models), options_(std::move(options)), make_player_(std::move(make_player)) {}
 
-constexpr std::size_t kMaxStages = 64;  // for each thread
-
-}  // namespace
-
-Hunt::Hunt(const play::CaseList& cases, ModelList models, HuntOptions options, Player player)
-    : cases_(cases), models_(models), options_(std::move(options)), player_(std::move(player)) {}
-
-std::unique_ptr<Hunt::Actor> Hunt::take_actor() {
-  const std::lock_guard lock(actors_mutex_);
-  if (actors_.empty()) {
-    auto actor = std::make_unique<Actor>();
-    actor->reader = std::make_unique<play::CaseReader>(cases_);
-    return actor;
-  }
-  auto actor = std::move(actors_.back());
-  actors_.pop_back();
-  return actor;
+std::unique_ptr<Stages> Hunt::take_stages() {
+  const std::lock_guard lock(stages_mutex_);
+  if (stages_.empty()) return std::make_unique<Stages>(cases_, models_, make_player_());
+  auto stages = std::move(stages_.back());
+  stages_.pop_back();
+  return stages;
 }
 
-void Hunt::give_back(std::unique_ptr<Actor> actor) {
-  const std::lock_guard lock(actors_mutex_);
-  actors_.push_back(std::move(actor));
+void Hunt::give_back(std::unique_ptr<Stages> stages) {
+  const std::lock_guard lock(stages_mutex_);
+  stages_.push_back(std::move(stages));
 }
 
-std::shared_ptr<Stage> Hunt::stage_of(Actor& actor, std::uint64_t case_number) const {
-  const auto it = actor.stages.find(case_number);
-  if (it != actor.stages.end()) return it->second;
-  if (actor.stages.size() >= kMaxStages) actor.stages.clear();
-  auto scenario = actor.reader->read({.file = 0, .number = case_number});
-  auto stage = std::make_shared<Stage>(std::move(scenario), models_, player_);
-  return actor.stages.emplace(case_number, std::move(stage)).first->second;
-}
-
-/// Draws a seed: each sort equally often, and younger seeds more often, since they are closer to what is
-/// still unknown.
-std::size_t Hunt::draw_seed(Dice& dice) const {
-  std::vector<const std::vector<std::size_t>*> sorts;
-  for (std::size_t i = 0; i < kSorts.size(); ++i) {
-    const auto& numbers = corpus_.seeds_of(static_cast<Sort>(i));
-    if (!numbers.empty()) sorts.push_back(&numbers);
-  }
-  const std::vector<std::size_t>& numbers = *sorts[dice.below(sorts.size())];
-  const std::uint64_t first = dice.below(numbers.size());
-  return numbers[std::max(first, dice.below(numbers.size()))];
-}
-
-/// Draws a course: a new one or, equally often, a change of one that reached something new.
-Course Hunt::draw(Actor& actor, std::uint64_t number) const {
+/// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
+Course Hunt::draw(Stages& stages, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
   Course course;
   if (seeds.empty() || !options_.is_guided || dice.one_in(2)) {
     course.case_number = dice.below(cases_.cases_of(0));
-    Stage& stage = *stage_of(actor, course.case_number);
+    Stage& stage = *stages.of(course.case_number);
     if (!stage.undisturbed_outcome().kind.empty()) return course;
     course.disturbances = draw_disturbances({.plan = stage.plan(), .undisturbed = stage.undisturbed()}, dice);
     return course;
   }
-  const Seed& seed = seeds[draw_seed(dice)];
+  const Seed& seed = seeds[corpus_.draw_seed(dice)];
   const Seed& other = seeds[dice.below(seeds.size())];
   course.case_number = seed.course.case_number;
-  Stage& stage = *stage_of(actor, course.case_number);
+  Stage& stage = *stages.of(course.case_number);
   const bool is_of_case = other.course.case_number == course.case_number;
   course.disturbances =
       changed(seed.course.disturbances,
@@ -98,8 +68,8 @@ Course Hunt::draw(Actor& actor, std::uint64_t number) const {
   return course;
 }
 
-Hunt::Played Hunt::play(Actor& actor, Course course) const {
-  Stage& stage = *stage_of(actor, course.case_number);
+Hunt::Played Hunt::play(Stages& stages, Course course) const {
+  Stage& stage = *stages.of(course.case_number);
   Played played{.course = std::move(course), .outcome = stage.undisturbed_outcome()};
   if (played.outcome.kind.empty())
     played.outcome = stage.play(played.course, options_.is_guided ? &played.reached : nullptr);
@@ -125,12 +95,12 @@ void Hunt::judge(std::uint64_t number, const Played& played,
     tally_.reached = corpus_.counts();
   }
   if (!is_new) return;
-  auto actor = take_actor();
+  auto stages = take_stages();
   Finding finding{.course = number, .disturbances = played.course.disturbances.size()};
-  finding.stage = stage_of(*actor, played.course.case_number);
+  finding.stage = stages->of(played.course.case_number);
   finding.shrunk = Shrinker(*finding.stage, outcome.kind).shrink(played.course, outcome);
   found(finding);
-  give_back(std::move(actor));
+  give_back(std::move(stages));
 }
 
 /// Plays the courses of this shard from `first` to `end`. Returns false if there was no time for all of them.
@@ -149,10 +119,10 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
     return play::CaseId{.file = 0, .number = next++};
   };
   const auto make_play = [&]() -> play::Play {
-    const auto return_it = [this](Actor* actor) { give_back(std::unique_ptr<Actor>(actor)); };
-    const std::shared_ptr<Actor> actor(take_actor().release(), return_it);
-    return [this, actor, &all, first](const play::CaseId& course) {
-      all[course.number - first] = play(*actor, draw(*actor, course.number));
+    const auto return_it = [this](Stages* stages) { give_back(std::unique_ptr<Stages>(stages)); };
+    const std::shared_ptr<Stages> stages(take_stages().release(), return_it);
+    return [this, stages, &all, first](const play::CaseId& course) {
+      all[course.number - first] = play(*stages, draw(*stages, course.number));
       return std::vector<play::ScenarioResult>{};
     };
   };
@@ -167,9 +137,9 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
 
 /// Judges the only case without disturbances, if it fails: every course would fail in the same way.
 bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
-  auto actor = take_actor();
-  const Played played{.course = {}, .outcome = stage_of(*actor, 0)->undisturbed_outcome()};
-  give_back(std::move(actor));
+  auto stages = take_stages();
+  const Played played{.course = {}, .outcome = stages->of(0)->undisturbed_outcome()};
+  give_back(std::move(stages));
   if (played.outcome.kind.empty()) return false;
   judge(0, played, found);
   return true;
@@ -177,12 +147,12 @@ bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
 
 /// Plays the courses of earlier hunts, to learn what they have reached.
 void Hunt::play_earlier() {
-  auto actor = take_actor();
+  auto stages = take_stages();
   options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances
   for (Course& course : options_.corpus) {
     if (options_.is_over()) break;
     if (course.case_number >= cases_.cases_of(0)) continue;
-    Stage& stage = *stage_of(*actor, course.case_number);
+    Stage& stage = *stages->of(course.case_number);
     if (!stage.undisturbed_outcome().kind.empty()) continue;
     const bool fits =
         std::all_of(course.disturbances.begin(), course.disturbances.end(), [&](const auto& one) {
@@ -190,11 +160,11 @@ void Hunt::play_earlier() {
         });
     if (!fits) continue;
     arrange(course.disturbances);
-    const Played played = play(*actor, course);
+    const Played played = play(*stages, course);
     if (played.outcome.kind.empty() && !played.outcome.is_cut_short)
       corpus_.add(played.course, played.reached);
   }
-  give_back(std::move(actor));
+  give_back(std::move(stages));
   corpus_.renew();
 }
 
@@ -207,12 +177,12 @@ void Hunt::note_curve() {
 void Hunt::play_corpus(
     const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers) {
   corpus_.renew();
-  auto actor = take_actor();
+  auto stages = take_stages();
   for (const Seed& seed : corpus_.seeds()) {
-    Stage& stage = *stage_of(*actor, seed.course.case_number);
+    Stage& stage = *stages->of(seed.course.case_number);
     stage.play(seed.course, observers(stage.scenario()));
   }
-  give_back(std::move(actor));
+  give_back(std::move(stages));
 }
 
 void Hunt::run(const std::function<void(const Finding&)>& found, const std::function<void()>& pause) {
@@ -221,8 +191,10 @@ void Hunt::run(const std::function<void(const Finding&)>& found, const std::func
   play_earlier();
   const std::uint64_t end =
       options_.courses > UINT64_MAX - options_.first ? UINT64_MAX : options_.first + options_.courses;
-  while (next_ < end) {
-    const std::uint64_t count = std::min(kGeneration * options_.shard.of, end - next_);
+  // The first generations are small, so that the first new things are soon gone on from.
+  for (std::uint64_t generation = kFirstGeneration; next_ < end;
+       generation = std::min(2 * generation, kGeneration)) {
+    const std::uint64_t count = std::min(generation * options_.shard.of, end - next_);
     if (!play_generation(next_, next_ + count, found)) return;
     next_ += count;
     corpus_.renew();

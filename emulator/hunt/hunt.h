@@ -18,6 +18,7 @@
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
 #include "emulator/hunt/stage.h"
+#include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 
 namespace understudy::emulator::hunt {
@@ -60,7 +61,10 @@ struct CurvePoint {
 class Hunt {
  public:
   /// `cases` has one file with a plan; it must outlive the hunt.
-  Hunt(const play::CaseList& cases, ModelList models, HuntOptions options, Player player);
+  /// `make_player` is called for each thread, and once more.
+  Hunt(
+      const play::CaseList& cases, ModelList models, HuntOptions options,
+      std::function<Player()> make_player = [] { return Player{}; });
 
   /// Hunts until it is over. `found` gets each finding as soon as it is shrunk, on this thread, which also
   /// calls `pause` after each generation.
@@ -80,25 +84,19 @@ class Hunt {
   void play_corpus(const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers);
 
  private:
-  static constexpr std::uint64_t kGeneration = 256;  // courses
+  static constexpr std::uint64_t kFirstGeneration = 16;  // courses
+  static constexpr std::uint64_t kGeneration = 256;      // later ones
 
-  /// A thread's own stages.
-  struct Actor {
-    std::unique_ptr<play::CaseReader> reader;
-    std::map<std::uint64_t, std::shared_ptr<Stage>> stages;  // by case
-  };
   struct Played {
     Course course;
     Outcome outcome;
     Reached reached{};
   };
 
-  std::unique_ptr<Actor> take_actor();
-  void give_back(std::unique_ptr<Actor> actor);
-  std::shared_ptr<Stage> stage_of(Actor& actor, std::uint64_t case_number) const;
-  std::size_t draw_seed(Dice& dice) const;
-  Course draw(Actor& actor, std::uint64_t number) const;
-  Played play(Actor& actor, Course course) const;
+  std::unique_ptr<Stages> take_stages();
+  void give_back(std::unique_ptr<Stages> stages);
+  Course draw(Stages& stages, std::uint64_t number) const;
+  Played play(Stages& stages, Course course) const;
   void play_earlier();
   void note_curve();
   void judge(std::uint64_t number, const Played& played, const std::function<void(const Finding&)>& found);
@@ -109,9 +107,9 @@ class Hunt {
   const play::CaseList& cases_;
   ModelList models_;
   HuntOptions options_;
-  Player player_;
-  std::mutex actors_mutex_;
-  std::vector<std::unique_ptr<Actor>> actors_;
+  std::function<Player()> make_player_;
+  std::mutex stages_mutex_;
+  std::vector<std::unique_ptr<Stages>> stages_;  // that no thread uses
   std::map<std::string, std::uint64_t> kinds_;
   Corpus corpus_;
   std::vector<CurvePoint> curve_;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -143,7 +144,18 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
-  void on_speech(const pty::Speech&) override { look(); }
+  void on_receive(std::span<const std::uint8_t> bytes, bool) override {
+    // Enough of a frame for the station, the function and the address, but not for values.
+    constexpr std::size_t kTelling = 4;
+    std::uint64_t request = bytes.size() < kTelling ? bytes.size() : kTelling;
+    for (const std::uint8_t byte : bytes.first(static_cast<std::size_t>(request)))
+      request = mixed(request, byte);
+    note(Sort::order, mixed(mixed(std::exchange(request_, request), std::exchange(reply_, 0)), request));
+  }
+  void on_speech(const pty::Speech& speech) override {
+    reply_ = 1 + (speech.bytes.size() > 1 ? speech.bytes[1] >> 7 : 0);  // an exception has this bit
+    look();
+  }
   void on_strike(const pty::StruckMessage& message) override {
     for (const pty::Strike& strike : message.strikes) event_ = mixed(event_, strike.fault);
     look();
@@ -208,6 +220,8 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
   std::vector<std::unique_ptr<Lines>> lines_;
   std::uint64_t state_ = 0;
   std::uint64_t event_ = 0;
+  std::uint64_t request_ = 0;  // the last one of the hosts
+  std::uint64_t reply_ = 0;    // 0: it has none yet
 };
 
 void Lines::see(int part, int line, std::uint8_t what) {

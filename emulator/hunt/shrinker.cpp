@@ -45,6 +45,9 @@ Shrunk Shrinker::shrink(const Course& course, const Outcome& outcome) {
   end_early();
   remove_disturbances();
   for (std::size_t i = 0; i < best_.course.disturbances.size(); ++i) simplify(i);
+  Course in_order = best_.course;
+  arrange(in_order.disturbances);
+  try_course(std::move(in_order));
   remove_disturbances();
   leave_out_steps();
   best_.is_minimal = is_minimal();
@@ -97,7 +100,7 @@ void Shrinker::simplify(std::size_t number) {
     lower(number, 1, static_cast<std::uint64_t>(one.moment),
           [](Disturbance& it, std::uint64_t value) { it.moment = static_cast<std::int64_t>(value); });
   }
-  if (one.when == When::at) round_moment(number);
+  if (has_time(one)) round_moment(number);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::uint64_t present = best_.course.disturbances[number].values[i];
     const auto set = [i](Disturbance& it, std::uint64_t value) { it.values[i] = value; };

@@ -15,6 +15,7 @@
 #include "emulator/play/results/failure_kinds.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::hunt {
@@ -70,9 +71,11 @@ void Stage::put_on(const Course& course) {
   auto next = course.disturbances.begin();
   for (std::size_t i = 0; i < scenario_->steps.size() && i < course.end; ++i) {
     for (; next != course.disturbances.end() && next->step <= i; ++next) {
-      for (play::Step& step : reader_.read_apart(plan().step_of(*next))) {
-        played_.steps.push_back(std::move(step));
-        sources_.push_back(SIZE_MAX);
+      for (const world::YamlFields& written : plan().steps_of(*next)) {
+        for (play::Step& step : reader_.read_apart(written)) {
+          played_.steps.push_back(std::move(step));
+          sources_.push_back(SIZE_MAX);
+        }
       }
     }
     if (course.left_out.contains(i)) continue;
@@ -81,28 +84,53 @@ void Stage::put_on(const Course& course) {
   }
 }
 
-Outcome Stage::play(const Course& course, Reached* reached) {
-  std::vector<play::ObserverMaker> observers;
-  if (reached != nullptr) observers.push_back(reach_observer(*reached));
-  return play(course, observers);
+Playing Stage::play_here(const Course& course, bool has_reached) {
+  put_on(course);
+  Playing playing{.results = {}};
+  play::RunOptions options;
+  if (has_reached) options.observers.push_back(reach_observer(playing.reached));
+  options.observers.push_back(
+      [&](world::World& world) { return std::make_unique<RequestCount>(world, playing.requests); });
+  playing.results = player_.here(played_, options);
+  return playing;
 }
 
-Outcome Stage::play(const Course& course, const std::vector<play::ObserverMaker>& observers) {
+Playing Stage::playing_of(const Course& course, bool has_reached) {
+  if (!player_.elsewhere) return play_here(course, has_reached);
+  put_on(course);  // the outcome needs to know its steps
+  return player_.elsewhere(course, has_reached);
+}
+
+Outcome Stage::play(const Course& course, Reached* reached) {
+  Playing playing = playing_of(course, reached != nullptr);
+  if (reached != nullptr) *reached = std::move(playing.reached);
+  return outcome_of(std::move(playing.results));
+}
+
+Outcome Stage::play(const Course& course, std::vector<play::ObserverMaker> observers) {
   put_on(course);
   play::RunOptions options;
-  options.observers = observers;
-  return outcome_of(player_(played_, options));
+  options.observers = std::move(observers);
+  return outcome_of(player_.here(played_, options));
+}
+
+play::Steps Stage::disturbing_steps() {
+  play::Steps all;
+  for (std::size_t i = 0; i < plan().entries().size(); ++i) {
+    const play::HuntPlan::Entry& entry = plan().entries()[i];
+    play::Disturbance any{.entry = i, .step = entry.at_step, .when = entry.ways.front(), .values = {}};
+    any.moment = 1;
+    any.values.assign(entry.values.size(), 0);
+    for (play::Step& step : reader_.read_apart(plan().step_of(any))) all.push_back(std::move(step));
+  }
+  return all;
 }
 
 const Outcome& Stage::undisturbed_outcome() {
   if (undisturbed_outcome_) return *undisturbed_outcome_;
-  put_on({});
-  play::RunOptions options;
-  options.observers.push_back(
-      [this](world::World& world) { return std::make_unique<RequestCount>(world, undisturbed_.requests); });
-  std::vector<ScenarioResult> results = player_(played_, options);
-  note_undisturbed(results);
-  undisturbed_outcome_ = outcome_of(std::move(results));
+  Playing playing = playing_of({}, false);
+  note_undisturbed(playing);
+  undisturbed_outcome_ = outcome_of(std::move(playing.results));
   return *undisturbed_outcome_;
 }
 
@@ -111,8 +139,9 @@ const Undisturbed& Stage::undisturbed() {
   return undisturbed_;
 }
 
-void Stage::note_undisturbed(const std::vector<ScenarioResult>& results) {
-  const std::vector<play::StepResult>& steps = results.front().steps;
+void Stage::note_undisturbed(const Playing& playing) {
+  undisturbed_.requests = playing.requests;
+  const std::vector<play::StepResult>& steps = playing.results.front().steps;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (sources_[i] == SIZE_MAX) continue;
     undisturbed_.begins.push_back(steps[i].begin);
@@ -126,14 +155,16 @@ Outcome Stage::outcome_of(std::vector<ScenarioResult> results) const {
     outcome.simulated += result.simulated;
     if (!result.failure || outcome.failed || outcome.is_cut_short) continue;
     const bool is_span = is_of_span(*result.failure);
-    const bool is_branch = !result.branch.empty() || result.steps.empty();
+    // The command failed, apart from the steps.
+    const bool is_of_command = !result.steps.empty() && !result.steps.back().has_failed;
+    const bool is_branch = !result.branch.empty() || result.steps.empty() || is_of_command;
     if (!is_branch) outcome.failed_step = sources_[result.steps.size() - 1];
     if (!is_branch && !is_span && outcome.failed_step == SIZE_MAX) {
       outcome.is_cut_short = true;
       continue;
     }
-    if (is_span) {
-      // The step in which a condition was broken does not matter.
+    if (is_span || is_of_command) {
+      // It does not matter in which step a condition was broken.
       ScenarioResult bare = result;
       bare.steps.clear();
       outcome.kind = play::kind_of_failure(bare);

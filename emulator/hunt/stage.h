@@ -31,9 +31,21 @@ struct Outcome {
   SimTime simulated{0};
 };
 
-/// Plays a scenario: run_scenario(), or something that runs a program beside it.
-using Player =
-    std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)>;
+/// A course as it was played.
+struct Playing {
+  std::vector<play::ScenarioResult> results;
+  Reached reached{};
+  std::int64_t requests = 0;  // of all stations
+};
+
+/// How courses are played. A stage uses it on one thread.
+struct Player {
+  /// Plays a scenario in this process: run_scenario(), or something that runs a command beside it.
+  std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)> here =
+      play::run_scenario;
+  /// Plays a course of a stage like this one in another process. If it is empty, all are played here.
+  std::function<Playing(const Course&, bool has_reached)> elsewhere{};
+};
 
 class Stage {
  public:
@@ -48,16 +60,21 @@ class Stage {
   const Outcome& undisturbed_outcome();
   const Undisturbed& undisturbed();
 
-  /// Adds what the course reaches to `reached`, if that is given.
+  /// Sets `reached`, if that is given, to what the course reaches.
   Outcome play(const Course& course, Reached* reached = nullptr);
-  /// Plays it with other observers.
-  Outcome play(const Course& course, const std::vector<play::ObserverMaker>& observers);
+  /// Plays it in this process, with observers.
+  Outcome play(const Course& course, std::vector<play::ObserverMaker> observers);
+  /// Plays it in this process.
+  Playing play_here(const Course& course, bool has_reached);
+  /// Returns the steps of all entries of the plan, with any of their values.
+  play::Steps disturbing_steps();
 
  private:
+  Playing playing_of(const Course& course, bool has_reached);
   const play::Steps& spans();
   void put_on(const Course& course);
   Outcome outcome_of(std::vector<play::ScenarioResult> results) const;
-  void note_undisturbed(const std::vector<play::ScenarioResult>& results);
+  void note_undisturbed(const Playing& playing);
 
   std::shared_ptr<const play::Scenario> scenario_;
   Player player_;

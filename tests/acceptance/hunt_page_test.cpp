@@ -17,7 +17,7 @@ class HuntPage : public testing::Test {
  protected:
   HuntPage() {
     const auto files = page_blocks("hunt.md", "yaml");
-    EXPECT_EQ(files.size(), 1U);
+    EXPECT_EQ(files.size(), 2U);  // python/tests/test_hunt.py has the one with a host
     folder_.write("press.yaml", files.at(0));
   }
   Finished in_shell(const std::string& script) const {
@@ -31,7 +31,7 @@ class HuntPage : public testing::Test {
 
 TEST_F(HuntPage, ItsCommandsComeToWhatItSays) {
   const auto scripts = page_blocks("hunt.md", "sh");
-  ASSERT_EQ(scripts.size(), 2U);
+  ASSERT_EQ(scripts.size(), 3U);
   const Finished first = in_shell(scripts[0]);
   EXPECT_EQ(first.exit_code, 0) << first.output << first.errors;
   // The page prints what comes out, to the letter.

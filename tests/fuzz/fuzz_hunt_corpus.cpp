@@ -12,7 +12,6 @@
 #include "emulator/hunt/course.h"
 #include "emulator/hunt/stage.h"
 #include "emulator/models/models.h"
-#include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "tests/fuzz/fuzzing.h"
 
@@ -42,7 +41,7 @@ hunt:
 hunt::Stage& stage() {
   static hunt::Stage one(std::make_shared<const play::Scenario>(
                              play::parse_scenarios(models::all_models(), kScenario, "scenario.yaml").at(0)),
-                         models::all_models(), play::run_scenario);
+                         models::all_models(), {});
   return one;
 }
 

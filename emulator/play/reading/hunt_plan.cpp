@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -165,11 +166,23 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   entries_.push_back(std::move(entry));
 }
 
-/// Determines the kinds of moments that an entry may have.
+/// Finds out which moments an entry may have. The command of a `host` step runs while the scenario waits in
+/// it, so what comes before that step waits for its moment.
 void HuntPlan::read_ways(Entry& entry, StepsReader& reader) {
+  entry.at_step = entry.first;
   entry.ways = {When::here};
+  if (entry.step.entries().front().first == kInject) return read_ways_of_fault(entry, reader);
+  for (std::size_t i = entry.first; i <= entry.last; ++i) {
+    if (!steps_[i].fields.has("host") || steps_[i].continues) continue;
+    entry.at_step = i;
+    entry.ways = {When::late};
+    return;
+  }
+}
+
+void HuntPlan::read_ways_of_fault(Entry& entry, StepsReader& reader) {
   const world::YamlFields fault = only_value(entry.step);
-  if (entry.step.entries().front().first != kInject || !fault.is_map()) return;
+  if (!fault.is_map()) return;
   if (std::any_of(kMoments.begin(), kMoments.end(), [&](std::string_view key) { return fault.has(key); }))
     return;
   const Steps steps = reader.read_apart(drawn_step(
@@ -214,9 +227,22 @@ world::YamlFields HuntPlan::step_of(const Disturbance& disturbance) const {
   world::YamlFields step = drawn_step(entry.step, [&](const world::YamlFields&, std::size_t i) {
     return entry.values[i].value_at(disturbance.values[i]);
   });
-  if (disturbance.when == When::here) return step;
+  if (disturbance.when == When::here || disturbance.when == When::late) return step;
   const std::string key(key_of(disturbance.when, entry.has_end));
   return only_value(step).with_entry(key, text_of_moment(disturbance)).under(std::string(kInject));
+}
+
+std::vector<world::YamlFields> HuntPlan::steps_of(const Disturbance& disturbance) const {
+  std::vector<world::YamlFields> steps;
+  if (disturbance.when == When::late) {
+    constexpr SimTime kMore = std::chrono::seconds(1);  // for a wait that begins at the moment
+    const SimTime moment(disturbance.moment);
+    const std::string text = "{ wait: { until: time >= " + format_duration(moment) +
+                             ", within: " + format_duration(moment + kMore) + " } }";
+    steps.push_back(world::YamlFields::parse(text, head_.file(), "hunt", "a step"));
+  }
+  steps.push_back(step_of(disturbance));
+  return steps;
 }
 
 }  // namespace understudy::emulator::play

@@ -31,6 +31,7 @@ struct Disturbance {
     here,  // at once
     at,    // a fault that waits for a time
     nth,   // a fault that waits for a message
+    late,  // a step that waits for a time, while the command runs
   } when = When::here;
   std::int64_t moment = 0;            // the time in nanoseconds, or the number of the message
   std::vector<std::uint64_t> values;  // the places of its values in their ranges, in the order written
@@ -48,7 +49,8 @@ class HuntPlan {
     SimTime within{-1};             // all of them happen within this time; negative: at any time
     std::size_t first = 0;          // the steps of the scenario before which it may happen
     std::size_t last = 0;
-    std::vector<Disturbance::When> ways;  // the kinds of moments that it may have
+    std::size_t at_step = 0;              // the step before which it comes if it waits for its moment
+    std::vector<Disturbance::When> ways;  // the moments that it may have
     bool has_end = false;                 // a fault that ends by itself
   };
 
@@ -65,12 +67,15 @@ class HuntPlan {
   bool has_room_before(std::size_t step) const { return step < steps_.size() && !steps_[step].continues; }
   /// Returns the steps that check what must hold, which come before all others.
   const std::vector<world::YamlFields>& spans() const { return spans_; }
-  /// Returns a disturbance as a step.
+  /// Returns a disturbance as a step, without the wait for its moment.
   world::YamlFields step_of(const Disturbance& disturbance) const;
+  /// Returns all of its steps.
+  std::vector<world::YamlFields> steps_of(const Disturbance& disturbance) const;
 
  private:
   void read_entry(const world::YamlFields& field, StepsReader& reader);
   void read_ways(Entry& entry, StepsReader& reader);
+  void read_ways_of_fault(Entry& entry, StepsReader& reader);
   void check_values(const Entry& entry, StepsReader& reader) const;
   void read_spans(const world::YamlFields& hunt, StepsReader& reader);
   std::size_t step_called(const world::YamlFields& field) const;

@@ -269,6 +269,7 @@ Scenario PlayReader::read_case(std::uint64_t number, const Case& which) {
   scenario.name = std::filesystem::path(file_.path).stem().string();
   // Without its bench, the steps cannot be checked.
   scenario.bench = read_its_bench(root);
+  scenario.choice = cases_.choice();
   choose(number, scenario.bench);
   for (const world::DeviceSetup& device : scenario.bench.devices) {
     if (device.nv_path.empty()) continue;

@@ -230,6 +230,7 @@ struct Scenario {
   std::vector<FileClaim> files{};    // all files that it was read from, including the bench's
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
+  std::string choice{};                // of `choice`; its option is the first of the case's values
   std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
   std::vector<std::pair<std::string, std::string>> environment{};  // for the command
   std::shared_ptr<const HuntPlan> hunt{};                          // null: the file has no `hunt`

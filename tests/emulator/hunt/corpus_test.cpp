@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/state/state_bytes.h"
+#include "emulator/hunt/course_state.h"
 #include "tests/emulator/hunt/hunted.h"
 
 namespace understudy::emulator::hunt {
@@ -66,6 +69,39 @@ TEST(Corpus, OnlyNewThingsMakeASeed) {
   EXPECT_EQ(corpus.counts(), (Counts{1, 0, 1, 1}));
 }
 
+TEST(Corpus, WhatFewCoursesReachIsDrawnMoreOften) {
+  Corpus corpus;
+  Course rare;
+  rare.case_number = 1;
+  Reached common;
+  common.when = {{4 | 2, SimTime(10)}};
+  for (int i = 0; i < 100; ++i) corpus.add(Course{}, common);
+  Reached other;
+  other.when = {{8 | 2, SimTime(10)}};
+  corpus.add(rare, other);
+  corpus.renew();
+  ASSERT_EQ(corpus.seeds().size(), 2U);
+  int drawn = 0;
+  for (std::uint64_t number = 0; number < 1000; ++number) {
+    Dice dice(1, number);
+    if (corpus.seeds()[corpus.draw_seed(dice)].course == rare) ++drawn;
+  }
+  EXPECT_GT(drawn, 950);  // 100 to 1
+  EXPECT_LT(drawn, 1000);
+}
+
+TEST(Corpus, ACourseGoesToAnotherProcessUnchanged) {
+  Course course = sample();
+  course.left_out = {2, 5};
+  course.end = 9;
+  StateWriter writer;
+  writer.write(course);
+  Course read;
+  const std::vector<std::byte> bytes = writer.take();
+  StateReader(bytes).read(read);
+  EXPECT_EQ(read, course);
+}
+
 /// A machine that stops only after three presses, each within 20 ms after the one before.
 const std::string kLock = R"(understudy: 1
 name: a lock
@@ -116,7 +152,7 @@ TEST(Course, WhatIsDrawnAndChangedStaysPossible) {
 )";
   auto scenario = std::make_shared<const play::Scenario>(
       play::parse_scenarios(models::all_models(), text, "scenario.yaml").at(0));
-  Stage stage(scenario, models::all_models(), play::run_scenario);
+  Stage stage(scenario, models::all_models(), {});
   const Ground ground{.plan = stage.plan(), .undisturbed = stage.undisturbed()};
   for (std::uint64_t number = 0; number < 200; ++number) {
     Dice dice(1, number);
@@ -133,7 +169,7 @@ TEST(Hunt, ItGoesOnWithACorpus) {
   const HuntFolder folder(kLock);
   play::CaseList cases(models::all_models(), {});
   cases.add(folder / "scenario.yaml", [](const play::Scenario&) {});
-  Hunt first(cases, models::all_models(), {.seed = 9, .courses = 512}, play::run_scenario);
+  Hunt first(cases, models::all_models(), {.seed = 9, .courses = 512});
   first.run([](const Finding&) {});
   EXPECT_EQ(first.next_course(), 512U);
   std::vector<Course> courses;
@@ -142,8 +178,7 @@ TEST(Hunt, ItGoesOnWithACorpus) {
   courses.push_back({.case_number = 3});
   courses.push_back({.disturbances = {{.entry = 99, .values = {}}}});
   courses.push_back({.disturbances = {{.entry = 3, .when = When::at, .values = {1000}}}});
-  Hunt next(cases, models::all_models(), {.seed = 9, .courses = 0, .first = 512, .corpus = courses},
-            play::run_scenario);
+  Hunt next(cases, models::all_models(), {.seed = 9, .courses = 0, .first = 512, .corpus = courses});
   next.run([](const Finding&) {});
   EXPECT_EQ(next.corpus().counts(), first.corpus().counts());
   EXPECT_EQ(next.next_course(), 512U);

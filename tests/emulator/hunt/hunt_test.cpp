@@ -132,6 +132,17 @@ TEST(Hunt, CasesAreDrawnToo) {
   EXPECT_NE(failure_of(folder, found[0].text), "") << found[0].text;
 }
 
+TEST(Hunt, TheOptionOfAChoiceIsInTheFinding) {
+  std::string chosen = kPresses + kBounce;
+  chosen.insert(chosen.find("steps:"), "choice: { exceptions: [ no_answer ] }\n");
+  const HuntFolder folder(chosen);
+  const auto found = hunted(folder, {.seed = 1, .jobs = 1, .courses = 300});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].text.find("\nchoice: { exceptions: [ no_answer ] }\n"), std::string::npos)
+      << found[0].text;
+  EXPECT_NE(failure_of(folder, found[0].text), "") << found[0].text;
+}
+
 TEST(Hunt, PathsAreWrittenForTheFolderOfTheFinding) {
   std::string text = kPresses + kBounce;
   text.replace(text.find("{ lines:"), text.find("} }\n") + 3 - text.find("{ lines:"), "benches/b.yaml");

@@ -78,7 +78,7 @@ inline std::vector<Found> hunted(const HuntFolder& folder, const HuntOptions& op
                                  Tally* tally = nullptr) {
   play::CaseList cases(models::all_models(), {});
   cases.add(folder / "scenario.yaml", [](const play::Scenario&) {});
-  Hunt hunt(cases, models::all_models(), options, play::run_scenario);
+  Hunt hunt(cases, models::all_models(), options);
   std::vector<Found> all;
   hunt.run([&](const Finding& finding) {
     all.push_back({.kind = finding.shrunk.outcome.kind,

@@ -1,0 +1,52 @@
+// Plays the courses of a hunt beside a command. Each thread of the hunt has a process of its own for that,
+// because a command needs signals, of which a process has one set.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/worker_processes.h"
+#include "emulator/device/model.h"
+#include "emulator/hunt/stage.h"
+#include "emulator/play/performing/case_list.h"
+#include "emulator/play/performing/run.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+
+namespace understudy::emulator::command_line {
+
+/// Throws FileError at a step of the scenario, or of what may happen to it, that cannot be played: with a
+/// command, one that uses a line; without one, a `host` step.
+void require_hunted_steps(const play::Scenario& scenario, ModelList models, bool has_command);
+
+/// Runs a scenario beside its command, in simulated time. An empty `recording`: there is none.
+std::vector<play::ScenarioResult> run_beside(const play::Scenario& scenario, play::RunOptions options,
+                                             const HuntArguments& arguments, const std::string& recording);
+
+class HuntHosts {
+ public:
+  /// Starts the processes. Must be made while this process has one thread. All must outlive it.
+  HuntHosts(const play::CaseList& cases, ModelList models, const HuntArguments& arguments, int jobs);
+
+  /// Returns a player for one more thread: for as many as there are jobs, and for one more.
+  hunt::Player player();
+  /// Plays a scenario that was written about a finding, with its recording and its page.
+  std::vector<play::ScenarioResult> show(const std::string& path, const std::vector<std::string>& command);
+
+ private:
+  Work make_work() const;
+  std::vector<play::ScenarioResult> play_here(const play::Scenario& scenario,
+                                              const play::RunOptions& options) const;
+
+  const play::CaseList& cases_;
+  ModelList models_;
+  const HuntArguments& arguments_;
+  std::atomic<std::size_t> taken_ = 1;  // the first one shows findings
+  WorkerProcesses workers_;
+};
+
+}  // namespace understudy::emulator::command_line

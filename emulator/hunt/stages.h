@@ -1,0 +1,39 @@
+// The stages of one thread: of the cases that it plays, those of the last ones.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "emulator/device/model.h"
+#include "emulator/hunt/stage.h"
+#include "emulator/play/performing/case_list.h"
+
+namespace understudy::emulator::hunt {
+
+class Stages {
+ public:
+  /// `cases` has one file with a plan; it must outlive this object.
+  Stages(const play::CaseList& cases, ModelList models, Player player)
+      : reader_(cases), models_(models), player_(std::move(player)) {}
+
+  std::shared_ptr<Stage> of(std::uint64_t case_number) {
+    const auto it = stages_.find(case_number);
+    if (it != stages_.end()) return it->second;
+    if (stages_.size() >= kMax) stages_.clear();
+    auto stage = std::make_shared<Stage>(reader_.read({.file = 0, .number = case_number}), models_, player_);
+    return stages_.emplace(case_number, std::move(stage)).first->second;
+  }
+
+ private:
+  static constexpr std::size_t kMax = 64;
+
+  play::CaseReader reader_;
+  ModelList models_;
+  Player player_;
+  std::map<std::uint64_t, std::shared_ptr<Stage>> stages_;  // by case
+};
+
+}  // namespace understudy::emulator::hunt
