@@ -211,7 +211,7 @@ int compare_captures(ModelList models, const CompareArguments& arguments) {
     }
   }
   if (*format == FindingFormat::json) {
-    std::printf("%s\n", all.dump(1).c_str());
+    std::printf("%s\n", all.dump(1, ' ', false, Report::error_handler_t::replace).c_str());
   } else if (*format != FindingFormat::text) {
     std::fputs(findings_as(*format, findings).c_str(), stdout);
   }

@@ -63,6 +63,31 @@ TEST_F(Compare, NamesTheDifferenceAndItsRemedy) {
   EXPECT_EQ(report["not_same"][0]["bench"], "box.Version = 152");
 }
 
+/// Three reads of HW_Code; `second` is the reply to the second one, or empty.
+std::string three_reads(const std::string& second) {
+  const auto read = [](const std::string& time, const std::string& reply) {
+    const std::string request = time + "00 in  line 01 03 00 01 00 01 D5 CA\n";
+    return request + (reply.empty() ? "" : time + "20 out line " + reply + "\n");
+  };
+  return read("0.1", "01 03 02 C0 01 29 84") + read("0.2", second) + read("0.3", "01 03 02 C0 01 29 84");
+}
+
+TEST_F(Compare, TakesTheSameDamageOnBothSidesForTheSame) {
+  const std::string capture = folder_.write("damaged.txt", three_reads("01 03 02 C0 01 29 7B"));
+  const std::string bench =
+      folder_.write("damaging.yaml", bench_with("") + "faults: [ { corrupt_checksum: box, nth: 2 } ]\n");
+  const Finished same = understudy({"compare", capture, "--bench", bench, "--power-up", "--format", "json"});
+  EXPECT_EQ(same.exit_code, 0) << same.output << same.errors;
+  EXPECT_EQ(json::parse(same.output, nullptr, false)[0]["different"], 0) << same.output;
+}
+
+TEST_F(Compare, NamesNoOptionForALostReply) {
+  const std::string capture = folder_.write("lost.txt", three_reads(""));
+  const Finished lost = understudy({"compare", capture, "--bench", plain_, "--power-up", "--format", "json"});
+  EXPECT_EQ(lost.exit_code, 1) << lost.output << lost.errors;
+  EXPECT_EQ(json::parse(lost.output, nullptr, false)[0]["agrees_with"], json::array()) << lost.output;
+}
+
 TEST_F(Compare, CalibratesABenchThatThenAgrees) {
   const std::string capture = capture_of("version_encoding: bcd", 338);
   const std::string evidence = folder_ / "evidence.json";

@@ -357,6 +357,7 @@ std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& captu
                                  std::size_t first_difference, const CalibrateSettings& settings) {
   std::vector<Capture> until{capture};
   until.front().exchanges.resize(first_difference + 1);
+  until.front().is_cut = true;  // so a missing reply at its end is a difference
   Search search(bench, until, settings, {});
   std::vector<Hypothesis> good;
   const std::vector<Hypothesis> all = search.neighbours_of({});

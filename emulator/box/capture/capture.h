@@ -64,6 +64,7 @@ struct Capture {
   std::string line;  // the chosen line
   std::vector<Exchange> exchanges;
   CaptureNotes notes{};
+  bool is_cut = false;  // there were more exchanges
 };
 
 /// Thrown for a bad capture. The message begins with the path and the place, and says what was expected.

@@ -78,9 +78,10 @@ Comparison compare(const world::Bench& bench, const Capture& capture, const Comp
   stand.set_inputs(std::move(inputs));
   for (std::size_t i = 0; i < capture.exchanges.size(); ++i) {
     const Exchange& exchange = capture.exchanges[i];
-    const bool is_last = i + 1 == capture.exchanges.size();
+    const bool is_end = i + 1 == capture.exchanges.size();
+    const bool is_last = is_end && !capture.is_cut;
     const SimTime at = on_bench(exchange.at);
-    const SimTime next = is_last ? at + kLongestWait : on_bench(capture.exchanges[i + 1].at);
+    const SimTime next = is_end ? at + kLongestWait : on_bench(capture.exchanges[i + 1].at);
     const StandReply reply =
         stand.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
     Judgement judgement{.verdict = judge.judge(exchange, reply, stand.bank_of(exchange.request), is_last)};

@@ -106,7 +106,8 @@ Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, con
                            const RegisterBank& bank) {
   const auto box = words_in(asked, exchange.request, exchange.reply);
   const auto bench = words_in(asked, exchange.request, stand.bytes);
-  if (box.empty() || bench.empty()) return Verdict::different;  // one of them refuses
+  if (box.empty() || bench.empty())  // one of them refuses, or both are damaged
+    return std::ranges::equal(exchange.reply, stand.bytes) ? Verdict::same : Verdict::different;
   const auto& before = stand.before.size() == box.size() ? stand.before : bench;
   const auto& after = stand.after.size() == box.size() ? stand.after : bench;
   Verdict verdict = Verdict::same;
