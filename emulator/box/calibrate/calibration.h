@@ -72,8 +72,11 @@ using CalibrateProgress = std::function<void(std::size_t tried, const std::strin
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateProgress& progress);
 
-  double drift_ppm = 0;                  // by which the controller's clock runs faster than the captures'
-  // If nothing explains everything: the end of the best one.
+/// Returns by how many millionths the controller's clock is faster than that of the capture, as far as its
+/// motions show: with this, the bench agrees for longest. 0 if that does not help.
+double fit_drift(const world::Bench& bench, const Capture& capture, const CompareSettings& settings);
+
+/// Returns the single options that make the first difference of a capture an agreement.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
                                  std::size_t first_difference, const CalibrateSettings& settings);
 
