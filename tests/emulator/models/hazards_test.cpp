@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
 #include <sstream>
 #include <string>
@@ -171,7 +172,7 @@ TEST(Hazards, CommandsOfRsHaveThoseOfTheirSections) {
   }
 }
 TEST(Hazards, AnUnknownCodeOfRsCanDoAnything) {
-  const std::uint16_t unknown[] = {0x0A00};
+  const std::vector<std::uint16_t> unknown{0x0A00};
   EXPECT_EQ(model_called("rs-m8194h").hazards_of_command(unknown), Hazards::all);
 }
 
