@@ -9,6 +9,7 @@ test_packages=(python3                                   # counts the results
                nodejs                                    # parses the page's scripts
                clang libclang-rt-dev                     # compile with sanitizers
                dpkg-dev man-db                           # for the package and its man page
+               advancecomp                               # packs the portable archive
                tshark gtkwave                            # read the captures and traces
                socat                                     # connects a port to an address
                sqlite3 parallel                          # read results, and run shards
