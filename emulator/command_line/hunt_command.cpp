@@ -128,7 +128,7 @@ class HuntProgress {
   double last_ = 0;
 };
 
-/// Prints how much had been reached after 256 courses, 512, and so on.
+/// Prints how much had been reached after 16 courses, 48, 112, and so on.
 void print_curve(const hunt::Hunt& hunt) {
   const auto& curve = hunt.curve();
   if (curve.size() < 2 || curve.back().reached == hunt::Counts{}) return;

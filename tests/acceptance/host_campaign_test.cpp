@@ -150,7 +150,7 @@ TEST_F(HostCampaign, TellsAHostThatHangsFromOneThatFails) {
   const std::string rest = "steps: [ { host: { exits: 0, within: 60s } } ]\n";
   const Finished spins = exec(rest, {"sh", "-c", "while :; do :; done"}, {"--host-time", "--timeout", "1s"});
   EXPECT_EQ(spins.exit_code, 1);
-  EXPECT_TRUE(has(spins.output, "the command was ended because it took longer than 1s")) << spins.output;
+  EXPECT_TRUE(has(spins.output, "the command was stopped because it took longer than 1s")) << spins.output;
 }
 
 TEST_F(HostCampaign, PutsValuesIntoTheEnvironment) {
