@@ -24,6 +24,7 @@
 #include "emulator/command_line/completion.h"
 #include "emulator/command_line/ctl_words.h"
 #include "emulator/command_line/import_flags.h"
+#include "emulator/command_line/looking_flags.h"
 #include "emulator/command_line/page_flags.h"
 #include "emulator/command_line/poll_flags.h"
 #include "emulator/command_line/replay_flags.h"
@@ -161,10 +162,7 @@ struct CommandLine {
   }
 
   void add_watch(CLI::App& command) {
-    command.add_option("NAME", watched.names, "Names to show, as for `get` [everything]");
-    command.add_option("--every", watched.every, "Time between two updates")->capture_default_str();
-    command.add_option("--times", watched.times, "Number of updates; 0 continues until Ctrl-C")
-        ->capture_default_str();
+    add_watch_flags(command, watched);
     command.fallthrough();
     command.callback([this] {
       watched.which = control.which;
@@ -173,12 +171,7 @@ struct CommandLine {
   }
 
   void add_frames(CLI::App& command) {
-    command.add_option("--last", frames.last, "Number of earlier frames to show first")
-        ->capture_default_str();
-    command.add_flag("--once", frames.once, "Show these and exit");
-    command.add_option("--every", frames.every, "Time between two updates")->capture_default_str();
-    command.add_option("--times", frames.times, "Number of updates; 0 continues until Ctrl-C")
-        ->capture_default_str();
+    add_frames_flags(command, frames);
     command.fallthrough();
     command.callback([this] {
       frames.which = control.which;
@@ -289,12 +282,7 @@ struct CommandLine {
   }
 
   void add_plot(CLI::App& command) {
-    command.add_option("TRACE", plot.trace, "A file written by --trace")->required();
-    command.add_option("-o,--output", plot.output, "FILE.png or FILE.svg [a PNG next to the trace]")
-        ->check(kNotEmpty);
-    command.add_option("--also", plot.also, "Columns to draw in separate panels, such as feeder.STATUS")
-        ->delimiter(',')
-        ->check(kNotEmpty);
+    add_plot_flags(command, plot);
     command.callback([this] { chosen = [this] { return plot_trace(plot); }; });
   }
 

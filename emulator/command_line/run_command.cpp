@@ -18,7 +18,6 @@
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
-#include "base/files/text_file.h"
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
@@ -31,6 +30,7 @@
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_account.h"
 #include "emulator/command_line/run_files.h"
+#include "emulator/command_line/run_settings.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/command_line/worker_processes.h"
 #include "emulator/command_line/yaml_files.h"
@@ -49,7 +49,6 @@
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_executor.h"
-#include "emulator/serve/host_time/host_program.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/port_link.h"
@@ -139,16 +138,6 @@ bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& kn
   return is_well;
 }
 
-play::Shard shard_of(const RunArguments& arguments) {
-  if (arguments.shard.empty()) return {};
-  const auto parsed = play::parse_shard(arguments.shard);
-  if (!parsed) {
-    throw UsageError("--shard: " + understudy::quoted(arguments.shard) +
-                     " is not a part; expected I/N such as 1/4, I up to N");
-  }
-  return *parsed;
-}
-
 void require_some(const play::CaseList& case_list, const RunArguments& arguments) {
   if (arguments.filter.empty() || play::Selection(case_list, arguments.filter, {}).next()) return;
   throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
@@ -186,35 +175,6 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
-// In real time a scenario mostly waits, so more of them run at once.
-constexpr int kRealTimeJobs = 8;
-
-int jobs_of(const RunArguments& arguments) {
-  if (!arguments.on.on.empty()) return 1;  // there is one machine
-  if (!arguments.jobs) {
-    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    return arguments.real_time ? std::max(cores, kRealTimeJobs) : cores;
-  }
-  if (*arguments.jobs < 1) {
-    throw UsageError("--jobs: " + std::to_string(*arguments.jobs) + " is too few; expected 1 or more");
-  }
-  return *arguments.jobs;
-}
-
-void require_flags_that_agree(const RunArguments& arguments) {
-  if (arguments.hash && arguments.real_time) {
-    throw UsageError("--hash: no two runs in real time are the same; expected it without --real-time");
-  }
-  if (arguments.resume && arguments.results.empty()) {
-    throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
-  }
-  const bool is_covered = coverage_of(arguments).is_wanted() || !arguments.device_coverage.empty();
-  if (arguments.resume && is_covered) {
-    throw UsageError(
-        "--resume: leaves out cases, whose coverage would be missing; expected it without --coverage and "
-        "--device-coverage");
-  }
-}
 
 /// Returns how failures get their recordings.
 Recorded recorded_by(const RunArguments& arguments) {
@@ -378,23 +338,22 @@ class Players {
   std::optional<WorkerProcesses> workers_;
 };
 
-/// Returns everything besides its sources on which the result of a case depends: the program's version, and
-/// the command, with the contents of the files that it names.
-std::string maker_of(const RunArguments& arguments) {
-  std::string maker = arguments.version;
-  for (const std::string& word : arguments.host.command) {
-    maker += ' ' + word;
-    const bool is_program = &word == &arguments.host.command.front();
-    const auto text = read_text_file(is_program ? serve::program_file(word) : word);
-    if (text) maker += ' ' + std::to_string(hash_of(std::as_bytes(std::span(*text))));
+/// Returns false if the run was interrupted: a stage with real controllers stops their machine, and ends.
+bool play_all(const play::NextCase& next, Players& players, int threads,
+              const std::function<void(const play::CaseId&, std::vector<play::ScenarioResult>)>& add) {
+  try {
+    play::run_suite(
+        next, [&] { return players.make(); }, threads, add);
+    return true;
+  } catch (const play::ExecutionAborted&) {
+    return false;
   }
-  if (arguments.host.host_time) maker += " --host-time";
-  return maker;
 }
 
-/// Returns the hash of a case's sources and of what has played it.
-std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& maker) {
-  return hash_of(std::as_bytes(std::span(maker)), case_list.made_of(file));
+/// Returns the exit code: 1 also if too little of the programs was covered.
+int exit_code_of(const RunAccount& account, bool was_interrupted, bool is_enough) {
+  const int code = was_interrupted ? static_cast<int>(kExitFailed) : account.exit_code();
+  return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;
 }
 
 }  // namespace
@@ -444,16 +403,11 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
       }
       return which_case;
     };
-    try {
-      play::run_suite(
-          next, [&] { return players.make(); }, threads,
-          [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
-            account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
-                        [&] { return stagehand.play_again(reader, which_case); });
-          });
-    } catch (const play::ExecutionAborted&) {  // of a stage with real controllers, whose machine has stopped
-      was_interrupted = true;
-    }
+    const auto add = [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
+      account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
+                  [&] { return stagehand.play_again(reader, which_case); });
+    };
+    was_interrupted = !play_all(next, players, threads, add);
   }
   account.finish();
   if (was_interrupted) std::fprintf(stderr, "understudy: interrupted; the other scenarios were not played\n");
@@ -462,8 +416,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   }
   const bool is_enough = coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
   if (report.is_wanted()) report.write(account.report(coverage.section()));
-  const int code = was_interrupted ? static_cast<int>(kExitFailed) : account.exit_code();
-  return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;
+  return exit_code_of(account, was_interrupted, is_enough);
 }
 
 }  // namespace understudy::emulator::command_line

@@ -56,8 +56,8 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
   return !is_signalled && now_ns() >= until_ns ? ETIMEDOUT : 0;
 }
 
-/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid: libc waits by two
-/// clocks.
+/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid: libc waits by
+/// two clocks.
 bool take_end(clockid_t clock, const timespec* time, int64_t& until_ns) {
   const int64_t begin = clock_begin_ns(clock);
   if ((clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) || time->tv_nsec < 0 || time->tv_nsec >= kBillion)

@@ -201,8 +201,7 @@ struct RegisterRow {
   Varies varies = Varies::in_ticks;  // when the reader's value may change
   NextChange next_change = nullptr;  // if the value depends on time
   Effect effect = nullptr;
-  bool is_view = false;  // shows other state: no slot in the image, not persistent; without a reader its
-                         // value is `factory`
+  bool is_view = false;  // shows other state, or `factory` without a reader: no slot, not persistent
   std::span<const BitField> fields{};
   Message message = nullptr;            // of a window: takes what one request writes from its first word on,
   int least_words = 1;                  // if it is at least this many words

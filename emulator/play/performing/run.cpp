@@ -96,11 +96,6 @@ class Run {
       observers.world_restored(0);
     }
 
-    struct Fork {
-      const ForkStep* step = nullptr;
-      Checkpoint begin;  // null if it was not reached
-      Checkpoints known;
-    };
     std::vector<Fork> forks;
     ScenarioResult result = std::move(results_[number]);
     if (performance.is_on_box()) result.failure = performance.begin_on_box();
@@ -143,21 +138,31 @@ class Run {
     observers.finish(result);
     results_[number] = std::move(result);
 
+    perform_branches(name, forks, performance.is_on_box());
+  }
+
+  std::vector<ScenarioResult> take() { return std::move(results_); }
+
+ private:
+  struct Fork {
+    const ForkStep* step = nullptr;
+    Checkpoint begin;  // null if it was not reached
+    Checkpoints known;
+  };
+
+  void perform_branches(const std::string& name, const std::vector<Fork>& forks, bool is_on_box) {
     for (const Fork& fork : forks) {
       for (const ForkStep::Branch& branch : fork.step->branches) {
         const std::string its_name = name + std::string(kBranch) + branch.name;
         if (fork.begin) {
           perform(its_name, branch.steps, fork.begin, fork.known);
         } else {
-          leave_out(its_name, branch.steps, performance.is_on_box());
+          leave_out(its_name, branch.steps, is_on_box);
         }
       }
     }
   }
 
-  std::vector<ScenarioResult> take() { return std::move(results_); }
-
- private:
   static void end_step(Performance& performance, StepResult& played, ScenarioResult& result) {
     played.end = performance.now();
     played.has_failed = result.failure.has_value();

@@ -26,7 +26,8 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxEarlier = 200;  // frames, and as many events, that observers keep of the time before
+constexpr std::size_t kMaxEarlier =
+    200;  // frames, and as many events, that observers keep of the time before
 
 /// Returns the name of a line that a host has open, or nothing.
 std::optional<std::string> line_with_host(const Daemon& daemon) {
