@@ -175,7 +175,6 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
-
 /// Returns how failures get their recordings.
 Recorded recorded_by(const RunArguments& arguments) {
   if (has_command(arguments) || is_on_box(arguments)) return Recorded::apart;

@@ -44,9 +44,8 @@ inline constexpr std::array<Instruction, 115> kInstructions{{
     {0x03, "Jump", Operand::flag, Operand::none,
      "Continues at the line that has the flag, or at line 0 if none has it"},
     {0x04, "Loop", Operand::flag, Operand::loop_count,
-     "Jumps back to the flag until the lines from there to here have run this many times. Has no effect if "
-     "the flag is not "
-     "above it; inside another Loop it ends the program"},
+     "Jumps back to the flag until the lines between have run this many times. Has no effect if the flag is "
+     "not above it; inside another Loop it ends the program"},
     {0x05, "Out", Operand::output, Operand::logic, "Switches the output ON or OFF"},
     {0x06, "Out_ALL", Operand::logic, Operand::none, "Switches all outputs ON or OFF"},
     {0x07, "Delay_mSec_VAR", Operand::parameter, Operand::none,

@@ -84,7 +84,7 @@ void ExchangeBuilder::require_rising_time(const CapturedPiece& piece) {
   if (last && *piece.at < *last)
     throw refuse(piece.place, "the time of " +
                                   std::string(piece.side == Side::host ? "this request" : "these bytes") +
-                                  " is before the last one; expected times that rise");
+                                  " is before the last one; expected increasing times");
   last = piece.at;
   newest_ = std::max(newest_.value_or(*piece.at), *piece.at);
 }
@@ -332,7 +332,7 @@ void ExchangeBuilder::finish() {
       throw CaptureReadError(
           path_ + ": has " + std::to_string(notes_.bytes_of_no_frame) +
           " bytes, but no frame of Modbus RTU or TCP; expected a capture of a line of this bench");
-    throw CaptureReadError(path_ + ": has no request of a host; expected a capture of both directions");
+    throw CaptureReadError(path_ + ": has no request from a host; expected a capture of both directions");
   }
   if (replies_taken_ == 0 && !notes_.begins_at_power_up)
     throw CaptureReadError(path_ + ": has " + std::to_string(notes_.exchanges) +

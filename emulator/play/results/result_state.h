@@ -37,8 +37,8 @@ template <>
 struct understudy::StateOf<understudy::emulator::play::StepResult> {
   using StepResult = emulator::play::StepResult;
   static constexpr auto fields =
-      FieldList{field<&StepResult::file>(),  field<&StepResult::line>(), field<&StepResult::text>(),
-                field<&StepResult::begin>(), field<&StepResult::end>(),  field<&StepResult::has_failed>(),
+      FieldList{field<&StepResult::file>(),   field<&StepResult::line>(), field<&StepResult::text>(),
+                field<&StepResult::begin>(),  field<&StepResult::end>(),  field<&StepResult::has_failed>(),
                 field<&StepResult::skipped>()};
 };
 

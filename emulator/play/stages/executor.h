@@ -1,6 +1,6 @@
-// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There is one in
-// virtual time on the line itself (free_executor.h), one in real time over a real pty with libmodbus as the
-// host (real_executor.h), and one whose controllers are real (box/stage/). Scenarios must have the same
+// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There is one
+// in virtual time on the line itself (free_executor.h), one in real time over a real pty with libmodbus as
+// the host (real_executor.h), and one whose controllers are real (box/stage/). Scenarios must have the same
 // verdicts on all.
 #pragma once
 

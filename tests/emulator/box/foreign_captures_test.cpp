@@ -209,7 +209,7 @@ TEST(ForeignCapture, SaysWhatItLacksInOneLine) {
        "c.txt:2: the time of these bytes is before"},
       {"0.1 > 50 41 0D\n", {.pattern = pattern}, "has 3 bytes, but no frame of Modbus"},
       {"hello\n", {}, "is not a known capture; expected one of"},
-      {"hello\n", {.pattern = pattern}, "has no request of a host"},
+      {"hello\n", {.pattern = pattern}, "has no request from a host"},
       {"hello\n", {.pattern = "{tme} {hex}"}, "--pattern: '{tme}' is not a field; expected {time}"},
       {"hello\n", {.pattern = "{time}"}, "--pattern: '{time}' has no bytes; expected {hex}"},
       {"", {}, "is not a known capture"},

@@ -58,7 +58,9 @@ TEST(Break, IsSetListedHitAndDeleted) {
                                    {"callers", 0}}));
   EXPECT_EQ(debugged.running.get("feeder.PROG_VAR0"), 2);
   Json stacks = debugged.ask({{"do", "stack"}, {"device", "feeder"}});
-  EXPECT_EQ(stacks["stacks"][0]["frames"][0], (Json{{"line", 4}, {"text", "Delay_mSec 5"}})) << stacks;
+  EXPECT_EQ(stacks["stacks"][0]["frames"][0],
+            (Json{{"line", 4}, {"instruction", 3}, {"text", "Delay_mSec 5"}}))
+      << stacks;
   EXPECT_EQ(stacks["stop"], stopped["stop"]);
   Json scopes = debugged.ask({{"do", "variables"}, {"device", "feeder"}})["scopes"];
   ASSERT_EQ(scopes.size(), 3U);
