@@ -20,7 +20,8 @@ SPEC.loader.exec_module(hunts)
 
 # How many courses are enough to find it.
 FAULTS = {"tied_hand": 300, "start_beats_stop": 100, "number_from_anyone": 200, "part_that_did_not_come": 100,
-          "service_keys": 3000, "timeout_race": 200, "retried_count": 60, "ignored_return": 200, "unchecked_exit": 40}
+          "service_keys": 3000, "timeout_race": 200, "retried_count": 60, "ignored_return": 200,
+          "unchecked_exit": 300}
 NEEDED = {"retried_count": ["serial"], "unchecked_exit": ["mbpoll"], "ignored_return": ["cc"]}
 
 
@@ -47,7 +48,7 @@ def test_a_planted_fault_is_found_unless_it_is_mended(name, tmp_path):
     fault = fault_called(name, tmp_path)
     said = hunted(fault, "careless", tmp_path, FAULTS[name])
     assert said.returncode == 1, said.stdout + said.stderr
-    (found,) = (tmp_path / "found").glob(f"{name}-*.yaml")
+    found = sorted((tmp_path / "found").glob(f"{name}-*.yaml"))[0]  # a fault may show in several ways
     assert found.with_suffix(".jsonl").exists() and found.with_suffix(".html").exists()
     again = re.search(r"^# `understudy (.*)` runs it again", found.read_text(), re.M)
     words = again[1] if again else f"run {found}"
