@@ -269,20 +269,26 @@ static Json json_of_frame(const world::ProgramLines& lines, int listing_line) {
 
 /// Returns the instructions of each part, with their numbers on the wire where the language has them.
 static Json json_of_instructions(const Device& device, const world::ProgramLines& lines) {
-  std::map<int, std::vector<std::int64_t>> cells;  // by line
+  std::vector<CellRow> rows;
   if (const ProgramCells* const form = device.model().language->cells()) {
     try {
-      for (CellRow& row : form->assemble(lines.text(), device.settings()))
-        cells[row.line] = std::move(row.cells);
+      rows = form->assemble(lines.text(), device.settings());
     } catch (const ProgramError&) {  // the text of a file may hold more than a program
     }
   }
+  const bool has_lines =
+      std::any_of(rows.begin(), rows.end(), [](const CellRow& row) { return row.line > 0; });
+  std::map<int, std::vector<std::int64_t>> cells;  // by line, or by number if the rows have no lines
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    cells[has_lines ? rows[i].line : static_cast<int>(i)] = std::move(rows[i].cells);
   Json programs = Json::array();
   for (const ProgramPart& part : lines.parts()) {
     Json instructions = Json::array();
-    for (const ProgramLine& one : part.lines) {
-      Json entry{{"line", one.text_line}, {"code", one.code}};
-      if (const auto found = cells.find(one.text_line); found != cells.end()) entry["cells"] = found->second;
+    for (int number = 0; number < static_cast<int>(part.lines.size()); ++number) {
+      const auto place = lines.place({part.number, number});
+      Json entry{{"line", place->line}, {"code", place->text}};
+      if (const auto found = cells.find(has_lines ? place->line : number); found != cells.end())
+        entry["cells"] = found->second;
       instructions.push_back(std::move(entry));
     }
     programs.push_back(Json{{"program", part.name}, {"instructions", std::move(instructions)}});

@@ -12,7 +12,7 @@ import time
 
 UNDERSTUDY = sys.argv[1]
 PATIENCE = 60  # seconds; for conditions that come, not for how fast they do
-REASONS = ("step", "breakpoint", "exception", "pause", "entry", "data breakpoint")
+REASONS = ("step", "breakpoint", "exception", "pause", "entry", "data breakpoint", "instruction breakpoint")
 
 
 class Client:
