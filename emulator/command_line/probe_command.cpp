@@ -54,12 +54,13 @@ struct OptionCase {
 struct Probed {
   const ChoiceRow* choice = nullptr;
   std::vector<OptionCase> cases{};
+  bool is_unsteady = false;  // a case ended otherwise when it was played again, so nothing is excluded
 
   /// A case in which a step was skipped has not judged everything, so it speaks for no option.
   std::vector<std::string> agreeing() const {
     std::vector<std::string> options;
     for (const OptionCase& one : cases)
-      if (one.verdict == Verdict::passed) options.push_back(one.option);
+      if (is_unsteady || one.verdict == Verdict::passed) options.push_back(one.option);
     return options;
   }
   bool is_told() const {
@@ -183,12 +184,17 @@ bool are_telling(const Probed& probed, OnStage& stage) {
   return true;
 }
 
-/// If a case cannot be told, the others of its choice would not decide either.
-void play_all(Probed& probed, OnStage& stage) {
+/// Plays each case, and then each once more, because a late reply or what an earlier case has left behind can
+/// change a verdict. If a case cannot be told, the others of its choice would not decide either.
+void play_all(Probed& probed, OnStage& stage, int times) {
   if (!are_telling(probed, stage)) return;
-  for (OptionCase& one : probed.cases) {
-    play_case(one, stage);
-    if (one.verdict != Verdict::passed && one.verdict != Verdict::failed) return;
+  for (int time = 0; time < times; ++time) {
+    for (OptionCase& one : probed.cases) {
+      const std::optional<Verdict> before = one.verdict;
+      play_case(one, stage);
+      if (one.verdict != Verdict::passed && one.verdict != Verdict::failed) return;
+      if (before && one.verdict != before) probed.is_unsteady = true;
+    }
   }
 }
 
@@ -244,7 +250,7 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
   try {
     for (Probed& probed : proofs) {
       if (on.plan) std::printf("%s\n", std::string(probed.choice->id).c_str());
-      play_all(probed, stage);
+      play_all(probed, stage, on.plan ? 1 : 2);
     }
   } catch (const play::ExecutionAborted&) {
     is_over = true;
