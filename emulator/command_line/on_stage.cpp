@@ -17,7 +17,7 @@
 #include "emulator/box/wire/port_name.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/executor.h"
 

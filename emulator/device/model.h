@@ -15,9 +15,9 @@
 #include "base/choices.h"
 #include "base/files/file_claims.h"
 #include "base/files/file_error.h"
-#include "emulator/device/hazards.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/register_map/hazards.h"
 #include "emulator/device/register_map/register_map.h"
 #include "pty/line_settings.h"  // IWYU pragma: export: rows of models have them
 

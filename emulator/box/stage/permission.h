@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/expression/tolerance.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/simulated_time.h"
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 #include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/complete_table.h"
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 #include "interpreter/rs_m8194h/commands.h"
 
 namespace understudy::emulator::models::rs_m8194h {

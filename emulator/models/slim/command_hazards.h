@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/complete_table.h"
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/commands.h"
 #include "interpreter/slim/parse.h"

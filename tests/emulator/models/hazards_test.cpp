@@ -1,6 +1,6 @@
 // What a write or a command can do in a real controller, against a list that was made from the manuals: which
 // registers start motion, switch outputs, are stored, or change how the controller answers.
-#include "emulator/device/hazards.h"
+#include "emulator/device/register_map/hazards.h"
 
 #include <gtest/gtest.h>
 
