@@ -114,7 +114,7 @@ def exchanges(capture):
         at = int(seconds.replace('.', ''))
         if way == 'in':
             found.append((at, None))
-        elif found and found[-1][1] is None and 'not said' not in line:
+        elif found and found[-1][1] is None and 'not sent' not in line:
             found[-1] = (found[-1][0], at)
     return found
 
