@@ -11,7 +11,7 @@ class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
   /// The following calls are about the device's present program. `mark` identifies the program.
-  virtual void look(std::uint64_t mark) = 0;
+  virtual void program_loaded(std::uint64_t mark) = 0;
   /// The instruction begins. It begins once, however long it waits. `times` is more than 1 only for scans of
   /// a PLC that are skipped in bulk.
   virtual void runs(int part, int line, std::int64_t times) = 0;
@@ -42,8 +42,8 @@ class ProgramWatches final : public ProgramWatch {
     return watches_.empty() ? nullptr : watches_.front();
   }
 
-  void look(std::uint64_t mark) override {
-    for (ProgramWatch* const watch : watches_) watch->look(mark);
+  void program_loaded(std::uint64_t mark) override {
+    for (ProgramWatch* const watch : watches_) watch->program_loaded(mark);
   }
   void runs(int part, int line, std::int64_t times) override {
     for (ProgramWatch* const watch : watches_) watch->runs(part, line, times);

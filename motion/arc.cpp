@@ -167,10 +167,10 @@ Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) 
 /// Returns the sweep from one ray of a circle to another, > 0 for counter-clockwise. `chord` is their
 /// difference, computed from the points themselves: on a large circle it has more digits than the rays.
 double sweep_between(const Flat& from, const Flat& to, const Flat& chord, Turn turn) {
-  const double least = angle_of(cross(from, chord), dot(from, to));
+  const double min = angle_of(cross(from, chord), dot(from, to));
   const double whole = turn == Turn::clockwise ? -2 * kPi : 2 * kPi;
-  const bool wrong_way = (least < 0) != (whole < 0);
-  return wrong_way || std::abs(least) < kSameDirection_rad ? least + whole : least;
+  const bool wrong_way = (min < 0) != (whole < 0);
+  return wrong_way || std::abs(min) < kSameDirection_rad ? min + whole : min;
 }
 
 /// The circle through the origin and two points; sweep from the origin through `middle` to `end`.
@@ -244,13 +244,13 @@ Path line(const Point& begin, const Point& end, Measure measure) {
   path.measure = measure;
   path.begin = begin;
   path.end = end;
-  const Point way = end - begin;
-  const double longest = way.cwiseAbs().maxCoeff();
+  const Point travel = end - begin;
+  const double longest = travel.cwiseAbs().maxCoeff();
   if (measure == Measure::longest_axis) {
     path.length_u = longest;
   } else {
     // The squares of the shortest distances would be 0.
-    path.length_u = longest < 1e-140 && longest > 0 ? longest * (way / longest).norm() : way.norm();
+    path.length_u = longest < 1e-140 && longest > 0 ? longest * (travel / longest).norm() : travel.norm();
   }
   return path;
 }

@@ -65,8 +65,8 @@ inline double share_by_vector(const Path& path, double along) {
   double share = 2 * even / (first + std::sqrt(std::max(0.0, first * first + 2 * change * even)));
   share = std::min(share, 1.0);
   // For nearly equal radii the guess is already exact.
-  const double least = std::min(first, last) * std::min(first, last);
-  if (gain * gain * across_squared <= 1e-16 * least * least) return share;
+  const double min = std::min(first, last) * std::min(first, last);
+  if (gain * gain * across_squared <= 1e-16 * min * min) return share;
   for (int i = 0; i < kMaxSteps; ++i) {
     const double here = std::max(0.0, from + gain * share);
     const double error = share * mean_pace(from, here, across_squared) - along;

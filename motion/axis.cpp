@@ -279,7 +279,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
     // It has not begun yet, so it begins with the new speed.
     const Profile whole = planned(speed);
     law = speed;
-    if (!in_backlash) drive.go_on(whole, drive.beginning());
+    if (!in_backlash) drive.continue_with(whole, drive.beginning());
     must_recheck = true;
     return;
   }
@@ -287,7 +287,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
                            ? motion::change_speed(forward_sample(drive, at), speed.top_speed_u_s, speed)
                            : forward_to(forward_sample(drive, at), static_cast<double>(target_pulses), speed);
   law = speed;
-  drive.go_on(rest, at);
+  drive.continue_with(rest, at);
   must_recheck = true;
 }
 
@@ -307,7 +307,7 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
     }
     const Profile whole = plan(static_cast<double>(distance_pulses), law);
     target_pulses = distance_pulses;
-    if (!in_backlash) drive.go_on(whole, drive.beginning());
+    if (!in_backlash) drive.continue_with(whole, drive.beginning());
     must_recheck = true;
     return;
   }
@@ -332,9 +332,9 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
   if (!stop_if_passed && to_stop.end_position_u > target + 0.5) {
     require_return(to_stop.end_position_u);
     comes_back = slowing = true;
-    drive.go_on(to_stop, at);
+    drive.continue_with(to_stop, at);
   } else {
-    drive.go_on(forward_to(here, target, law), at);
+    drive.continue_with(forward_to(here, target, law), at);
   }
   target_pulses = distance_pulses;
   must_recheck = true;
@@ -369,7 +369,7 @@ void Axis::slow(Instant at, Cause why) {
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }
   slowing = true;
-  drive.go_on(rest, at);
+  drive.continue_with(rest, at);
   must_recheck = true;
 }
 

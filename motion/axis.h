@@ -303,7 +303,7 @@ struct alignas(64) Axis {
   bool step_quietly(Tick tick, const Environment& environment, QuietTick& quiet) {
     quiet.travel = travel_pulses;
     quiet.sent = drive.sent_pulses;
-    if (tick < drive.next_look && environment.version == seen_version && !must_recheck) [[likely]] {
+    if (tick < drive.next_check && environment.version == seen_version && !must_recheck) [[likely]] {
       const std::int64_t sent = drive.pulses_of_segment(tick);
       const std::int64_t travel = base_pulses + drive.direction * sent;
       if (travel >= watch_low && travel <= watch_high) [[likely]] {
@@ -317,7 +317,7 @@ struct alignas(64) Axis {
     }
     return task == Task::following && follow_quietly(environment, quiet);
   }
-  void take_back(const QuietTick& quiet) {
+  void undo(const QuietTick& quiet) {
     travel_pulses = quiet.travel;
     drive.sent_pulses = quiet.sent;
     if (quiet.followed) base_pulses = travel_pulses;
@@ -333,15 +333,15 @@ struct alignas(64) Axis {
     return step_slow_path(tick, environment, pulses);
   }
 
-  // ---- Many ticks in one step: motion/axis_crossing.cpp
+  // ---- Many ticks in one step: motion/axis_fast_forward.cpp
 
   struct TravelRange {
     std::int64_t low = INT64_MIN;  // both ends included
     std::int64_t high = INT64_MAX;
   };
   /// Returns the last tick up to which the axis continues along its plan within `range` and nothing happens
-  /// to it. `next` is the next tick, `most` the latest to consider. Returns next - 1 if there is none.
-  Tick quiet_until(Tick next, Tick most, const Environment& environment, TravelRange range) const;
+  /// to it. `next` is the next tick, `limit` the latest to consider. Returns next - 1 if there is none.
+  Tick quiet_until(Tick next, Tick limit, const Environment& environment, TravelRange range) const;
   /// Returns the travel after `tick`, which is at most quiet_until().
   std::int64_t travel_ahead(Tick tick) const {
     return base_pulses + drive.direction * drive.pulses_of_segment(tick);
@@ -400,7 +400,7 @@ struct alignas(64) Axis {
   void compare(Count count, std::int64_t value, Instant at, int direction);
   void watch(const Environment& environment);
   void raise(Event event, Instant at);
-  void look_at_speed(std::int64_t sent_before, Instant from, Instant until);
+  void check_speed(std::int64_t sent_before, Instant from, Instant until);
   bool waits_for_constant_speed() const;
 
   // Homing: motion/homing_run.cpp.

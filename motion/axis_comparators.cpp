@@ -35,12 +35,12 @@ std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, 
   if (relation == Relation::off) return std::nullopt;
   // Beyond the range of the count, or if the range has only one value, the relation never changes: a ring of
   // one place would have an edge at each pulse.
-  const auto least = counter.least();
-  const auto greatest = counter.greatest();
-  if (least && (value > *greatest || *least == *greatest || (!asks_for_one_place() && value <= *least))) {
+  const auto min = counter.min();
+  const auto max = counter.max();
+  if (min && (value > *max || *min == *max || (!asks_for_one_place() && value <= *min))) {
     return std::nullopt;
   }
-  if (least && asks_for_one_place() && value < *least) return std::nullopt;
+  if (min && asks_for_one_place() && value < *min) return std::nullopt;
   std::optional<std::int64_t> nearest;
   const auto consider = [&](std::optional<std::int64_t> steps) {
     if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
@@ -49,7 +49,7 @@ std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, 
   consider(counter.steps_until(value, travel, direction));
   if (direction > 0 && value < INT64_MAX) consider(counter.steps_until(value + 1, travel, direction));
   if (direction < 0 && value > INT64_MIN) consider(counter.steps_until(value - 1, travel, direction));
-  if (const auto turning = direction > 0 ? counter.least() : counter.greatest()) {
+  if (const auto turning = direction > 0 ? counter.min() : counter.max()) {
     consider(counter.steps_until(*turning, travel, direction));
   }
   return nearest;

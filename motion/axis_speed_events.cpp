@@ -42,7 +42,7 @@ void Axis::raise(Event event, Instant at) {
 
 /// Finds the first and the last pulse at constant speed among those after `sent_before`, which were sent
 /// between the two moments. Homing raises no such events.
-void Axis::look_at_speed(std::int64_t sent_before, Instant from, Instant until) {
+void Axis::check_speed(std::int64_t sent_before, Instant from, Instant until) {
   if ((settings.raises & kConstant) == 0 || homing.active() || drive.sent_pulses <= sent_before) return;
   const Profile& profile = drive.profile;
   const auto changes_to = [&](double speed_pps, std::int64_t pulse) {

@@ -22,7 +22,7 @@ constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 std::int64_t Axis::step_slow_path(Tick tick, const Environment& environment,
                                   std::optional<std::int64_t> pulses) {
   AxisTick part(*this, environment, tick, pulses);
-  while (!part.is_over()) part.look();
+  while (!part.is_over()) part.step_events();
   return part.finish();
 }
 
@@ -106,16 +106,16 @@ void Axis::watch(const Environment& environment) {
   }
   // Soft limits may be far out of reach, up to the largest number. If the encoder counts backwards, the axis
   // moves away from its limits.
-  const auto& most = settings.soft_limit_plus;
-  const auto& least = settings.soft_limit_minus;
+  const auto& max = settings.soft_limit_plus;
+  const auto& min = settings.soft_limit_minus;
   const Count of = settings.soft_limits_of;
   const bool goes_its_way = of == Count::command || (encoder_is_known && encoder_direction > 0);
   const std::int64_t place = soft_limit_place();
-  if (most && goes_its_way && place <= *most && *most < place + kNoEdge) {
-    consider_by(of, up, +1, *most + 1 - place);
+  if (max && goes_its_way && place <= *max && *max < place + kNoEdge) {
+    consider_by(of, up, +1, *max + 1 - place);
   }
-  if (least && goes_its_way && place >= *least && *least > place - kNoEdge) {
-    consider_by(of, down, -1, place + 1 - *least);
+  if (min && goes_its_way && place >= *min && *min > place - kNoEdge) {
+    consider_by(of, down, -1, place + 1 - *min);
   }
   watch_high = travel_pulses + (up - 1);
   watch_low = travel_pulses - (down - 1);

@@ -116,9 +116,9 @@ void AxisTick::find_next() {
 /// Returns the pulses that the drive has sent by `at`, in its own coordinate.
 std::int64_t AxisTick::due_at(const Instant& at) {
   PulseDrive& drive = axis_.drive;
-  const std::int64_t most = drive.pulses_at(tick_);
-  if (!is_before(at, until_)) return most;
-  return std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(most, drive.sent_pulses));
+  const std::int64_t max = drive.pulses_at(tick_);
+  if (!is_before(at, until_)) return max;
+  return std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(max, drive.sent_pulses));
 }
 
 /// Returns the carried pulses that have come by `at`.
@@ -155,7 +155,7 @@ void AxisTick::go_to(Instant at) {
     const std::int64_t sent_before = drive.sent_pulses;
     axis_.travel_pulses = place.travel_pulses;
     drive.sent_pulses = (axis_.travel_pulses - axis_.base_pulses) * drive.direction;
-    axis_.look_at_speed(sent_before, at_, at);
+    axis_.check_speed(sent_before, at_, at);
   } else if (axis_.in_backlash) {
     const std::int64_t come = place.backlash_sent - axis_.backlash_sent;
     drive.sent_pulses += come * drive.direction;
@@ -170,7 +170,7 @@ void AxisTick::go_to(Instant at) {
   forget_next();
 }
 
-void AxisTick::look() {
+void AxisTick::step_events() {
   next();
   const What what = next_;
   next_ = What::unknown;
@@ -214,7 +214,7 @@ void AxisTick::go_to_edge() {
   const std::int64_t sent_before = drive.sent_pulses;
   drive.sent_pulses = (edge - axis_.base_pulses) * drive.direction;
   axis_.travel_pulses = edge;
-  axis_.look_at_speed(sent_before, at_, moment_);
+  axis_.check_speed(sent_before, at_, moment_);
   at_ = moment_;
   axis_.update_signals(here_, at_, static_cast<int>(drive.direction));
 }
@@ -238,7 +238,7 @@ void AxisTick::end_drive() {
   const std::int64_t sent_before = drive.sent_pulses;
   drive.sent_pulses = drive.pulses_at(tick_);
   axis_.travel_pulses = axis_.base_pulses + drive.direction * drive.sent_pulses;
-  axis_.look_at_speed(sent_before, at_, until_);
+  axis_.check_speed(sent_before, at_, until_);
   at_ = moment_;
   axis_.know_encoder(here_);
   if (axis_.comes_back) {
@@ -348,7 +348,7 @@ std::int64_t AxisTick::finish() {
   axis_.must_recheck = axis_.must_recheck || axis_.in_backlash || at_a_limit ||
                        (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
   if (axis_.task == Task::following)
-    axis_.drive.next_look = 0;  // it has no plan, so each of its ticks is handled here
+    axis_.drive.next_check = 0;  // it has no plan, so each of its ticks is handled here
   axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);
   axis_.events_between = next_tick_;
   return axis_.inverted ? -pulses : pulses;

@@ -39,7 +39,7 @@ class AxisTick {
   /// Returns where go_to(at) would bring the axis.
   AxisPlace place_at(const Instant& at);
   /// Goes to next() and handles what happens there.
-  void look();
+  void step_events();
   bool is_over() const { return is_over_; }
   /// Recomputes how far the axis may go from here before anything can happen.
   void watch() { axis_.watch(here_); }

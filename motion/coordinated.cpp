@@ -134,7 +134,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
   return ahead;
 }
 
-void Coordinated::cross(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses) {
+void Coordinated::fast_forward(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses) {
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
     if (axis == nullptr) continue;

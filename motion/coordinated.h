@@ -62,7 +62,7 @@ struct Coordinated {
   Ahead look_ahead(Tick tick, std::span<const Axis> axes, std::span<const Environment> environment,
                    bool stays_engaged);
   /// Moves the axes to the targets of a quiet look_ahead().
-  void cross(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses);
+  void fast_forward(const Ahead& ahead, std::span<Axis> axes, std::span<std::int64_t> pulses);
   /// At the tick's end, ends the motion if it has slowed down to a stop.
   void settle(Tick tick, std::span<Axis> axes);
   /// Releases the axes, after the queue has run empty, as soon as all of them are in position.

@@ -45,13 +45,13 @@ std::int64_t difference_modulo(std::int64_t a, std::int64_t b, std::int64_t size
 
 /// Converts a count of 0 .. size - 1 to a number of the range.
 std::int64_t of_range(const Counter& counter, std::int64_t count) {
-  const std::int64_t greatest = *counter.greatest();
-  return count > greatest ? count - size_of(counter) : count;
+  const std::int64_t max = *counter.max();
+  return count > max ? count - size_of(counter) : count;
 }
 
 }  // namespace
 
-std::optional<std::int64_t> Counter::least() const {
+std::optional<std::int64_t> Counter::min() const {
   switch (range) {
     case Range::linear: break;
     case Range::bits32:
@@ -61,9 +61,9 @@ std::optional<std::int64_t> Counter::least() const {
   return std::nullopt;
 }
 
-std::optional<std::int64_t> Counter::greatest() const {
+std::optional<std::int64_t> Counter::max() const {
   if (range == Range::linear) return std::nullopt;
-  return *least() + size_of(*this) - 1;
+  return *min() + size_of(*this) - 1;
 }
 
 std::int64_t Counter::at(std::int64_t travel) const {
@@ -82,7 +82,7 @@ std::optional<std::int64_t> Counter::steps_until(std::int64_t value, std::int64_
   const std::int64_t size = size_of(*this);
   const std::int64_t steps = direction > 0 ? wrapped_difference(value, now) : wrapped_difference(now, value);
   if (size == 0) return steps > 0 ? std::optional(steps) : std::nullopt;
-  if (value < *least() || value > *greatest()) return std::nullopt;
+  if (value < *min() || value > *max()) return std::nullopt;
   const std::int64_t round = modulo(steps, size);
   return round == 0 ? size : round;
 }

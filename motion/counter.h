@@ -34,8 +34,8 @@ struct Counter {
   std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
 
   /// Return the minimum and the maximum count, or nothing for linear.
-  std::optional<std::int64_t> least() const;
-  std::optional<std::int64_t> greatest() const;
+  std::optional<std::int64_t> min() const;
+  std::optional<std::int64_t> max() const;
 };
 
 }  // namespace understudy::motion

@@ -29,8 +29,8 @@ std::int64_t stoppable(std::int64_t missing, std::int64_t change) {
   auto steps = static_cast<Wide>(std::sqrt(2.0 * static_cast<double>(size) / static_cast<double>(change)));
   while (sum_of(steps) > size) --steps;
   while (sum_of(steps + 1) <= size) ++steps;
-  const auto most = static_cast<std::int64_t>(steps * change + (size - sum_of(steps)) / (steps + 1));
-  return missing < 0 ? -most : most;
+  const auto max = static_cast<std::int64_t>(steps * change + (size - sum_of(steps)) / (steps + 1));
+  return missing < 0 ? -max : max;
 }
 
 }  // namespace

@@ -168,9 +168,9 @@ void Axis::mark_reference() {
 
 /// A stop in progress may get a worse cause: a limit, or a stop command while it decelerates for home.
 void Axis::homing_slows(Cause why) {
-  const bool goes_on =
+  const bool continues =
       why == Cause::arrived || (is_limit(homing.program, why) && homing.row().if_limit != HomingPhase::kFail);
-  if (!goes_on && homing.ended_by == Cause::none) homing.ended_by = why;
+  if (!continues && homing.ended_by == Cause::none) homing.ended_by = why;
 }
 
 void Axis::homing_stands(Cause why, Instant at) {

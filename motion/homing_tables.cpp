@@ -163,9 +163,9 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   const Signal mark = limit_towards(direction);
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
-  const bool goes_on = how.distance_pulses * direction > 0;
+  const bool continues = how.distance_pulses * direction > 0;
   std::int64_t behind = 0;  // the distance beyond the target in which it slows down
-  if (how.slows_behind && goes_on && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
+  if (how.slows_behind && continues && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
     behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);
   }
@@ -189,7 +189,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
 // ---- RS-M8194H
 
 HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
-  const auto& [direction_1, direction_2, direction_3, direction_4] = how.ways;
+  const auto& [direction_1, direction_2, direction_3, direction_4] = how.directions;
   constexpr std::int8_t kDrive = 0;
   constexpr std::int8_t kHome = 1;
   HomingProgram program{.speeds = {how.drive, how.home}, .soft_limits_lead_on = how.soft_limits_lead_on};

@@ -53,7 +53,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how);
 /// its own direction or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is the value
 /// that input 92 + a shows during it.
 struct Rsm8194hHoming {
-  std::array<int, 4> ways{};         // of steps 1 to 4: +1, -1, or 0: skipped
+  std::array<int, 4> directions{};   // of steps 1 to 4: +1, -1, or 0: skipped
   SpeedLaw drive;                    // V: steps 1 and 4
   SpeedLaw home;                     // HV: steps 2 and 3
   std::int64_t offset_pulses = 0;    // of step 4, >= 0

@@ -153,22 +153,22 @@ Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw
   require_not_negative(distance_u, "move", "distance");
   require_positive(passing_speed_u_s, "move", "passing speed");
   const double start = start_speed(law);
-  const double least = std::max(passing_speed_u_s, start);
+  const double min = std::max(passing_speed_u_s, start);
   const auto is_too_fast = [&](double top_u_s) {
-    return ramp_distance(law.up, start, top_u_s) + ramp_distance(law.down, top_u_s, least) > distance_u;
+    return ramp_distance(law.up, start, top_u_s) + ramp_distance(law.down, top_u_s, min) > distance_u;
   };
-  if (law.top_speed_u_s <= passing_speed_u_s || is_too_fast(least)) {
+  if (law.top_speed_u_s <= passing_speed_u_s || is_too_fast(min)) {
     SpeedLaw slow = law;
     slow.top_speed_u_s = passing_speed_u_s;
     return plan_endless(slow);
   }
   double top = law.top_speed_u_s;
-  if (is_too_fast(top)) top = turnover(least, top, is_too_fast).before;
+  if (is_too_fast(top)) top = turnover(min, top, is_too_fast).before;
   Profile profile;
   append_ramp(profile, law.up, start, top);
-  const double cruise = distance_u - profile.end_position_u - ramp_distance(law.down, top, least);
+  const double cruise = distance_u - profile.end_position_u - ramp_distance(law.down, top, min);
   if (cruise > 0) profile.append(cruise / top, top, 0, 0);
-  append_ramp(profile, law.down, top, least);
+  append_ramp(profile, law.down, top, min);
   profile.append(kForEver, passing_speed_u_s, 0, 0);
   require_doubles_hold(profile, true);
   return profile;
@@ -193,13 +193,13 @@ void check_state(const Sample& now) {
 void append_change(Profile& profile, const Sample& now, double to_u_s, const SpeedLaw& law) {
   append_change(
       profile, now, to_u_s, law.up, law.down,
-      {.least_u_s = start_speed(law), .most_u_s = std::max({law.top_speed_u_s, now.speed_u_s, to_u_s})});
+      {.min_u_s = start_speed(law), .max_u_s = std::max({law.top_speed_u_s, now.speed_u_s, to_u_s})});
 }
 
 double speed_without_acceleration(const Sample& now, const SpeedLaw& law) {
   return speed_without_acceleration(
       now, law.up, law.down,
-      {.least_u_s = start_speed(law), .most_u_s = std::max(law.top_speed_u_s, now.speed_u_s)});
+      {.min_u_s = start_speed(law), .max_u_s = std::max(law.top_speed_u_s, now.speed_u_s)});
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace {
 
 /// Returns a vector's direction, or zero for the zero vector. It is scaled first: the square of 1e-200 would
 /// be 0.
-Point direction_of(const Point& way) {
-  const double largest = way.cwiseAbs().maxCoeff();
+Point direction_of(const Point& travel) {
+  const double largest = travel.cwiseAbs().maxCoeff();
   if (largest == 0) return Point::Zero();
-  const Point scaled = way / largest;
+  const Point scaled = travel / largest;
   return scaled / scaled.norm();
 }
 

@@ -202,12 +202,12 @@ Point PathRun::velocity(Tick now) const {
   const Point direction = path.direction_at(here.position_u - piece->begin_u);
   if (path.measure == Measure::vector) return here.speed_u_s * direction;
   // The axis that moves most has the speed; the rise of an arc does not count.
-  double most = 0;
+  double max = 0;
   for (Eigen::Index i = 0; i < kPathAxes; ++i) {
     const bool counts = path.kind == Path::Kind::line || path.abscissa[i] != 0 || path.ordinate[i] != 0;
-    if (counts) most = std::max(most, std::abs(direction[i]));
+    if (counts) max = std::max(max, std::abs(direction[i]));
   }
-  return most > 0 ? Point(here.speed_u_s / most * direction) : Point(Point::Zero());
+  return max > 0 ? Point(here.speed_u_s / max * direction) : Point(Point::Zero());
 }
 
 bool PathRun::at_rest(Tick now) const { return sample(now).speed_u_s == 0; }
@@ -371,7 +371,7 @@ Point PathRun::place_on(const Stretch& gone, double along_u) const {
   return on.path.at(along_u - on.begin_u);
 }
 
-double PathRun::way_on(const Stretch& gone, double along_u, Eigen::Index i) const {
+double PathRun::direction_at(const Stretch& gone, double along_u, Eigen::Index i) const {
   const Piece& on = piece_on(gone, along_u);
   return on.path.direction_at(along_u - on.begin_u)[i];
 }

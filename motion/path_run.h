@@ -135,7 +135,7 @@ class PathRun {
   double end_of_span(const Stretch& gone, double along_u) const;
   /// Returns the direction in which coordinate `i` moves at `along_u`; on a corner, that of the path after
   /// it.
-  double way_on(const Stretch& gone, double along_u, Eigen::Index i) const;
+  double direction_at(const Stretch& gone, double along_u, Eigen::Index i) const;
   /// Slows down by the ramps of `by` from `along_u` on, which the tick has passed; the tick then ends
   /// accordingly. Returns false and changes nothing if the run is paused already or has not begun, or the
   /// chain is over.

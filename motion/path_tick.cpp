@@ -60,10 +60,10 @@ std::optional<double> PathTick::first_beyond(std::size_t i) const {
     const double to_u = path_.run.end_of_span(gone_, from_u);
     // Within a span a coordinate may reverse once.
     const auto axis_number = static_cast<Eigen::Index>(i);
-    const double way = path_.run.way_on(gone_, from_u, axis_number);
+    const double direction = path_.run.direction_at(gone_, from_u, axis_number);
     const double before_u = std::nextafter(to_u, 0.0);
     const auto has_turned = [&](double along_u) {
-      return way * path_.run.way_on(gone_, along_u, axis_number) < 0;
+      return direction * path_.run.direction_at(gone_, along_u, axis_number) < 0;
     };
     if (before_u > from_u && has_turned(before_u)) {
       const double turn_u = turnover(from_u, before_u, has_turned).after;
@@ -125,7 +125,7 @@ void PathTick::check_axes() {
   }
 }
 
-void PathTick::look() {
+void PathTick::step_events() {
   const Instant at = next();
   const auto edge_u = edge_u_;
   carry_to(edge_u.value_or(gone_.to_u), at);

@@ -28,7 +28,7 @@ class PathTick {
   /// Returns the next moment at which something can happen, or the tick's end if nothing can.
   const Instant& next();
   /// Goes to next() and handles what happens there.
-  void look();
+  void step_events();
   bool is_over() const { return is_over_; }
   /// Goes to a moment that is not after next().
   void go_to(Instant at);

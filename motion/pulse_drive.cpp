@@ -26,10 +26,10 @@ void PulseDrive::start(const Profile& move, int move_direction, Instant begin) {
   stop();
   if (move.segment_count == 0) return;
   direction = move_direction < 0 ? -1 : +1;
-  go_on(move, begin);
+  continue_with(move, begin);
 }
 
-void PulseDrive::go_on(const Profile& rest, Instant begin) {
+void PulseDrive::continue_with(const Profile& rest, Instant begin) {
   drive = Drive::running;
   profile = rest;
   tolerance = std::max(tolerance, tolerance_for(rest));  // a pulse already sent stays sent
@@ -56,7 +56,7 @@ void PulseDrive::look_up_segment(Tick tick) {
   if (profile.segment_count == 0 || over_at(tick)) {
     // The drive is over: it is exactly at its end, and stays there.
     now = TickSegment{.place = profile.end_position_u + tolerance};
-    next_look = kNoTick;
+    next_check = kNoTick;
     return;
   }
   auto i = static_cast<std::size_t>(profile.segment_count - 1);
@@ -70,11 +70,11 @@ void PulseDrive::look_up_segment(Tick tick) {
   const bool last = i + 1 == static_cast<std::size_t>(profile.segment_count);
   const double end_s = last ? profile.duration_s : profile.segments[i + 1].begin_s;
   if (std::isinf(end_s)) {
-    next_look = kNoTick;
+    next_check = kNoTick;
     return;
   }
   const double ticks = (end_s + begin_after_s) * kTicksPerSecond - kTickTolerance;
-  next_look = std::max(tick + 1, begin_tick + static_cast<Tick>(std::ceil(ticks)));
+  next_check = std::max(tick + 1, begin_tick + static_cast<Tick>(std::ceil(ticks)));
 }
 
 Sample PulseDrive::sample(Instant at) const {

@@ -40,7 +40,7 @@ struct PulseDrive {
   // The members that every tick needs come first: the current segment.
   TickSegment now{};
   Tick begin_tick = 0;           // the tick at which the profile is at its beginning
-  Tick next_look = kNoTick;      // from this tick on, `now` is no longer the current segment
+  Tick next_check = kNoTick;     // from this tick on, `now` is no longer the current segment
   std::int64_t sent_pulses = 0;  // counted from the beginning of the profile's coordinate
   std::int64_t direction = +1;   // +1 or -1: the direction of a rising position; an owner may set 0 at rest
   Drive drive = Drive::idle;
@@ -57,7 +57,7 @@ struct PulseDrive {
   void start(const Profile& move, int move_direction, Tick first_tick);
   void start(const Profile& move, int move_direction, Instant begin);
   /// Continues with another profile, of the same coordinate and direction, that begins at `begin`.
-  void go_on(const Profile& rest, Instant begin);
+  void continue_with(const Profile& rest, Instant begin);
   /// Begins a move that never sends a pulse.
   void move_at_zero_speed(int move_direction);
   /// Stops the drive: no pulse comes out after this.
@@ -79,11 +79,11 @@ struct PulseDrive {
   /// Returns the whole pulses sent by `tick`, from the beginning of the coordinate. Looks up the segment when
   /// necessary.
   std::int64_t pulses_at(Tick tick) {
-    if (tick >= next_look) look_up_segment(tick);
+    if (tick >= next_check) look_up_segment(tick);
     return pulses_of_segment(tick);
   }
 
-  /// Like pulses_at(), but only within a segment, before `next_look`: one cubic and one rounding.
+  /// Like pulses_at(), but only within a segment, before `next_check`: one cubic and one rounding.
   std::int64_t pulses_of_segment(Tick tick) const {
     const double k = static_cast<double>(tick - begin_tick) - now.begin_ticks;
     return whole(now.place + k * (now.first + k * (now.second + k * now.third)));

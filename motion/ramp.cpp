@@ -43,8 +43,7 @@ double jerk_within(const SpeedRange& range, const Sample& now, double accelerati
   const RampLaw& law = acceleration_u_s2 > 0 ? up : down;
   const double usual = usual_jerk(law, now);
   if (usual == 0 || (acceleration_u_s2 > 0 && law.kind == RampLaw::Kind::jerk)) return usual;
-  const double room =
-      acceleration_u_s2 > 0 ? range.most_u_s - now.speed_u_s : now.speed_u_s - range.least_u_s;
+  const double room = acceleration_u_s2 > 0 ? range.max_u_s - now.speed_u_s : now.speed_u_s - range.min_u_s;
   return room > 0 ? std::max(usual, acceleration_u_s2 * acceleration_u_s2 / (2 * room)) : 0;
 }
 
@@ -177,7 +176,7 @@ double speed_without_acceleration(const Sample& now, const RampLaw& up, const Ra
   const double jerk = jerk_within(range, now, acceleration, up, down);
   if (jerk == 0) return now.speed_u_s;
   const double faded = now.speed_u_s + acceleration * std::abs(acceleration) / (2 * jerk);
-  return std::max(range.least_u_s, faded);
+  return std::max(range.min_u_s, faded);
 }
 
 void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,

@@ -74,8 +74,8 @@ void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double t
 
 /// The range in which the speed stays during a change: 0 <= least <= most.
 struct SpeedRange {
-  double least_u_s = 0;
-  double most_u_s = 0;
+  double min_u_s = 0;
+  double max_u_s = 0;
 };
 
 /// Appends the change from `now` (its speed in `range`, its acceleration not necessarily 0; its position does

@@ -33,8 +33,8 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
   for (std::uint32_t left = singles; left != 0; left &= left - 1) {
     const auto axis = static_cast<std::size_t>(std::countr_zero(left));
     const bool is_watched = (all.watched >> axis & 1U) != 0;
-    Axis::QuietTick& its = quiet[count++];
-    const bool is_quiet = !is_watched && all.axes[axis].step_quietly(all.tick, all.environment[axis], its);
+    Axis::QuietTick& quiet_tick = quiet[count++];
+    const bool is_quiet = !is_watched && all.axes[axis].step_quietly(all.tick, all.environment[axis], quiet_tick);
     if (!is_quiet) [[unlikely]]
       restless |= 1U << axis;
   }
@@ -49,7 +49,7 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
       all.pulses[static_cast<std::size_t>(std::countr_zero(left))] += quiet[count++].pulses;
     }
     if (path == nullptr) return;
-    path->cross(*ahead, all.axes, all.pulses);
+    path->fast_forward(*ahead, all.axes, all.pulses);
     return path->settle(all.tick, all.axes);
   }
   SharedTick tick(all, path, owner);
@@ -74,7 +74,7 @@ SharedTick::Member* SharedTick::member_of(std::size_t axis) {
 void SharedTick::open(Member& member) {
   if (member.part) return;
   Axis& axis = all_.axes[member.axis];
-  if (member.is_quiet) axis.take_back(member.quiet);
+  if (member.is_quiet) axis.undo(member.quiet);
   member.part.emplace(axis, all_.environment[member.axis], all_.tick, member.quiet.followed);
 }
 
@@ -106,12 +106,12 @@ void SharedTick::run(bool stays_engaged) {
   }
   if (path_ != nullptr && !ahead_->is_quiet) open_path();
   handle_events();
-  while (look_at_first()) handle_events();
+  while (step_first()) handle_events();
   finish();
 }
 
 /// Moves the member whose next moment is the earliest to that moment. Returns false if no member has one.
-bool SharedTick::look_at_first() {
+bool SharedTick::step_first() {
   Member* first = nullptr;
   for (Member& member : std::span(members_).first(count_)) {
     if (!member.part || member.part->is_over()) continue;
@@ -122,18 +122,18 @@ bool SharedTick::look_at_first() {
       path_has && (first == nullptr || is_before(path_tick_->next(), first->part->next()));
   if (all_.watched != 0 && owner_ != nullptr) {
     const Instant end{.tick = all_.tick};
-    if (look_at_owner(is_path_first ? path_tick_->next() : first != nullptr ? first->part->next() : end)) {
+    if (step_owner(is_path_first ? path_tick_->next() : first != nullptr ? first->part->next() : end)) {
       return true;
     }
   }
   if (is_path_first) {
     now_ = path_tick_->next();
-    path_tick_->look();
+    path_tick_->step_events();
     return true;
   }
   if (first == nullptr) return false;
   now_ = first->part->next();
-  first->part->look();
+  first->part->step_events();
   if (first->is_on_path && path_tick_) path_tick_->rearm();
   return true;
 }
@@ -153,7 +153,7 @@ void SharedTick::handle_events() {
 }
 
 /// Goes to the owner's next moment, if it comes before the next edge.
-bool SharedTick::look_at_owner(const Instant& until) {
+bool SharedTick::step_owner(const Instant& until) {
   const auto found = owner_->next_moment(*this, until);
   if (!found) return false;
   now_ = *found;
@@ -219,7 +219,7 @@ void SharedTick::slow_path(Cause why, const SpeedLaw& by) {
 
 void SharedTick::finish() {
   now_ = {.tick = all_.tick};
-  if (path_ != nullptr && !path_tick_) path_->cross(*ahead_, all_.axes, all_.pulses);
+  if (path_ != nullptr && !path_tick_) path_->fast_forward(*ahead_, all_.axes, all_.pulses);
   if (path_ != nullptr) path_->settle(all_.tick, all_.axes);
   handle_events();
   is_closed_ = true;

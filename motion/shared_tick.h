@@ -96,11 +96,11 @@ class SharedTick {
   void open(Member& member);
   void open_path();
   Member* member_of(std::size_t axis);
-  bool look_at_first();
+  bool step_first();
   void handle_events();
   template <class Act>
   void act(const Act& by_owner);
-  bool look_at_owner(const Instant& until);
+  bool step_owner(const Instant& until);
   void finish();
 
   const TickOfAxes& all_;

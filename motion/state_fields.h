@@ -86,12 +86,15 @@ struct StateOf<motion::Instant> {
 
 template <>
 struct StateOf<motion::PulseDrive> {
-  static constexpr auto fields =
-      FieldList{field<&motion::PulseDrive::now>(),           field<&motion::PulseDrive::begin_tick>(),
-                field<&motion::PulseDrive::next_look>(),     field<&motion::PulseDrive::sent_pulses>(),
-                field<&motion::PulseDrive::direction>(),     field<&motion::PulseDrive::drive>(),
-                field<&motion::PulseDrive::begin_after_s>(), field<&motion::PulseDrive::tolerance>(),
-                field<&motion::PulseDrive::profile>()};
+  static constexpr auto fields = FieldList{field<&motion::PulseDrive::now>(),
+                                           field<&motion::PulseDrive::begin_tick>(),
+                                           field("next_look", &motion::PulseDrive::next_check),
+                                           field<&motion::PulseDrive::sent_pulses>(),
+                                           field<&motion::PulseDrive::direction>(),
+                                           field<&motion::PulseDrive::drive>(),
+                                           field<&motion::PulseDrive::begin_after_s>(),
+                                           field<&motion::PulseDrive::tolerance>(),
+                                           field<&motion::PulseDrive::profile>()};
   static void check(const motion::PulseDrive& value) { motion::check_restored(value); }
 };
 

@@ -13,7 +13,7 @@
 
 namespace understudy::pty {
 
-enum class Way : std::uint8_t { from_host, to_host };
+enum class Direction : std::uint8_t { from_host, to_host };
 
 enum class Remark : std::uint8_t {
   none,
@@ -41,7 +41,7 @@ constexpr std::string_view text_of(Remark remark) {
 
 struct CapturedPacket {
   std::size_t line = 0;  // its number in the capture
-  Way way = Way::from_host;
+  Direction direction = Direction::from_host;
   SimTime time{0};  // when its first character began
   std::span<const std::uint8_t> bytes;
   Remark remark = Remark::none;

@@ -75,13 +75,13 @@ void CaptureFile::add(const CapturedPacket& packet) {
   ++lost_before;
   ++lost_;
   if (outcome == BackgroundWriter::Outcome::failed) {
-    tell_failure();
+    report_failure();
   } else if (!std::exchange(has_told_slow_, true)) {
     log_(path_ + ": the disk is too slow; packets are missing from the capture");
   }
 }
 
-void CaptureFile::tell_failure() {
+void CaptureFile::report_failure() {
   const int error = writer_->failure().error;
   if (error == 0 || !failure_.empty()) return;
   failure_ = path_ + ": the capture ended early: " + std::generic_category().message(error);
@@ -91,7 +91,7 @@ void CaptureFile::tell_failure() {
 void CaptureFile::finish() {
   if (!writer_ || std::exchange(is_finished_, true)) return;
   writer_->finish();
-  tell_failure();
+  report_failure();
   if (lost() > 0) log_(path_ + ": " + std::to_string(lost()) + " packets are missing from the capture");
 }
 

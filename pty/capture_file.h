@@ -41,7 +41,7 @@ class CaptureFile {
   const std::string& failure() const { return failure_; }
 
  private:
-  void tell_failure();
+  void report_failure();
 
   std::string path_;
   bool is_pcapng_;

@@ -65,11 +65,11 @@ void CaptureFrames::on_nothing_more() {
   give_what_was_dropped();
 }
 
-void CaptureFrames::on_speech(const Speech& speech) {
-  const Remark remark = speech.has_collided  ? Remark::collided
-                        : speech.is_for_host ? Remark::none
-                                             : Remark::to_nobody;
-  sink_({line_, Way::to_host, speech.start, speech.bytes, remark, is_text_, faults_});
+void CaptureFrames::on_transmission(const Transmission& transmission) {
+  const Remark remark = transmission.has_collided  ? Remark::collided
+                        : transmission.is_for_host ? Remark::none
+                                                   : Remark::to_nobody;
+  sink_({line_, Direction::to_host, transmission.start, transmission.bytes, remark, is_text_, faults_});
   faults_.clear();
 }
 
@@ -78,9 +78,9 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
   give_strikes();
   faults_ = text_of(message.strikes);
   struck_at_ = message.time;
-  if (message.is_said && !is_text_) return;
+  if (message.is_sent && !is_text_) return;
   sink_({line_,
-         message.is_reply ? Way::to_host : Way::from_host,
+         message.is_reply ? Direction::to_host : Direction::from_host,
          message.time,
          {},
          Remark::none,
@@ -92,7 +92,7 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
 /// Reports strikes on a reply that was never sent.
 void CaptureFrames::give_strikes() {
   if (faults_.empty()) return;
-  sink_({line_, Way::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
+  sink_({line_, Direction::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
   faults_.clear();
 }
 
@@ -149,7 +149,7 @@ void CaptureFrames::give_dropped(std::size_t count) {
 void CaptureFrames::give_packet(std::size_t count, Remark remark) {
   std::array<std::uint8_t, kRtuMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
-  sink_({line_, Way::from_host, waiting_.front().start, std::span(bytes).first(count),
+  sink_({line_, Direction::from_host, waiting_.front().start, std::span(bytes).first(count),
          is_heard_ ? remark : Remark::unheard, is_text_});
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
 }

@@ -24,7 +24,7 @@ class CaptureFrames final : public LineObserver {
   void on_start_bit(SimTime at) override;
   void on_character(const TimedByte& character, bool is_heard) override;
   void on_nothing_more() override;
-  void on_speech(const Speech& speech) override;
+  void on_transmission(const Transmission& transmission) override;
   void on_strike(const StruckMessage& message) override;
   std::optional<SimTime> due() const override { return framer_.due(); }  // none on a line of text
   void run(SimTime now) override;

@@ -107,7 +107,7 @@ std::string_view padded_dissector_of(const CapturedPacket& packet) {
 
 void put_tags(std::string& to, const CapturedPacket& packet) {
   const auto host_port = static_cast<std::uint32_t>(packet.line + 1);
-  const bool is_from_host = packet.way == Way::from_host;
+  const bool is_from_host = packet.direction == Direction::from_host;
   const std::string_view dissector = padded_dissector_of(packet);
   put_big_endian(to, kDissector);
   put_big_endian(to, static_cast<std::uint16_t>(dissector.size()));
@@ -120,7 +120,7 @@ void put_tags(std::string& to, const CapturedPacket& packet) {
 }
 
 std::uint32_t flags_of(const CapturedPacket& packet) {
-  std::uint32_t flags = packet.way == Way::from_host ? kInbound : kOutbound;
+  std::uint32_t flags = packet.direction == Direction::from_host ? kInbound : kOutbound;
   if (packet.remark == Remark::wrong_checksum) flags |= kChecksumError;
   if (packet.remark == Remark::incomplete) flags |= kTooShort;
   return flags;

@@ -20,7 +20,7 @@ void append_text_packet(std::string& file, std::span<const CapturedLine> lines, 
   file += std::to_string(packet.time.count() / kSecond);
   file += '.';
   file += std::to_string(packet.time.count() % kSecond + kSecond).substr(1);
-  file += packet.way == Way::from_host ? " in  " : " out ";
+  file += packet.direction == Direction::from_host ? " in  " : " out ";
   file += lines[packet.line].name;
   for (const std::uint8_t byte : packet.bytes) {
     file += ' ';

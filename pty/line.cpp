@@ -19,14 +19,14 @@
 namespace understudy::pty {
 
 /// Passes a station's transmissions to the line with the station's number.
-class Line::Voice final : public Transmitter {
+class Line::LineTransmitter final : public Transmitter {
  public:
-  Voice(Line& line, std::size_t member) : line_(line), member_(member) {}
+  LineTransmitter(Line& line, std::size_t member) : line_(line), member_(member) {}
   void transmit(std::span<const std::uint8_t> bytes) override {
-    line_.say(member_, bytes, line_.state_.is_host_open);
+    line_.transmit(member_, bytes, line_.state_.is_host_open);
   }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) override {
-    line_.say(member_, bytes, line_.state_.is_host_open && last_character > line_.state_.last_departed);
+    line_.transmit(member_, bytes, line_.state_.is_host_open && last_character > line_.state_.last_departed);
   }
 
  private:
@@ -56,7 +56,7 @@ void Line::remove_observer(LineObserver& observer) {
   due_changed();
 }
 
-void Line::tell_strike(const StruckMessage& message) {
+void Line::report_strike(const StruckMessage& message) {
   for (LineObserver* observer : observers_) observer->on_strike(message);
 }
 
@@ -104,10 +104,10 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 void Line::host_purged() {
   due_changed();
   for (LineObserver* observer : observers_) observer->on_host_purged();
-  take_back_unsent();
+  discard_unsent();
 }
 
-void Line::take_back_unsent() {
+void Line::discard_unsent() {
   if (state_.input.empty()) return;
   // The first character is on the wire, and characters of the previous host are not this host's to take
   // back.
@@ -257,13 +257,13 @@ void Line::begin_character(SimTime at) {
     member.is_deaf = false;
     if (is_speed_known) {
       const LineSettings expected = stations_[i]->settings();
-      member.is_deaf = !hears(expected, *settings, options_.baud_tolerance_ppm);
+      member.is_deaf = !accepts(expected, *settings, options_.baud_tolerance_ppm);
       if (member.is_deaf) warn_deaf(i, *settings, expected);
     }
     if (member.is_deaf) {
       ++deaf;
     } else if (!is_instant()) {
-      stations_[i]->hear_start_bit(at);
+      stations_[i]->on_start_bit(at);
     }
   }
   state_.is_heard = deaf == 0 || deaf < stations_.size();
@@ -283,7 +283,7 @@ void Line::deliver_characters() {
   if (!is_of_lump()) return;
   const bool begun_departed = is_departed();
   for (std::size_t left = quiet_characters(); left > 0; --left) {
-    tell_character();
+    report_character();
     if (left > 1 && is_of_lump() && is_departed() == begun_departed) {
       if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;  // as the character before
       continue;
@@ -295,23 +295,23 @@ void Line::deliver_characters() {
 
 /// Returns how many characters may be delivered before stations and observers must be asked for due().
 std::size_t Line::quiet_characters() const {
-  std::size_t least = kInputCapacity;
-  for (const LineObserver* observer : observers_) least = std::min(least, observer->quiet_characters());
-  for (const Station* station : stations_) least = std::min(least, station->quiet_characters());
-  return least;
+  std::size_t min = kInputCapacity;
+  for (const LineObserver* observer : observers_) min = std::min(min, observer->quiet_characters());
+  for (const Station* station : stations_) min = std::min(min, station->quiet_characters());
+  return min;
 }
 
 /// Delivers a character that has wholly arrived. If another one waits, it begins at that moment.
 void Line::deliver_character() {
-  tell_character();
+  report_character();
   if (!state_.input.empty()) begin_character(state_.input.front().start);
 }
 
-void Line::tell_character() {
+void Line::report_character() {
   const TimedByte byte = state_.input.front();
   state_.input.pop_front();
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    if (!state_.members[i].is_deaf) stations_[i]->hear(byte);
+    if (!state_.members[i].is_deaf) stations_[i]->receive(byte);
   }
   for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_heard);
   const bool echoes = options_.echoes || state_.adapter.echoes;
@@ -322,11 +322,11 @@ void Line::tell_character() {
 // --- from the stations -------------------------------------------------------------------------
 
 void Line::run_station(std::size_t index) {
-  Voice voice(*this, index);
+  LineTransmitter voice(*this, index);
   stations_[index]->run(state_.edge.clock, voice);
 }
 
-void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening) {
+void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening) {
   if (bytes.empty()) return;
   Member& member = state_.members[index];
   const SimTime clock = state_.edge.clock;
@@ -358,7 +358,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   }
   if (!bytes.empty()) {
     for (LineObserver* observer : observers_) {
-      observer->on_speech({bytes, first_start, has_collided, is_anybody_listening});
+      observer->on_transmission({bytes, first_start, has_collided, is_anybody_listening});
     }
   }
   if (!has_collided) return;
@@ -400,7 +400,7 @@ void Line::notify_others(std::size_t speaker) {
   --notices_;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const bool is_talking = !is_instant() && state_.members[i].speech.end > state_.edge.clock;
-    if (i != speaker && !is_talking) stations_[i]->hear_other_station();
+    if (i != speaker && !is_talking) stations_[i]->on_other_station();
   }
 }
 

@@ -81,7 +81,7 @@ class Line {
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
   /// Passes the strike to the observers. It has no other effect.
-  void tell_strike(const StruckMessage& message);
+  void report_strike(const StruckMessage& message);
 
   // --- the host's side -----------------------------------------------------------------------
   /// Returns how many bytes receive() can take now. The rest must wait in the pty, because buffers are
@@ -183,7 +183,7 @@ class Line {
   void restore(const State& state);
 
  private:
-  class Voice;
+  class LineTransmitter;
   enum class What : std::uint8_t {
     nothing,
     character_in,
@@ -208,16 +208,16 @@ class Line {
   void begin_character(SimTime at);
   void deliver_characters();
   void deliver_character();
-  void tell_character();
+  void report_character();
   std::size_t quiet_characters() const;
   void run_station(std::size_t index);
-  void say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
+  void transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
   void leave_wire(std::span<const std::uint8_t> bytes);
   void give_lump();
   void give_host(std::span<const std::uint8_t> bytes);
-  void take_back_unsent();
+  void discard_unsent();
   void warn_once(bool& has_warned, std::string_view what);
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 

@@ -17,7 +17,7 @@ void Line::set_adapter(const Adapter& adapter) {
   due_changed();
   state_.adapter = adapter;
   if (adapter.is_unplugged) {
-    take_back_unsent();
+    discard_unsent();
     state_.leaving.clear();
     state_.lump.clear();
     state_.lump_at.reset();

@@ -13,7 +13,7 @@
 namespace understudy::pty {
 
 /// One transmission of a station.
-struct Speech {
+struct Transmission {
   std::span<const std::uint8_t> bytes;  // as the station sent them
   SimTime start{0};                     // of the first character
   bool has_collided = false;            // overlapped another station's transmission
@@ -31,7 +31,7 @@ struct Strike {
 struct StruckMessage {
   SimTime time{0};
   bool is_reply = false;  // otherwise a request
-  bool is_said = false;   // a reply that follows at once, as the faults have changed it
+  bool is_sent = false;   // a reply that follows at once, as the faults have changed it
   std::span<const Strike> strikes;
 };
 
@@ -54,7 +54,7 @@ class LineObserver {
   virtual void on_host_settings(const std::optional<HostSettings>& /*settings*/) {}
 
   /// A station has begun to transmit.
-  virtual void on_speech(const Speech& speech) = 0;
+  virtual void on_transmission(const Transmission& transmission) = 0;
 
   /// The buffer for the host is full: the next byte is lost unless the observer takes some of the output
   /// now.

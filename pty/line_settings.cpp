@@ -29,7 +29,7 @@ std::string to_string(const HostSettings& settings) {
          (settings.stop_bits == 1 ? "" : "s");
 }
 
-bool hears(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm) {
+bool accepts(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm) {
   return is_within(host.baud, receiver.baud, baud_tolerance_ppm) && host.stop_bits == receiver.stop_bits &&
          host.data_bits.value_or(receiver.data_bits) == receiver.data_bits &&
          host.parity.value_or(receiver.parity) == receiver.parity;

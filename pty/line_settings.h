@@ -57,7 +57,7 @@ struct HostSettings {
 };
 
 /// Returns true if a receiver with these settings understands the host.
-bool hears(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm);
+bool accepts(const LineSettings& receiver, const HostSettings& host, std::int64_t baud_tolerance_ppm);
 
 /// Returns "9600 8N1", or "9600 baud, 1 stop bit" if parity and data bits are unknown.
 std::string to_string(const HostSettings& settings);

@@ -19,7 +19,7 @@ void Line::check(const State& state) const {
   const LineSettings& settings = state.settings;
   require(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
               settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
-          "its settings are not possible for a line");
+          "its settings are not valid for a line");
   require(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
           "more bytes are waiting than it can hold");
   const auto require_burst = [&](const Burst& burst) {

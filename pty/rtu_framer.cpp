@@ -142,7 +142,7 @@ void RtuFramer::push(const TimedByte& byte) {
   if (std::exchange(state_.is_paused, false)) state_.resumed = used();
   state_.characters.push_back({byte.value, byte.end, byte.number});
   if (!framing_.strict && used() - state_.candidate >= state_.search_again_at) search();
-  if (state_.resumed != 0) look_behind_pause();
+  if (state_.resumed != 0) check_after_pause();
 }
 
 void RtuFramer::reset() {
@@ -196,7 +196,7 @@ void RtuFramer::give_up_as_overlong(Index index) {
 }
 
 /// The characters since the last pause may be a frame, if the host has given up the one before.
-void RtuFramer::look_behind_pause() {
+void RtuFramer::check_after_pause() {
   if (state_.resumed <= state_.undecided) return;  // decided in the meantime
   const Verdict verdict = judge(bytes(state_.resumed, used()), true);
   if (verdict.fit != Fit::good) return;

@@ -51,7 +51,7 @@ class RtuFramer {
  public:
   explicit RtuFramer(RtuFraming framing = {});
 
-  /// A character has begun (Station::hear_start_bit): the silence is over before the character is. Optional:
+  /// A character has begun (Station::on_start_bit): the silence is over before the character is. Optional:
   /// without it only the times of push() count, and take() may end a frame in the middle of a character.
   void start_bit(SimTime at);
   /// Adds a character. Characters must be added in chronological order.
@@ -173,7 +173,7 @@ class RtuFramer {
   bool is_silent(SimTime at) const;
   void be_silent_until(SimTime at);
   void search();
-  void look_behind_pause();
+  void check_after_pause();
   void end_of_silence();
   bool take_whole(Index first);
   bool take_good_ones();

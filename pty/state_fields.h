@@ -17,8 +17,8 @@ struct StateOf<pty::Parity> {
 };
 
 template <>
-struct StateOf<pty::HeardText::What> {
-  static constexpr auto last = pty::HeardText::What::go_on;
+struct StateOf<pty::ReceivedText::What> {
+  static constexpr auto last = pty::ReceivedText::What::release;
 };
 
 template <>
@@ -164,8 +164,8 @@ template <>
 struct StateOf<pty::TextLines> : StateHeldBy<pty::TextLines> {};
 
 template <>
-struct StateOf<pty::HeardText> {
-  using Value = pty::HeardText;
+struct StateOf<pty::ReceivedText> {
+  using Value = pty::ReceivedText;
   static constexpr auto fields = FieldList{field<&Value::what>(), field<&Value::text>(), field<&Value::end>(),
                                            field<&Value::last_character>()};
 };

@@ -43,10 +43,10 @@ class Station {
   /// A character from the host has started; hear() follows when it has ended. Called only if characters take
   /// time. Without it a silence rule could not distinguish a short gap from a long one: the character that
   /// ends the gap is received a whole character time after its start bit.
-  virtual void hear_start_bit(SimTime /*at*/) {}
+  virtual void on_start_bit(SimTime /*at*/) {}
 
   /// A character from the host has wholly arrived.
-  virtual void hear(const TimedByte& byte) = 0;
+  virtual void receive(const TimedByte& byte) = 0;
 
   /// Returns how many more characters may arrive at one moment before due() has to be asked again: the
   /// station may be due at that moment only after the last of them. 0: it may be due already.
@@ -54,7 +54,7 @@ class Station {
 
   /// Another station has begun to transmit: its first character is over. Called once for a transmission; its
   /// bytes are not delivered (see Line).
-  virtual void hear_other_station() = 0;
+  virtual void on_other_station() = 0;
 
   /// The clock is stopped, and no more characters have arrived for a while: the station abandons an
   /// incomplete request.

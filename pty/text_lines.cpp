@@ -22,14 +22,14 @@ TextLines::Outcome TextLines::push(const TimedByte& byte, const TextLineRules& r
   const auto character = static_cast<char>(byte.value);
   Outcome outcome;
   if (rules.has_flow_control && (character == kXon || character == kXoff)) {
-    const auto what = character == kXoff ? HeardText::What::hold : HeardText::What::go_on;
-    outcome.heard = HeardText{.what = what, .end = byte.end, .last_character = byte.number};
+    const auto what = character == kXoff ? ReceivedText::What::hold : ReceivedText::What::release;
+    outcome.received = ReceivedText{.what = what, .end = byte.end, .last_character = byte.number};
     return outcome;
   }
   const bool is_behind_return = std::exchange(state_.was_return, character == '\r');
   if (character == '\n' && !rules.line_feed_ends) return outcome;
-  const auto hear = [&](HeardText::What what) {
-    outcome.heard = HeardText{
+  const auto report = [&](ReceivedText::What what) {
+    outcome.received = ReceivedText{
         .what = what, .text = std::exchange(state_.text, {}), .end = byte.end, .last_character = byte.number};
     state_.is_overlong = false;
   };
@@ -37,13 +37,13 @@ TextLines::Outcome TextLines::push(const TimedByte& byte, const TextLineRules& r
   if (character == '\r' || character == '\n') {
     const bool is_empty = state_.text.empty() && !state_.is_overlong;
     if (character == '\n' && (is_behind_return || is_empty)) return outcome;
-    hear(state_.is_overlong ? HeardText::What::overlong : HeardText::What::line);
+    report(state_.is_overlong ? ReceivedText::What::overlong : ReceivedText::What::line);
     outcome.echo = rules.echoed_end;
     return outcome;
   }
   if (character == kEscape) {
     state_.dropped += std::exchange(state_.text, {}).size();
-    hear(HeardText::What::escape);
+    report(ReceivedText::What::escape);
     return outcome;
   }
   if (rules.echoes && (character == kBackspace || character == kDelete)) {

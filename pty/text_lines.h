@@ -27,8 +27,8 @@ struct TextLineRules {
 };
 
 /// The effect of one character.
-struct HeardText {
-  enum class What : std::uint8_t { line, overlong, escape, hold, go_on } what = What::line;
+struct ReceivedText {
+  enum class What : std::uint8_t { line, overlong, escape, hold, release } what = What::line;
   std::string text{};                // of a line, without its end
   SimTime end{0};                    // when its last character was over
   std::uint64_t last_character = 0;  // its number
@@ -37,7 +37,7 @@ struct HeardText {
 class TextLines {
  public:
   struct Outcome {
-    std::optional<HeardText> heard{};
+    std::optional<ReceivedText> received{};
     std::string echo{};  // the text that an echoing device sends back for this character
   };
   /// Takes a character. The rules may change from one character to the next.

@@ -130,7 +130,7 @@ std::string the(ContentKind kind) {
 }
 
 ContentKind content_of(std::string_view head) {
-  head = head.substr(0, kReplyTaskBytes);
+  head = head.substr(0, kSniffedBytes);
   for (const KindRow& row : kKinds) {
     if (fits(row, head)) return row.kind;
   }
@@ -139,7 +139,7 @@ ContentKind content_of(std::string_view head) {
 
 bool is_of_kind(ContentKind kind, std::string_view head) {
   if (head.empty()) return true;
-  head = head.substr(0, kReplyTaskBytes);
+  head = head.substr(0, kSniffedBytes);
   for (const KindRow& row : kKinds) {
     if (row.kind == kind && (fits(row, head) || is_torn(row, head))) return true;
   }

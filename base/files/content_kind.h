@@ -35,14 +35,14 @@ enum class ContentKind : std::uint8_t {
 };
 
 /// The number of leading bytes needed to recognize a file.
-inline constexpr std::size_t kReplyTaskBytes = std::size_t{64} << 10;
+inline constexpr std::size_t kSniffedBytes = std::size_t{64} << 10;
 
 /// Returns the name with an indefinite article: "a recording".
 std::string_view name_of(ContentKind kind);
 /// Returns the name with a definite article: "the recording".
 std::string the(ContentKind kind);
 
-/// Returns the kind of a file. `head` is the whole file, or at least its first kReplyTaskBytes.
+/// Returns the kind of a file. `head` is the whole file, or at least its first kSniffedBytes.
 ContentKind content_of(std::string_view head);
 /// Returns true if `head` begins a file of `kind`, or could once more is written: it is empty, or was cut off
 /// within its first words.

@@ -54,7 +54,7 @@ void require_own_way(const fs::path& absolute) {
 
 /// Returns the beginning of an open file. Throws OutputError.
 std::string head_of(int file) {
-  std::string head(kReplyTaskBytes, '\0');
+  std::string head(kSniffedBytes, '\0');
   const ssize_t size = ::pread(file, head.data(), head.size(), 0);
   if (size < 0) throw OutputError("it cannot be read: " + error_text(errno));
   head.resize(static_cast<std::size_t>(size));
@@ -171,7 +171,7 @@ void OutputFile::begin(std::string_view head) {
   if (const int error = write(head); error != 0) throw OutputError(error_text(error));
 }
 
-void OutputFile::go_on(std::uint64_t size) {
+void OutputFile::continue_at(std::uint64_t size) {
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(file_.get(), end) != 0 || ::lseek(file_.get(), end, SEEK_SET) != end) {
     throw OutputError(error_text(errno));

@@ -70,7 +70,7 @@ class OutputFile {
   /// run does not start with an output that fails.
   void begin(std::string_view head);
   /// Keeps the first `size` bytes of the old content and continues after them. Throws OutputError.
-  void go_on(std::uint64_t size);
+  void continue_at(std::uint64_t size);
   /// Writes the whole piece and returns 0, or writes none of it and returns the error number: half a packet
   /// would spoil the packets before it.
   int write(std::string_view piece);

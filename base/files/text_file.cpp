@@ -134,7 +134,7 @@ FileText read_text_of(int descriptor) {
 std::string head_of_file(const std::string& path) {
   std::string why;
   const Descriptor file = open_regular(path, why);
-  std::string head(kReplyTaskBytes, '\0');
+  std::string head(kSniffedBytes, '\0');
   const ssize_t size = file ? ::pread(file.get(), head.data(), head.size(), 0) : 0;
   head.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
   return head;

@@ -8,12 +8,12 @@
 
 namespace understudy::state_fields {
 
-std::string told(const std::string& path, const std::string& what) {
+std::string difference_text(const std::string& path, const std::string& what) {
   return path.empty() ? what : path + ": " + what;
 }
 
-std::string told(const std::string& path, const std::string& a, const std::string& b) {
-  return told(path, a + " against " + b);
+std::string difference_text(const std::string& path, const std::string& a, const std::string& b) {
+  return difference_text(path, a + " against " + b);
 }
 
 std::string path_to(const std::string& path, std::string_view name) {

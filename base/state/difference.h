@@ -22,8 +22,8 @@ std::string first_difference(const T& a, const T& b, const std::string& path = "
 namespace state_fields {
 
 /// Returns "path: a against b", without "path: " if the path is empty.
-std::string told(const std::string& path, const std::string& a, const std::string& b);
-std::string told(const std::string& path, const std::string& what);
+std::string difference_text(const std::string& path, const std::string& a, const std::string& b);
+std::string difference_text(const std::string& path, const std::string& what);
 /// Returns "path.name" or "path[name]".
 std::string path_to(const std::string& path, std::string_view name);
 std::string path_to_element(const std::string& path, const std::string& name);
@@ -61,8 +61,8 @@ std::string difference_in_row(const T& a, const T& b, const std::string& path, E
   const auto size_a = static_cast<std::size_t>(a.size());
   const auto size_b = static_cast<std::size_t>(b.size());
   if (size_a != size_b) {
-    return told(path, number_text(std::uint64_t{size_a}) + " elements",
-                number_text(std::uint64_t{size_b}) + " elements");
+    return difference_text(path, number_text(std::uint64_t{size_a}) + " elements",
+                           number_text(std::uint64_t{size_b}) + " elements");
   }
   for (std::size_t i = 0; i < size_a; ++i) {
     using Index = std::conditional_t<std::is_signed_v<decltype(a.size())>, std::ptrdiff_t, std::size_t>;
@@ -84,7 +84,7 @@ std::string difference_in_map(const T& a, const T& b, const std::string& path) {
   auto of_b = b.begin();
   for (const auto& [key, value] : a) {
     if (of_b == b.end() || key < of_b->first)
-      return told(path_to_element(path, value_text(key)), "something", "nothing");
+      return difference_text(path_to_element(path, value_text(key)), "something", "nothing");
     if (of_b->first < key) break;
     if (auto found = first_difference(value, of_b->second, path_to_element(path, value_text(key)));
         !found.empty()) {
@@ -92,7 +92,9 @@ std::string difference_in_map(const T& a, const T& b, const std::string& path) {
     }
     ++of_b;
   }
-  return of_b == b.end() ? "" : told(path_to_element(path, value_text(of_b->first)), "nothing", "something");
+  return of_b == b.end()
+             ? ""
+             : difference_text(path_to_element(path, value_text(of_b->first)), "nothing", "something");
 }
 
 template <class Named, class T>
@@ -139,16 +141,17 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
     return first_difference(static_cast<std::underlying_type_t<T>>(a),
                             static_cast<std::underlying_type_t<T>>(b), path);
   } else if constexpr (Numeric<T>) {
-    return as_bits(a) == as_bits(b) ? "" : told(path, value_text(a), value_text(b));
+    return as_bits(a) == as_bits(b) ? "" : difference_text(path, value_text(a), value_text(b));
   } else if constexpr (kIsTime<T>) {
     return first_difference(a.count(), b.count(), path);
   } else if constexpr (kIsOptional<T>) {
     if (a.has_value() != b.has_value()) {
-      return a ? told(path, "something", "nothing") : told(path, "nothing", "something");
+      return a ? difference_text(path, "something", "nothing")
+               : difference_text(path, "nothing", "something");
     }
     return a ? first_difference(*a, *b, path) : "";
   } else if constexpr (std::is_same_v<T, std::string>) {
-    return a == b ? "" : told(path, text_in_quotes(a), text_in_quotes(b));
+    return a == b ? "" : difference_text(path, text_in_quotes(a), text_in_quotes(b));
   } else if constexpr (kIsMap<T>) {
     return difference_in_map(a, b, path);
   } else if constexpr (HasFields<T>) {
@@ -156,8 +159,9 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
   } else if constexpr (Row<T>) {
     return difference_in_row(a, b, path, nullptr);
   } else {
-    if constexpr (requires { StateOf<T>::told(a); }) {
-      if (auto found = first_difference(StateOf<T>::told(a), StateOf<T>::told(b), path); !found.empty()) {
+    if constexpr (requires { StateOf<T>::reported(a); }) {
+      if (auto found = first_difference(StateOf<T>::reported(a), StateOf<T>::reported(b), path);
+          !found.empty()) {
         return found;
       }
     }
@@ -165,7 +169,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
     StateWriter of_b;
     StateOf<T>::write(a, of_a);
     StateOf<T>::write(b, of_b);
-    return of_a.take() == of_b.take() ? "" : told(path, "other bytes");
+    return of_a.take() == of_b.take() ? "" : difference_text(path, "other bytes");
   }
 }
 

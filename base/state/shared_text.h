@@ -48,7 +48,7 @@ struct StateOf<SharedText> {
   static void read(SharedText& value, Reader& reader) {
     reader.read_shared(value);
   }
-  static const std::string& told(const SharedText& value) { return value.text(); }
+  static const std::string& reported(const SharedText& value) { return value.text(); }
 };
 
 }  // namespace understudy

@@ -252,7 +252,7 @@ struct StateHeldBy {
     reader.read(state);
     value.restore(state);
   }
-  static const auto& told(const T& value) { return value.save(); }
+  static const auto& reported(const T& value) { return value.save(); }
 };
 
 // These functions are outside their classes so that a library can instantiate those of its big types once

@@ -15,8 +15,8 @@ inline void require_state(bool holds, const char* what) {
   if (!holds) throw StateError(what);
 }
 
-inline void require_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
-  require_state(value >= least && value <= greatest, "a number is out of range");
+inline void require_within(std::int64_t value, std::int64_t min, std::int64_t max) {
+  require_state(value >= min && value <= max, "a number is out of range");
 }
 
 /// Throws StateError if a count of pulses, ticks or nanoseconds is so large that sums and differences of a

@@ -45,7 +45,7 @@ std::uint64_t letters_of(std::string_view word) {
 }
 
 /// Returns a lower bound of the distance: each missing or extra letter is a change.
-std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::string_view b) {
+std::size_t min_distance(std::string_view a, std::uint64_t letters_of_a, std::string_view b) {
   const std::size_t longer = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
   const std::uint64_t letters_of_b = letters_of(b);
   return std::max({longer, static_cast<std::size_t>(std::popcount(letters_of_a & ~letters_of_b)),
@@ -71,25 +71,25 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   Row* above = &rows[1];
   Row* two_above = &rows[2];
   std::iota(row->begin(), row->end(), std::size_t{0});
-  std::size_t least_above = 0;
+  std::size_t min_above = 0;
   char letter_before = 0;
   for (std::size_t i = 1; i <= b.size(); ++i) {
     std::swap(two_above, above);
     std::swap(above, row);
     const char letter = small(b[i - 1]);
     (*row)[0] = i;
-    std::size_t least = i;
+    std::size_t min = i;
     for (std::size_t j = 1; j <= a.size(); ++j) {
       std::size_t changes = (*above)[j - 1] + (a[j - 1] == letter ? 0 : 1);
       changes = std::min({changes, (*above)[j] + 1, (*row)[j - 1] + 1});
       const bool is_swapped = i > 1 && j > 1 && a[j - 1] == letter_before && a[j - 2] == letter;
       if (is_swapped) changes = std::min(changes, (*two_above)[j - 2] + 1);
       (*row)[j] = changes;
-      least = std::min(least, changes);
+      min = std::min(min, changes);
     }
     // The next rows are computed from these two.
-    if (std::min(least, least_above) >= limit) return limit;
-    least_above = least;
+    if (std::min(min, min_above) >= limit) return limit;
+    min_above = min;
     letter_before = letter;
   }
   return std::min((*row)[a.size()], limit);
@@ -109,20 +109,20 @@ std::optional<std::string> beginning_of(const std::string& written, std::span<co
 std::optional<std::string> near_word(std::string_view word, std::span<const std::string> known) {
   if (word.empty() || word.size() > kLongestWord) return std::nullopt;
   const std::string written = small(word);
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t min = std::max<std::size_t>(1, word.size() / 3) + 1;
   const std::uint64_t letters = letters_of(written);
   std::vector<std::size_t> bounds;  // a lower bound of each word's distance
   bounds.reserve(known.size());
-  for (const std::string& candidate : known) bounds.push_back(least_distance(written, letters, candidate));
+  for (const std::string& candidate : known) bounds.push_back(min_distance(written, letters, candidate));
   const auto limit_of = [&](const std::string& candidate) {
-    return std::min(least, candidate.size());  // at least one letter of a short word must match
+    return std::min(min, candidate.size());  // at least one letter of a short word must match
   };
   if (!known.empty()) {
     // Start with the most similar word: the others then seldom need the full computation.
     const auto first = static_cast<std::size_t>(std::ranges::min_element(bounds) - bounds.begin());
     const std::size_t limit = limit_of(known[first]);
-    if (bounds[first] >= least) return beginning_of(written, known);
-    if (const std::size_t apart = distance(written, known[first], limit); apart < limit) least = apart + 1;
+    if (bounds[first] >= min) return beginning_of(written, known);
+    if (const std::size_t apart = distance(written, known[first], limit); apart < limit) min = apart + 1;
   }
   const std::string* nearest = nullptr;
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -131,7 +131,7 @@ std::optional<std::string> near_word(std::string_view word, std::span<const std:
     if (bounds[i] >= limit) continue;
     const std::size_t apart = distance(written, candidate, limit);
     if (apart >= limit) continue;
-    least = apart;
+    min = apart;
     nearest = &candidate;
   }
   return nearest != nullptr ? std::optional(*nearest) : beginning_of(written, known);

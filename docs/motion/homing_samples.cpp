@@ -74,9 +74,10 @@ void write_homing_samples(const std::filesystem::path& folder) {
                                    .offset_pulses = 0}));
   }
   std::ofstream others(folder / "homing_others.dat");
-  trace(others,
-        rsm8194h_homing(
-            {.ways = {+1, +1, -1, +1}, .drive = speed(12000), .home = speed(3000), .offset_pulses = 1500}));
+  trace(others, rsm8194h_homing({.directions = {+1, +1, -1, +1},
+                                 .drive = speed(12000),
+                                 .home = speed(3000),
+                                 .offset_pulses = 1500}));
   trace(others, simple2_homing({.direction = +1, .speed = speed(12000)}));
   trace(others, simple2_homing({.direction = -1, .speed = speed(12000)}));
   trace(others, slim_homing({.direction = +1, .jog = speed(12000)}));

@@ -135,39 +135,39 @@ std::string before(const std::string& text, std::string_view end) { return text.
 std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const Walk found = walk(app, argc, argv);
   if (!found.diagnostic.empty()) return found.diagnostic;
-  const std::string told = error.what();
+  const std::string message = error.what();
   const std::string& kind = error.get_name();
   const std::string where = path_of(*found.command);
   if (kind == "RequiredError") {
-    const std::string what = before(told, " is required");
+    const std::string what = before(message, " is required");
     if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // its name is that of the command
     return where + quoted(first_left(app, argc, argv)) + " is one argument too many; expected nothing more";
   if (kind == "ExcludesError") {
-    const std::string first = before(told, " excludes ");
-    return where + first + " and " + told.substr(first.size() + std::string_view(" excludes ").size()) +
+    const std::string first = before(message, " excludes ");
+    return where + first + " and " + message.substr(first.size() + std::string_view(" excludes ").size()) +
            " cannot be combined; expected one of the two";
   }
   if (kind == "ArgumentMismatch") {
-    if (told.find("At Most") != std::string::npos)
-      return before(told, ":") + ": is given twice; expected it once";
-    if (told.find("flag override") == std::string::npos)
-      return before(told, ":") + ": has no value; expected one";
-    return before(told, " was given") + ": has a value; expected none";
+    if (message.find("At Most") != std::string::npos)
+      return before(message, ":") + ": is given twice; expected it once";
+    if (message.find("flag override") == std::string::npos)
+      return before(message, ":") + ": has no value; expected one";
+    return before(message, " was given") + ": has a value; expected none";
   }
   if (kind == "ConversionError") {
     constexpr std::string_view kBegin = "Could not convert: ";
-    if (!told.starts_with(kBegin)) return before(told, ":") + ": has a value; expected none";
-    const std::string name = before(told.substr(kBegin.size()), " = ");
+    if (!message.starts_with(kBegin)) return before(message, ":") + ": has a value; expected none";
+    const std::string name = before(message.substr(kBegin.size()), " = ");
     const CLI::Option* const option = flag_called(*found.command, name);
     if (option != nullptr && option->get_items_expected_max() == 0)
       return name + ": has a value; expected none";
-    return name + ": " + quoted(told.substr(kBegin.size() + name.size() + 3)) +
+    return name + ": " + quoted(message.substr(kBegin.size() + name.size() + 3)) +
            " is not a whole number, or too large; expected a whole number";
   }
-  return told;
+  return message;
 }
 
 }  // namespace understudy::emulator::command_line

@@ -19,7 +19,7 @@
 #include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/input_log.h"
-#include "emulator/box/compare/stand.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/text_argument.h"
 #include "emulator/device/device.h"
@@ -65,12 +65,12 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
 }
 
 /// The number of the only station on the line; nothing if it has several, or speaks text.
-std::optional<std::uint8_t> only_station(const box::Stand& stand) {
+std::optional<std::uint8_t> only_station(const box::ReplayBench& replay) {
   std::optional<std::uint8_t> only;
-  for (const auto& station : stand.line().stations) {
+  for (const auto& station : replay.line().stations) {
     const ModbusStation* const modbus = station->device().modbus();
     for (int number = 0; modbus != nullptr && number < 256; ++number) {
-      if (modbus->addressing(static_cast<std::uint8_t>(number)) != Addressing::obey_and_reply) continue;
+      if (modbus->addressing(static_cast<std::uint8_t>(number)) != Addressing::execute_and_reply) continue;
       if (only) return {};
       only = static_cast<std::uint8_t>(number);
     }
@@ -88,9 +88,9 @@ void set_station(box::CapturedBytes& frame, std::uint8_t number) {
 /// Takes out requests to stations that the bench does not have. Masters of Modbus TCP call a device that is
 /// alone at its address 0 or 255.
 void keep_stations_of(const world::Bench& bench, std::size_t line, box::Capture& capture) {
-  const box::Stand stand(bench, line);
+  const box::ReplayBench replay(bench, line);
   std::set<int> others;
-  const auto only = only_station(stand);
+  const auto only = only_station(replay);
   std::erase_if(capture.exchanges, [&](box::Exchange& exchange) {
     if (exchange.request.empty()) return true;
     const bool is_anyone = exchange.request[0] == 0 || exchange.request[0] == 255;
@@ -98,7 +98,7 @@ void keep_stations_of(const world::Bench& bench, std::size_t line, box::Capture&
       set_station(exchange.request, *only);
       set_station(exchange.reply, *only);
     }
-    if (stand.bank_of(exchange.request) != nullptr) return false;
+    if (replay.bank_of(exchange.request) != nullptr) return false;
     others.insert(exchange.request[0]);
     ++capture.notes.elsewhere;
     return true;
@@ -185,7 +185,7 @@ std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
 std::string why_no_capture_is_expected(std::string_view head, ContentKind expected) {
   if (std::string why = is_another_kind(head, expected); !why.empty()) return why;
   if (content_of(head) == expected) return "";
-  const std::string format = box::capture_format(std::string(head.substr(0, kReplyTaskBytes)));
+  const std::string format = box::capture_format(std::string(head.substr(0, kSniffedBytes)));
   return format.empty()
              ? ""
              : "is " + format + ", for `understudy compare`; expected " + std::string(name_of(expected));

@@ -21,8 +21,8 @@
 #include "emulator/command_line/text_argument.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/memory/nv_image.h"
-#include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
+#include "emulator/device/more_mistakes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 #include "emulator/play/reading/scenario_file.h"
@@ -68,7 +68,7 @@ class Warnings {
  public:
   void add(const std::vector<FileError::Diagnostic>& odd, const std::string& file) {
     for (const FileError::Diagnostic& each : odd) {
-      if (!told_.insert(each.text).second) continue;
+      if (!reported_.insert(each.text).second) continue;
       findings_.push_back(finding_of(each, file));
       findings_.back().is_warning = true;
     }
@@ -76,7 +76,7 @@ class Warnings {
   std::vector<Finding> take() { return std::move(findings_); }
 
  private:
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
   std::vector<Finding> findings_;
 };
 

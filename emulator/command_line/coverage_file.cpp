@@ -102,7 +102,7 @@ void CoverageFile::write_listings() {
   report_ = std::move(placed);
 }
 
-bool CoverageFile::write(std::FILE* told) {
+bool CoverageFile::write(std::FILE* out) {
   if (file_.is_wanted()) {
     write_listings();
     file_.write(is_xml(wish_.path)    ? world::cobertura_text(report_)
@@ -113,11 +113,11 @@ bool CoverageFile::write(std::FILE* told) {
   std::string line = "coverage of programs: " + play::coverage_text(totals);
   const bool is_enough = !wish_.min_percent || totals.line_percent() >= *wish_.min_percent;
   if (!is_enough) {
-    char least[32];
-    std::snprintf(least, sizeof least, "%g", *wish_.min_percent);
-    line += std::string("; expected at least ") + least + " % of the lines";
+    char min[32];
+    std::snprintf(min, sizeof min, "%g", *wish_.min_percent);
+    line += std::string("; expected at least ") + min + " % of the lines";
   }
-  std::fprintf(told, "%s\n", line.c_str());
+  std::fprintf(out, "%s\n", line.c_str());
   return is_enough;
 }
 
@@ -140,9 +140,9 @@ std::vector<play::ObserverMaker> RunCoverage::observers(const play::Scenario& sc
   return makers;
 }
 
-bool RunCoverage::write(std::FILE* told) {
-  const bool is_enough = !programs.is_wanted() || programs.write(told);
-  if (devices.is_wanted()) devices.write(told);
+bool RunCoverage::write(std::FILE* out) {
+  const bool is_enough = !programs.is_wanted() || programs.write(out);
+  if (devices.is_wanted()) devices.write(out);
   return is_enough;
 }
 

@@ -48,7 +48,7 @@ class CoverageFile {
   play::ObserverMaker observer(const play::Scenario& scenario);
   /// Writes the file, and next to it the listings of programs that have no file of their own. Prints what has
   /// run. Returns false if that is less than the minimum.
-  bool write(std::FILE* told);
+  bool write(std::FILE* out);
   /// Returns what was written.
   const world::CoverageReport& report() const { return report_; }
 
@@ -71,7 +71,7 @@ struct RunCoverage {
   /// Returns observers that add the counts of a scenario's run.
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
   /// Returns false if there is less than the minimum.
-  bool write(std::FILE* told);
+  bool write(std::FILE* out);
   /// Returns the coverage of programs as a section of a page; empty if it was not requested.
   std::string section() const;
 

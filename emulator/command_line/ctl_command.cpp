@@ -17,7 +17,7 @@
 #include "emulator/command_line/ctl_looks.h"
 #include "emulator/command_line/ctl_scope.h"
 #include "emulator/command_line/text_argument.h"
-#include "emulator/device/mistakes_told.h"
+#include "emulator/device/more_mistakes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/value_text.h"

@@ -35,8 +35,8 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMostRefused = 8;  // at a time; others are closed without a word
-constexpr int kLookMs = 500;             // between checks for signals and ended sessions
+constexpr std::size_t kMaxRefused = 8;  // at a time; others are closed without a word
+constexpr int kLookMs = 500;            // between checks for signals and ended sessions
 
 std::string text_in(const dap::Json& arguments, const char* key) {
   const std::string text = dap::text_or(arguments, key);
@@ -127,7 +127,7 @@ void serve_clients(const std::vector<Descriptor>& listeners) {
               dap::serve_session(client.get(), client.get(), launch_or_attach, is_interrupted);
           if (!why.empty()) log_line("dap: " + why);
         }));
-      } else if (refusing.size() < kMostRefused) {
+      } else if (refusing.size() < kMaxRefused) {
         refusing.push_back(start_beside([&] {
           dap::refuse_session(client.get(), "another client is being served; expected one at a time");
         }));

@@ -59,10 +59,10 @@ play::ObserverMaker DeviceCoverageFile::observer() {
   return [this](world::World& world) { return std::make_unique<DeviceObserver>(world, *this); };
 }
 
-void DeviceCoverageFile::write(std::FILE* told) {
+void DeviceCoverageFile::write(std::FILE* out) {
   if (is_wanted())
     file_.write(is_device_page(path_) ? play::touched_page(report_, version_) : world::json_text(report_));
-  std::fprintf(told, "%s", play::touched_text(report_).c_str());
+  std::fprintf(out, "%s", play::touched_text(report_).c_str());
 }
 
 }  // namespace understudy::emulator::command_line

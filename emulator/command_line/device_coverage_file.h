@@ -29,7 +29,7 @@ class DeviceCoverageFile {
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer();
   /// Writes the file, if one is wanted, and prints the largest gaps.
-  void write(std::FILE* told);
+  void write(std::FILE* out);
 
  private:
   const std::string path_;

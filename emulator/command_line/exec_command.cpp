@@ -59,7 +59,7 @@ void require_host_time(const ExecArguments& arguments) {
 }
 
 /// Prints the verdicts of the scenario and returns its exit code.
-int tell_of(const CourseEnd& end, const play::Scenario& scenario) {
+int report(const CourseEnd& end, const play::Scenario& scenario) {
   if (end.was_given_up) {
     std::fprintf(stderr, "understudy: exec: %s: did not run to its end\n", one_line(scenario.file).c_str());
     return kExitFailed;
@@ -108,7 +108,7 @@ Outcome play(const ExecArguments& arguments, const Serving& serving, serve::Priv
                                     .timeout = parse_timeout(arguments.timeout),
                                     .scenario = scenario ? &*scenario : nullptr},
                                    arguments.serve, signals);
-  const int scenario_code = scenario ? tell_of(end, *scenario) : static_cast<int>(kExitWell);
+  const int scenario_code = scenario ? report(end, *scenario) : static_cast<int>(kExitWell);
   const int code = exit_code_of(arguments, end);
   return {.code = code != kExitWell ? code : scenario_code, .was_interrupted = end.was_interrupted};
 }

@@ -23,9 +23,9 @@ namespace {
 
 constexpr std::size_t kFramesKept = 1024;  // between two events of the recording
 
-class StoryTeller final : public world::ReplayWatcher {
+class FailureWatcher final : public world::ReplayWatcher {
  public:
-  StoryTeller(world::World& world, std::vector<std::string>& lines)
+  FailureWatcher(world::World& world, std::vector<std::string>& lines)
       : world_(world), frames_(world, kFramesKept), events_(world, frames_), lines_(lines) {}
   void happened(const world::RecordedEvent& event, std::size_t) override {
     history_.collect(world_, frames_, events_);
@@ -43,12 +43,12 @@ class StoryTeller final : public world::ReplayWatcher {
 
 }  // namespace
 
-std::vector<std::string> what_led_to_it(ModelList models, const std::string& recording) {
+std::vector<std::string> events_before_failure(ModelList models, const std::string& recording) {
   std::vector<std::string> lines;
   std::ifstream file(recording, std::ios::binary);
   try {
     world::replay(models, file, recording, {},
-                  [&](world::World& world) { return std::make_unique<StoryTeller>(world, lines); });
+                  [&](world::World& world) { return std::make_unique<FailureWatcher>(world, lines); });
   } catch (const std::exception&) {
     return {};
   }

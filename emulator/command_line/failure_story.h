@@ -10,6 +10,6 @@
 namespace understudy::emulator::command_line {
 
 /// Returns a line for each such event, or none if the recording cannot be replayed.
-std::vector<std::string> what_led_to_it(ModelList models, const std::string& recording);
+std::vector<std::string> events_before_failure(ModelList models, const std::string& recording);
 
 }  // namespace understudy::emulator::command_line

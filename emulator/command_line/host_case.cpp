@@ -38,8 +38,8 @@ namespace understudy::emulator::command_line {
 namespace {
 
 constexpr serve::WallTime kUsualTimeout = std::chrono::seconds(60);
-constexpr std::size_t kToldLines = 5;     // the last lines of the command's output
-constexpr std::size_t kToldBytes = 2000;  // their bytes, at most
+constexpr std::size_t kReportedLines = 5;     // the last lines of the command's output
+constexpr std::size_t kReportedBytes = 2000;  // their bytes, at most
 
 bool is_command_end(const play::Step& step) {
   return std::holds_alternative<play::CommandEndStep>(step.what);
@@ -55,7 +55,7 @@ Descriptor make_output(const std::string& path) {
 
 /// Returns the last lines of a file.
 std::vector<std::string> last_lines(int file) {
-  std::array<char, kToldBytes> bytes{};
+  std::array<char, kReportedBytes> bytes{};
   const off_t size = ::lseek(file, 0, SEEK_END);
   const auto from = std::max<off_t>(0, size - static_cast<off_t>(bytes.size()));
   const ssize_t got = ::pread(file, bytes.data(), bytes.size(), from);
@@ -70,8 +70,8 @@ std::vector<std::string> last_lines(int file) {
     lines.push_back(std::exchange(line, {}));
   }
   if (!line.empty()) lines.push_back(line);
-  if (lines.size() > kToldLines)
-    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kToldLines));
+  if (lines.size() > kReportedLines)
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(kReportedLines));
   return lines;
 }
 

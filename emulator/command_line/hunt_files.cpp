@@ -26,9 +26,9 @@
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
 #include "emulator/hunt/corpus.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/found_file.h"
 #include "emulator/hunt/hunt.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/hunt_plan.h"
@@ -85,9 +85,9 @@ FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileCla
 
 void FoundFiles::add(const hunt::Finding& finding) {
   fs::create_directories(arguments_.found);
-  const hunt::Stage& stage = *finding.stage;
+  const hunt::CoursePlayer& course_player = *finding.course_player;
   const std::string path =
-      (fs::path(arguments_.found) / hunt::name_of_finding(stage, finding.shrunk)).generic_string();
+      (fs::path(arguments_.found) / hunt::name_of_finding(course_player, finding.shrunk)).generic_string();
   hunt::Origin origin{.command = "understudy hunt " + arguments_.scenario,
                       .course = finding.course,
                       .disturbances = finding.disturbances};
@@ -98,7 +98,8 @@ void FoundFiles::add(const hunt::Finding& finding) {
   }
   for (const char* const ending : {kScenarioEnding, kRecordingEnding, kPageEnding})
     require_writable(path + ending);
-  write_found(path + kScenarioEnding, hunt::text_of_finding(stage, finding.shrunk, origin, arguments_.found),
+  write_found(path + kScenarioEnding,
+              hunt::text_of_finding(course_player, finding.shrunk, origin, arguments_.found),
               ContentKind::scenario);
   print(finding, path);
   play(finding, path);
@@ -112,7 +113,7 @@ void FoundFiles::require_writable(const std::string& path) const {
 
 /// Returns the command that runs the scenario of a finding in a command.
 std::string FoundFiles::again_with(const hunt::Finding& finding, const std::string& path) const {
-  const std::vector<std::string> words = without_parameters(finding.stage->scenario().command);
+  const std::vector<std::string> words = without_parameters(finding.course_player->scenario().command);
   std::string text = "understudy exec " + shell_text({path + kScenarioEnding}) + " --host-time";
   if (arguments_.timeout != HuntArguments{}.timeout) text += " --timeout " + arguments_.timeout;
   return text + " -- " + shell_text(words);
@@ -129,7 +130,7 @@ void FoundFiles::print(const hunt::Finding& finding, const std::string& path) co
     return;
   }
   for (const play::Disturbance& one : found.course.disturbances) {
-    for (const world::YamlFields& fields : finding.stage->plan().steps_of(one)) {
+    for (const world::YamlFields& fields : finding.course_player->plan().steps_of(one)) {
       std::string step = world::flow_text(fields);
       step = step.substr(2, step.size() - 4);  // without its braces
       std::printf("      %s\n", one_line(step).c_str());
@@ -143,7 +144,7 @@ void FoundFiles::print(const hunt::Finding& finding, const std::string& path) co
 /// Plays the written file once more.
 void FoundFiles::play(const hunt::Finding& finding, const std::string& path) {
   const std::vector<play::ScenarioResult> results =
-      hosts_ != nullptr ? hosts_->show(path, without_parameters(finding.stage->scenario().command))
+      hosts_ != nullptr ? hosts_->show(path, without_parameters(finding.course_player->scenario().command))
                         : show_finding(models_, arguments_, path, {});
   const bool fails = std::ranges::any_of(results, [&](const play::ScenarioResult& result) {
     return result.failure && result.branch == finding.shrunk.outcome.failed->branch;
@@ -174,7 +175,7 @@ std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArgum
     results = run_beside(scenario, std::move(options), arguments, recording);
   }
   for (play::ScenarioResult& result : results) {
-    if (result.failure) result.failure->led_to = what_led_to_it(models, recording);
+    if (result.failure) result.failure->led_to = events_before_failure(models, recording);
   }
   write_found(path + kPageEnding, play::report_page(results, arguments.version), ContentKind::page);
   return results;

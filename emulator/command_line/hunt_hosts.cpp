@@ -16,8 +16,8 @@
 #include "emulator/command_line/worker_processes.h"
 #include "emulator/device/model.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/course_state.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/run.h"
@@ -31,7 +31,8 @@ void require_hunted_steps(const play::Scenario& scenario, ModelList models, bool
   require_steps_for(scenario, has_command, "hunt");
   if (!has_command) return;
   play::Scenario disturbing = scenario;
-  disturbing.steps = hunt::Stage(std::make_shared<play::Scenario>(scenario), models, {}).disturbing_steps();
+  disturbing.steps =
+      hunt::CoursePlayer(std::make_shared<play::Scenario>(scenario), models, {}).disturbing_steps();
   require_steps_for(disturbing, has_command, "hunt");
 }
 

@@ -11,7 +11,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/worker_processes.h"
 #include "emulator/device/model.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"

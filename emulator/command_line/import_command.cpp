@@ -71,7 +71,7 @@ model_file::ListReading reading_of(const ImportArguments& arguments) {
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
     std::string known;
     for (const std::string_view one : words) known += (known.empty() ? "" : ", ") + std::string(one);
-    throw UsageError(flag + ": " + quoted(word) + " is not possible; expected one of " + known);
+    throw UsageError(flag + ": " + quoted(word) + " is not valid; expected one of " + known);
   };
   if (!arguments.columns.empty()) {
     try {

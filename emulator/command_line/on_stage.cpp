@@ -18,8 +18,8 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/device/register_map/hazards.h"
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::command_line {
 

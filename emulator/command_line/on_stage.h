@@ -8,8 +8,8 @@
 #include "emulator/box/stage/box_executor.h"
 #include "emulator/box/stage/box_lines.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::command_line {
 

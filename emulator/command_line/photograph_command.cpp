@@ -62,11 +62,11 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
     throw UsageError("--station: " + std::string(model.name) + " has no station number; expected no number");
   if (arguments.station && (*arguments.station < 0 || *arguments.station > 247))
     throw UsageError("--station: expected 0 to 247");
-  if (arguments.modules && (*arguments.modules < 1 || *arguments.modules > model.most_modules))
+  if (arguments.modules && (*arguments.modules < 1 || *arguments.modules > model.max_modules))
     throw UsageError("--modules: " + std::string(model.name) + " has " +
-                     (model.most_modules == 0 ? "no modules; expected no number"
-                                              : "at most " + std::to_string(model.most_modules) +
-                                                    "; expected 1 to " + std::to_string(model.most_modules)));
+                     (model.max_modules == 0 ? "no modules; expected no number"
+                                             : "at most " + std::to_string(model.max_modules) +
+                                                   "; expected 1 to " + std::to_string(model.max_modules)));
   return {.station = arguments.station,
           .firmware = require_firmware(model, arguments.firmware),
           .timeout = *timeout,
@@ -116,7 +116,7 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
   std::printf("%s%s: %zu values, %zu refused, in %zu requests of %s to %s ms (median %s)\n",
               one_line(photo.place).c_str(), photo.line.empty() ? "" : (" at " + photo.line).c_str(),
               photo.values.size(), photo.refused.size(), photo.exchanges.size(),
-              in_milliseconds(latencies.least).c_str(), in_milliseconds(latencies.most).c_str(),
+              in_milliseconds(latencies.min).c_str(), in_milliseconds(latencies.max).c_str(),
               in_milliseconds(latencies.median).c_str());
   if (photo.is_echoing) std::printf("the adapter echoes: on a bench, the line has `echo: on`\n");
   for (const auto& [name, why] : photo.left_out)

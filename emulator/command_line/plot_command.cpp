@@ -103,9 +103,9 @@ int plot_trace(const PlotArguments& arguments) {
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
-    const std::string said = read_text_file(folder.diagnostics()).value_or("");
+    const std::string messages = read_text_file(folder.diagnostics()).value_or("");
     std::fprintf(stderr, "understudy: plot: gnuplot did not make a picture: %s\n",
-                 one_line(diagnostic_in(said)).c_str());
+                 one_line(diagnostic_in(messages)).c_str());
     return kExitNoResource;
   }
   require_written("--output: " + output.string(),

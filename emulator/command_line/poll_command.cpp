@@ -29,7 +29,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
-#include "emulator/play/stages/free_executor.h"
+#include "emulator/play/executors/free_executor.h"
 
 namespace understudy::emulator::command_line {
 
@@ -121,10 +121,9 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
       const std::int64_t count = require_integer(std::string_view(what).substr(colon + 1), text);
       if (item.write)
         throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
-      const int most = most_at_once(item);
-      if (count < 1 || count > most)
-        throw UsageError("poll: count of " + what + " is out of range; expected 1 to " +
-                         std::to_string(most));
+      const int max = most_at_once(item);
+      if (count < 1 || count > max)
+        throw UsageError("poll: count of " + what + " is out of range; expected 1 to " + std::to_string(max));
       item.count = static_cast<int>(count);
     }
     return item;

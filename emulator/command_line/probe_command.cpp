@@ -27,12 +27,12 @@
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::command_line {

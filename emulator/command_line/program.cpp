@@ -27,7 +27,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-int complain(const std::exception& error, int code) {
+int report(const std::exception& error, int code) {
   std::fprintf(stderr, "understudy: %s\n", one_line(error.what()).c_str());
   return code;
 }
@@ -60,37 +60,37 @@ int run_program(int argc, char** argv, ModelList models) {
   try {
     const int code = parse_command_line(argc, argv, models)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    return complain(std::runtime_error("standard output cannot be written"), kExitNoResource);
+    return report(std::runtime_error("standard output cannot be written"), kExitNoResource);
   } catch (const world::BenchError& error) {
     // The message begins with the file's name and line, where editors look for them.
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;
   } catch (const UsageError& error) {
-    return complain(error, kExitBadInput);
+    return report(error, kExitBadInput);
   } catch (const SettingError& error) {
-    return complain(error, kExitBadInput);
+    return report(error, kExitBadInput);
   } catch (const NvError& error) {
     std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // the message begins with the file's name
     return kExitBadInput;
   } catch (const serve::NoTtyShim& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const understudy::pty::PortError& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const serve::ControlError& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const page::WebError& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const world::RecordingError& error) {
     std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());
     return kExitBadInput;
   } catch (const GrowingFileError& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const understudy::pty::CaptureError& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const std::system_error& error) {
-    return complain(error, kExitNoResource);
+    return report(error, kExitNoResource);
   } catch (const std::exception& error) {
-    return complain(error, kExitInternal);
+    return report(error, kExitInternal);
   }
 }
 

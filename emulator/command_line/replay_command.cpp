@@ -57,7 +57,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   options.files.add({recording, "the recording itself"});
   serve::Daemon daemon(bench, options, log_line);
   daemon.restore(state);
-  say_ready(daemon);
+  print_ready(daemon);
   std::printf("the clock is at %s: understudy ctl --control %s status\n", format_duration(at).c_str(),
               daemon.control_path().c_str());
   std::fflush(stdout);
@@ -67,17 +67,17 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
 }
 
 /// Stores the events of a replay for travel in both directions.
-class Rememberer final : public world::ReplayWatcher {
+class EventCollector final : public world::ReplayWatcher {
  public:
-  Rememberer(const world::World& world, std::optional<world::WorldState>& begin,
-             std::optional<SimTime>& begins, std::vector<world::RecordedEvent>& events)
+  EventCollector(const world::World& world, std::optional<world::WorldState>& begin,
+                 std::optional<SimTime>& begins, std::vector<world::RecordedEvent>& events)
       : events_(events) {
     begin = world::save(world);
     begins = world.now();
   }
   void happened(const world::RecordedEvent& event, std::size_t) override {
-    const bool is_told = event.what != world::RecordedEvent::What::end || !event.failed.what.empty();
-    if (is_told) events_.push_back(event);
+    const bool is_kept = event.what != world::RecordedEvent::What::end || !event.failed.what.empty();
+    if (is_kept) events_.push_back(event);
   }
 
  private:
@@ -98,7 +98,7 @@ Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::
   std::optional<SimTime> begins;
   std::vector<world::RecordedEvent> events;
   world::Replayed replayed = world::replay(models, file, arguments.recording, {}, [&](world::World& world) {
-    return std::make_unique<Rememberer>(world, begin, begins, events);
+    return std::make_unique<EventCollector>(world, begin, begins, events);
   });
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
@@ -140,7 +140,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   }
   if (arguments.page) require_page_port("replay: --page", *arguments.page);
   if (wants_story(arguments)) {
-    tell_story(arguments, replay_whole(models, arguments, at).setup);
+    print_story(arguments, replay_whole(models, arguments, at).setup);
     return kExitWell;
   }
   if (arguments.page || arguments.serve) {
@@ -180,7 +180,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   }
   std::printf("%s: the same: %llu events, %llu bytes sent, %s simulated in %.3f s%s\n",
               arguments.recording.c_str(), static_cast<unsigned long long>(result.events),
-              static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
+              static_cast<unsigned long long>(result.bytes_sent), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it ends early");
   if (result.verdict != world::ReplayResult::Verdict::stopped) return kExitWell;
   return serve_from(replayed, *state, result.reached, arguments.recording,

@@ -27,17 +27,17 @@ namespace understudy::emulator::command_line {
 namespace {
 
 /// A daemon of the recording's bench without ports and without a control socket.
-class Teller {
+class RecordingDaemon {
  public:
-  explicit Teller(serve::TimelineSetup setup)
+  explicit RecordingDaemon(serve::TimelineSetup setup)
       : thread_(without_ports(setup.bench), options_of(setup.options), log_line) {
     thread_.daemon().restore(setup.begin);
     handler_ = serve::timeline_handler(thread_.daemon(), std::move(setup));
     thread_.start();
   }
-  ~Teller() { thread_.stop(); }
-  Teller(const Teller&) = delete;
-  Teller& operator=(const Teller&) = delete;
+  ~RecordingDaemon() { thread_.stop(); }
+  RecordingDaemon(const RecordingDaemon&) = delete;
+  RecordingDaemon& operator=(const RecordingDaemon&) = delete;
 
   std::string ask(const std::string& message) {
     std::promise<std::string> reply;
@@ -91,14 +91,14 @@ void require_story_flags(const ReplayArguments& arguments) {
                      " is not a panel; expected timeline, axes, path or bus");
 }
 
-void tell_story(const ReplayArguments& arguments, serve::TimelineSetup setup) {
+void print_story(const ReplayArguments& arguments, serve::TimelineSetup setup) {
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   ResultFile story("--export", require_output(claims, "--export", arguments.story), ContentKind::page);
   ResultFile picture("--picture", require_output(claims, "--picture", arguments.picture),
                      ContentKind::picture);
-  Teller teller(std::move(setup));
-  const auto ask = [&](const std::string& message) { return teller.ask(message); };
+  RecordingDaemon daemon(std::move(setup));
+  const auto ask = [&](const std::string& message) { return daemon.ask(message); };
   const std::string name = std::filesystem::path(arguments.recording).filename().string();
   if (story.is_wanted()) story.write(page::story_file(ask, name, arguments.version));
   if (!picture.is_wanted()) return;

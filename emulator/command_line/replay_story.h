@@ -13,6 +13,6 @@ void require_story_flags(const ReplayArguments& arguments);
 bool wants_story(const ReplayArguments& arguments);
 
 /// Writes the files of a recording that has been replayed.
-void tell_story(const ReplayArguments& arguments, serve::TimelineSetup setup);
+void print_story(const ReplayArguments& arguments, serve::TimelineSetup setup);
 
 }  // namespace understudy::emulator::command_line

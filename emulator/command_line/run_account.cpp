@@ -41,9 +41,9 @@ void print(const play::ScenarioResult& result, bool with_hash, std::FILE* to) {
   for (const std::string& line : play::failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
 }
 
-std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool goes_on) {
-  if (path.ends_with(play::kJsonLinesEnding)) return play::open_json_lines(path, goes_on);
-  if (path.ends_with(play::kSqliteEnding)) return play::open_sqlite(path, goes_on);
+std::unique_ptr<play::ResultsFile> open_results(const std::string& path, bool continues) {
+  if (path.ends_with(play::kJsonLinesEnding)) return play::open_json_lines(path, continues);
+  if (path.ends_with(play::kSqliteEnding)) return play::open_sqlite(path, continues);
   throw UsageError("--results: " + path + ": has an unknown format; expected FILE.jsonl or FILE.sqlite");
 }
 
@@ -53,7 +53,7 @@ RunAccount::RunAccount(ModelList models, const RunArguments& arguments)
     : models_(models),
       arguments_(arguments),
       // If results go to standard output, text for people goes to standard error.
-      told_(arguments.junit == kStandardOutput ? stderr : stdout) {
+      out_(arguments.junit == kStandardOutput ? stderr : stdout) {
   for (const std::string& path : arguments.results) rows_.push_back(open_results(path, arguments.resume));
   if (!arguments.junit.empty()) junit_.emplace();
 }
@@ -101,7 +101,7 @@ void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t ma
 bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                          const std::function<std::vector<play::ScenarioResult>()>& again) {
   if (arguments_.on.plan) {  // nothing was judged
-    for (const std::string& line : play::skipped_lines(result)) std::fprintf(told_, "  %s\n", line.c_str());
+    for (const std::string& line : play::skipped_lines(result)) std::fprintf(out_, "  %s\n", line.c_str());
     return false;
   }
   const play::FailureKinds::Kind* const kind = result.failure ? kinds_.add(result) : nullptr;
@@ -119,12 +119,13 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   }
   files.settle(result, is_new);
   if (kind != nullptr && !is_new && result.recording.empty()) result.like = kind->first;
-  if (is_new && !result.recording.empty()) result.failure->led_to = what_led_to_it(models_, result.recording);
+  if (is_new && !result.recording.empty())
+    result.failure->led_to = events_before_failure(models_, result.recording);
   const bool is_one_of_many = result.which.is_varied && !is_new && !arguments_.hash;
   if (!is_one_of_many) {
     progress.above([&] {
-      print(result, arguments_.hash, told_);
-      std::fflush(told_);
+      print(result, arguments_.hash, out_);
+      std::fflush(out_);
     });
   }
   tally_.add(result);
@@ -146,18 +147,18 @@ void RunAccount::finish() {
   for (const auto& file : rows_) file->finish();
   for (const play::FailureKinds::Kind& kind : kinds_.all()) {
     if (kind.varied < 2) continue;
-    std::fprintf(told_, "%" PRIu64 " failed in the same way: %s; the first was %s\n", kind.count,
+    std::fprintf(out_, "%" PRIu64 " failed in the same way: %s; the first was %s\n", kind.count,
                  one_line(kind.text).c_str(), one_line(kind.first).c_str());
   }
   if (kinds_.others() > 0) {
-    std::fprintf(told_, "%" PRIu64 " more failed in other ways than the first %zu kinds\n", kinds_.others(),
+    std::fprintf(out_, "%" PRIu64 " more failed in other ways than the first %zu kinds\n", kinds_.others(),
                  play::FailureKinds::kMax);
   }
   if (left_out_ > 0) {
-    std::fprintf(told_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,
+    std::fprintf(out_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,
                  left_out_failed_);
   }
-  std::fprintf(told_, "%s\n", play::summary_line(tally_).c_str());
+  std::fprintf(out_, "%s\n", play::summary_line(tally_).c_str());
   for (const std::string& line : lint_findings_) std::fprintf(stderr, "lint: %s\n", line.c_str());
 }
 

@@ -54,7 +54,7 @@ class RunAccount {
 
   ModelList models_;
   const RunArguments& arguments_;
-  std::FILE* told_;
+  std::FILE* out_;
   std::vector<std::unique_ptr<play::ResultsFile>> rows_;
   std::uint64_t left_out_ = 0;  // cases that were played before
   std::uint64_t left_out_failed_ = 0;

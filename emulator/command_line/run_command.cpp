@@ -35,6 +35,7 @@
 #include "emulator/command_line/worker_processes.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/observer.h"
@@ -48,7 +49,6 @@
 #include "emulator/play/results/result_state.h"
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/port_link.h"
@@ -182,9 +182,9 @@ Recorded recorded_by(const RunArguments& arguments) {
 }
 
 /// Runs a scenario with its observers.
-class Stagehand {
+class CaseRunner {
  public:
-  Stagehand(const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
+  CaseRunner(const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
       : arguments_(arguments), files_(files), coverage_(coverage) {
     // Rows of results contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
@@ -294,8 +294,8 @@ class Stagehand {
 /// Makes a function for each thread that runs cases. A case with a command runs in a separate process.
 class Players {
  public:
-  Players(const Stagehand& stagehand, const play::CaseList& case_list, bool have_processes, int threads)
-      : stagehand_(stagehand), case_list_(case_list) {
+  Players(const CaseRunner& runner, const play::CaseList& case_list, bool have_processes, int threads)
+      : runner_(runner), case_list_(case_list) {
     if (have_processes) workers_.emplace(threads, [this] { return make_work(); });
   }
   /// May be called on any thread.
@@ -315,7 +315,7 @@ class Players {
  private:
   play::Play make_here() const {
     return [this, own = std::make_shared<play::CaseReader>(case_list_)](const play::CaseId& which_case) {
-      return stagehand_.play(*own, which_case, case_list_);
+      return runner_.play(*own, which_case, case_list_);
     };
   }
 
@@ -331,7 +331,7 @@ class Players {
     };
   }
 
-  const Stagehand& stagehand_;
+  const CaseRunner& runner_;
   const play::CaseList& case_list_;
   std::atomic<std::size_t> taken_ = 0;
   std::optional<WorkerProcesses> workers_;
@@ -379,13 +379,13 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   report.empty();
   coverage.empty();
   account.begin();
-  const Stagehand stagehand(arguments, files, coverage);
+  const CaseRunner runner(arguments, files, coverage);
   play::CaseReader reader(case_list);  // one reader for each thread
   play::CaseReader next_reader(case_list);
   const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);
   play::Selection selection(case_list, arguments.filter, shard);
   const auto threads = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(jobs), total));
-  Players players(stagehand, case_list, has_command(arguments), threads);
+  Players players(runner, case_list, has_command(arguments), threads);
   bool was_interrupted = false;
   {
     ProgressLine progress(total);
@@ -404,7 +404,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
     };
     const auto add = [&](const play::CaseId& which_case, std::vector<play::ScenarioResult> results) {
       account.add(std::move(results), made_of(case_list, which_case.file, maker), files, progress,
-                  [&] { return stagehand.play_again(reader, which_case); });
+                  [&] { return runner.play_again(reader, which_case); });
     };
     was_interrupted = !play_all(next, players, threads, add);
   }

@@ -4,7 +4,7 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/device/model.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/play/schema/json_schema.h"
 #include "emulator/world/bench_file/bench_file.h"
 

@@ -25,7 +25,7 @@ int serve(ModelList models, const ServeArguments& arguments) {
     if (serving.group && port->terminal() != nullptr)
       serve::share_port(port->terminal()->path(), *serving.group);
   }
-  say_ready(daemon);
+  print_ready(daemon);
   std::optional<play::Lint> lint;
   if (arguments.lint) lint.emplace(daemon.world());
   if (arguments.page) {

@@ -36,8 +36,8 @@
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/bench_file/program_warnings.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/recording/recording_spool.h"
-#include "emulator/world/speech/line_protocol.h"
 #include "emulator/world/trace/trace.h"
 #include "pty/line.h"
 #include "pty/line_settings.h"
@@ -170,7 +170,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
     const auto ppm = world::parse_baud_tolerance(arguments.baud_tolerance);
     if (!ppm) {
       throw UsageError("--baud-tolerance: " + understudy::quoted(arguments.baud_tolerance) +
-                       " is not possible; " + std::string(world::kBaudToleranceExpected));
+                       " is not valid; " + std::string(world::kBaudToleranceExpected));
     }
     for (world::LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
   }
@@ -178,7 +178,7 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
     const auto time = world::parse_byte_timeout(arguments.byte_timeout);
     if (!time) {
       throw UsageError("--byte-timeout: " + understudy::quoted(arguments.byte_timeout) +
-                       " is not possible; " + std::string(world::kByteTimeoutExpected));
+                       " is not valid; " + std::string(world::kByteTimeoutExpected));
     }
     for (world::LineSetup& line : bench.lines) line.byte_timeout = *time;
   }
@@ -283,7 +283,7 @@ void say_how_to_have_parity(const serve::Daemon& daemon) {
 
 }  // namespace
 
-void say_ready(const serve::Daemon& daemon) {
+void print_ready(const serve::Daemon& daemon) {
   say_how_to_have_parity(daemon);
   for (const auto& port : daemon.ports()) {
     const std::string place = port->place();

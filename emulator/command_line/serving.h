@@ -24,7 +24,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
 
 /// Prints one line for each port: its pty and its link. Throws PortError if standard output cannot be
 /// written.
-void say_ready(const serve::Daemon& daemon);
+void print_ready(const serve::Daemon& daemon);
 
 /// Prints the findings of `--lint` to standard error.
 void print_findings(const std::vector<std::string>& findings);

@@ -51,7 +51,7 @@ std::string handle_all(Session& session, Unframer& unframer) {
     }
     return {};
   } catch (const FramingError& error) {
-    session.say(std::string(error.what()) + "\n");
+    session.print(std::string(error.what()) + "\n");
     return error.what();
   }
 }
@@ -78,7 +78,7 @@ std::string serve_session(int input, int output, const Launcher& launcher,
       if (got > 0) unframer.push({some.data(), static_cast<std::size_t>(got)});
       if (std::string why = handle_all(session, unframer); !why.empty()) return why;
     }
-    if (session.has_bench() && (ready <= 0 || waits[1].revents != 0)) session.look();
+    if (session.has_bench() && (ready <= 0 || waits[1].revents != 0)) session.poll();
   }
   return {};
 }

@@ -117,12 +117,12 @@ Json Session::set_one(const std::string& key, int id, Json message) {
     point.line = set.value("line", 0);
     point.device = device_of_name(set.value("device", std::string()));
     points_.push_back(std::move(point));
-    Json told{{"id", id}, {"verified", set.value("found", true)}};
-    if (set.contains("line")) told["line"] = set["line"].get<int>() - line_offset_;
+    Json response{{"id", id}, {"verified", set.value("found", true)}};
+    if (set.contains("line")) response["line"] = set["line"].get<int>() - line_offset_;
     if (set.contains("moved_from"))
-      told["message"] = "there is no instruction on line " + set["moved_from"].dump() +
-                        "; the breakpoint has moved to line " + set["line"].dump();
-    return told;
+      response["message"] = "there is no instruction on line " + set["moved_from"].dump() +
+                            "; the breakpoint has moved to line " + set["line"].dump();
+    return response;
   } catch (const GoneError&) {
     throw;
   } catch (const RequestError& error) {
@@ -169,21 +169,21 @@ std::vector<std::size_t> Session::devices_with(const Json& source, std::string& 
 /// Sets a line's breakpoint in all devices. Returns that of the first one.
 Json Session::set_line(const std::string& key, const Json& wanted, const std::vector<std::size_t>& devices) {
   const int id = ++last_id_;
-  Json told;
+  Json response;
   try {
     const std::int64_t line = require_whole(wanted, "line") + line_offset_;
     for (const std::size_t device : devices) {
       Json message{{"do", "break"}, {"device", devices_[device].name}, {"line", line}};
       add_common_fields(wanted, message);
       Json one = set_one(key, id, std::move(message));
-      if (told.is_null()) told = std::move(one);
+      if (response.is_null()) response = std::move(one);
     }
   } catch (const GoneError&) {
     throw;
   } catch (const RequestError& error) {
-    told = {{"id", id}, {"verified", false}, {"message", error.what()}};
+    response = {{"id", id}, {"verified", false}, {"message", error.what()}};
   }
-  return told;
+  return response;
 }
 
 Json Session::set_breakpoints(const Json& arguments) {
@@ -198,13 +198,13 @@ Json Session::set_breakpoints(const Json& arguments) {
   std::string why_none;
   std::string what_differs;
   const std::vector<std::size_t> devices = devices_with(source, why_none, what_differs);
-  if (!what_differs.empty() && !wanted.empty()) say(what_differs + "\n");
+  if (!what_differs.empty() && !wanted.empty()) print(what_differs + "\n");
   Json all = Json::array();
   for (const Json& one : wanted) {
-    Json told = set_line(key, one, devices);
-    if (told.is_null()) told = {{"id", last_id_}, {"verified", false}, {"message", why_none}};
-    if (!what_differs.empty() && !told.contains("message")) told["message"] = what_differs;
-    all.push_back(std::move(told));
+    Json response = set_line(key, one, devices);
+    if (response.is_null()) response = {{"id", last_id_}, {"verified", false}, {"message", why_none}};
+    if (!what_differs.empty() && !response.contains("message")) response["message"] = what_differs;
+    all.push_back(std::move(response));
   }
   return {{"breakpoints", std::move(all)}};
 }

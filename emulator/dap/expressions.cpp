@@ -18,7 +18,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-constexpr std::size_t kMostProposals = 100;
+constexpr std::size_t kMaxProposals = 100;
 
 bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.';
@@ -153,14 +153,14 @@ Json Session::set_bit(const std::string& whole, const std::string& bit, const st
   for (const Json& one : row == nullptr ? Json::array() : (*row)["bits"]) {
     if (one["name"] != bit) continue;
     const auto place = one["bit"].get<unsigned>();
-    const std::int64_t most = (std::int64_t{1} << one["width"].get<unsigned>()) - 1;
-    if (!to.is_number_integer() || to < 0 || to > most)
-      throw RequestError(bit + ": " + to.dump() + " is out of range; expected 0 to " + std::to_string(most));
+    const std::int64_t max = (std::int64_t{1} << one["width"].get<unsigned>()) - 1;
+    if (!to.is_number_integer() || to < 0 || to > max)
+      throw RequestError(bit + ": " + to.dump() + " is out of range; expected 0 to " + std::to_string(max));
     const auto now = link_->ask({{"do", "get"}, {"names", {whole}}})["values"][whole].get<std::int64_t>();
-    const std::int64_t all = (now & ~(most << place)) | (to.get<std::int64_t>() << place);
+    const std::int64_t all = (now & ~(max << place)) | (to.get<std::int64_t>() << place);
     link_->ask({{"do", "set"}, {"values", {{whole, all}}}});
     const auto then = link_->ask({{"do", "get"}, {"names", {whole}}})["values"][whole].get<std::int64_t>();
-    return {{"value", then >> place & most}};
+    return {{"value", then >> place & max}};
   }
   throw RequestError("name: " + quoted(bit) + " is not a bit of " + whole);
 }
@@ -215,7 +215,7 @@ Json Session::completions(const Json& arguments) {
   Json targets = Json::array();
   std::set<std::string> proposed;
   const auto propose = [&](const std::string& name) {
-    if (!name.starts_with(word) || name == word || targets.size() >= kMostProposals) return;
+    if (!name.starts_with(word) || name == word || targets.size() >= kMaxProposals) return;
     if (!proposed.insert(name).second) return;
     targets.push_back({{"label", name},
                        {"start", begin + 1 - static_cast<std::size_t>(column_offset_)},

@@ -31,7 +31,7 @@ Json timeline_of(const BenchLink& link) {
 Json Session::launch(const Json& arguments) {
   speed_ = text_or(arguments, "speed", "manual");
   open("launch", arguments);
-  say_ports();
+  print_ports();
   return nullptr;
 }
 
@@ -88,12 +88,12 @@ void Session::map_sources(const Json& arguments) {
     std::string why_none;
     std::string what_differs;
     devices_with({{"path", path}}, why_none, what_differs);
-    if (!why_none.empty()) say("sources: " + why_none + "\n");
+    if (!why_none.empty()) print("sources: " + why_none + "\n");
   }
 }
 
 /// Prints where hosts find the lines of a launched bench.
-void Session::say_ports() {
+void Session::print_ports() {
   if (is_recording_) return;
   const Json daemon = link_->ask({{"do", "identify"}})["daemon"];
   for (const Json& line : daemon["lines"]) {
@@ -105,7 +105,7 @@ void Session::say_ports() {
     for (const Json& where : line.value("tcp", Json::array())) {
       if (where.is_string()) text += " " + where.get<std::string>();
     }
-    say(one_line(text) + "\n", "console");
+    print(one_line(text) + "\n", "console");
   }
 }
 
@@ -118,7 +118,7 @@ Json Session::configuration_done(const Json& /*arguments*/) {
       link_->ask({{"do", "speed"}, {"to", speed_}});
       is_manual_ = false;
     }
-    if (!stops_at_entry_) go_on(Json::object());
+    if (!stops_at_entry_) continue_program(Json::object());
   } else if (!is_recording_ && !is_manual_ && !was_paused_) {
     if (stops_at_entry_) {
       link_->ask({{"do", "pause"}});
@@ -130,16 +130,16 @@ Json Session::configuration_done(const Json& /*arguments*/) {
 }
 
 /// Reports the first stop, after the configuration. The recording of a failure stands at the failure.
-void Session::stands_at_entry() {
-  if (failure_.empty() || stops_at_entry_) return stands(Json(), "entry");
-  say(failure_ + "\n");
-  stands(Json(), "exception", failure_);
+void Session::stop_at_entry() {
+  if (failure_.empty() || stops_at_entry_) return report_stop(Json(), "entry");
+  print(failure_ + "\n");
+  report_stop(Json(), "exception", failure_);
 }
 
 Json Session::restart(const Json& /*arguments*/) {
   if (is_recording_) {
     link_->ask({{"do", "seek"}, {"to_ns", 0}});
-    stands(Json(), "entry");
+    report_stop(Json(), "entry");
     return nullptr;
   }
   if (!launched_.end)
@@ -150,10 +150,10 @@ Json Session::restart(const Json& /*arguments*/) {
   link_->ask({{"do", "restore"}, {"name", kAtLaunch}});
   set_again();
   if (stops_at_entry_) {
-    stands(Json(), "entry");
+    report_stop(Json(), "entry");
   } else {
     event("continued", {{"threadId", 1}, {"allThreadsContinued", true}});
-    go_on(Json::object());
+    continue_program(Json::object());
   }
   return nullptr;
 }

@@ -81,7 +81,7 @@ std::span<const Session::Row> Session::rows() {
       {"setExpression", &S::set_expression, kThere},
       {"evaluate", &S::evaluate, kThere},
       {"completions", &S::completions, kThere},
-      {"continue", &S::go_on, kStopped},
+      {"continue", &S::continue_program, kStopped},
       {"next", &S::next, kStopped},
       {"stepIn", &S::step_in, kStopped},
       {"stepOut", &S::step_out, kStopped},
@@ -98,7 +98,7 @@ std::span<const Session::Row> Session::rows() {
 void Session::handle(const std::string& text) {
   const Json message = parsed_message(text);
   if (!message.is_object() || !message.contains("seq") || !message["seq"].is_number_integer())
-    return say("a message is not a request; expected an object with seq, type and command\n");
+    return print("a message is not a request; expected an object with seq, type and command\n");
   Json reply{{"seq", 0}, {"type", "response"}, {"request_seq", message["seq"]}, {"success", true}};
   std::string command;
   const Phase before = phase_;
@@ -120,7 +120,7 @@ void Session::handle(const std::string& text) {
   send_(reply);
   // A client waits for these after the reply.
   if (phase_ == Phase::configuring && before == Phase::ready) event("initialized", nullptr);
-  if (before == Phase::configuring && phase_ == Phase::stopped) stands_at_entry();
+  if (before == Phase::configuring && phase_ == Phase::stopped) stop_at_entry();
   if (phase_ == Phase::ended && before != Phase::ended) event("terminated", nullptr);
 }
 
@@ -139,7 +139,7 @@ void Session::event(std::string_view name, Json body) {
   send_(message);
 }
 
-void Session::say(const std::string& text, const char* category) {
+void Session::print(const std::string& text, const char* category) {
   event("output", {{"category", category}, {"output", text}});
 }
 

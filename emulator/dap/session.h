@@ -39,15 +39,15 @@ class Session {
   /// Answers a request.
   void handle(const std::string& text);
   bool is_over() const { return phase_ == Phase::over; }
-  /// Returns true if look() must be called regularly.
+  /// Returns true if poll() must be called regularly.
   bool has_bench() const { return link_ != nullptr; }
   bool is_running() const { return phase_ == Phase::running; }
   /// Returns the descriptor that reports the end of an advance, or -1.
   int awaited() const { return link_ ? link_->awaited() : -1; }
   /// Tells the client what has happened on the bench.
-  void look();
+  void poll();
   /// Shows the client a message that is not an answer.
-  void say(const std::string& text, const char* category = "important");
+  void print(const std::string& text, const char* category = "important");
 
  private:
   struct Row {
@@ -106,14 +106,14 @@ class Session {
   Json launch(const Json& arguments);
   Json attach(const Json& arguments);
   Json configuration_done(const Json& arguments);
-  void stands_at_entry();
+  void stop_at_entry();
   Json restart(const Json& arguments);
   Json terminate(const Json& arguments);
   Json disconnect(const Json& arguments);
   void open(std::string_view request, const Json& arguments);
   void find_devices();
   void map_sources(const Json& arguments);
-  void say_ports();
+  void print_ports();
   void end();
 
   // stacks.cpp
@@ -135,8 +135,8 @@ class Session {
   std::string address_of(std::size_t device, const std::string& program, std::int64_t instruction);
   Address parsed_address(const Json& arguments, const char* key) const;
 
-  // going_on.cpp
-  Json go_on(const Json& arguments);
+  // continuing.cpp
+  Json continue_program(const Json& arguments);
   Json next(const Json& arguments);
   Json step_in(const Json& arguments);
   Json step_out(const Json& arguments);
@@ -144,10 +144,10 @@ class Session {
   Json reverse(const Json& arguments);
   Json pause(const Json& arguments);
   Json step(const Json& arguments, const char* what, bool is_back = false);
-  void stands(const Json& stop, const char* reason, const std::string& text = {});
+  void report_stop(const Json& stop, const char* reason, const std::string& text = {});
   const char* reason_of(const Json& stop, Json& body) const;
-  void hear_events(const Json& events);
-  Json look_at_bench();
+  void receive_events(const Json& events);
+  Json check_bench();
   void follow(const Json& seen);
   void has_ended(const std::string& why);
 

@@ -95,9 +95,9 @@ Json Session::source_json(std::size_t device) const {
 Json Session::stack_trace(const Json& arguments) {
   const Thread& thread = thread_of(arguments);
   const bool has_many = devices_[thread.device].has_many;
-  const Json told = stack_of(thread.device);
+  const Json reply = stack_of(thread.device);
   std::vector<Json> lines;
-  for (const Json& stack : told["stacks"]) {
+  for (const Json& stack : reply["stacks"]) {
     if (has_many && text_or(stack, "program") != thread.program) continue;
     for (const Json& frame : stack["frames"]) lines.push_back(frame);
     break;
@@ -117,8 +117,8 @@ Json Session::stack_trace(const Json& arguments) {
   Json frames = Json::array();
   const auto count = static_cast<std::int64_t>(std::min(lines.size(), static_cast<std::size_t>(kPerThread)));
   const std::int64_t first = std::max<std::int64_t>(0, whole_or(arguments, "startFrame", 0));
-  const std::int64_t most = whole_or(arguments, "levels", 0);
-  for (std::int64_t i = first; i < count && (most <= 0 || i - first < most); ++i) {
+  const std::int64_t max = whole_or(arguments, "levels", 0);
+  for (std::int64_t i = first; i < count && (max <= 0 || i - first < max); ++i) {
     const Json& one = lines[static_cast<std::size_t>(i)];
     const int line = one.value("line", 0);
     const std::string text = text_or(one, "text");

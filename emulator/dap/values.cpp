@@ -130,9 +130,9 @@ void Session::add_state(std::size_t device, Json& all) {
     all.push_back({{"name", name}, {"value", value}, {"variablesReference", 0}});
   };
   const auto time = [](const Json& value) { return format_duration(SimTime{value.get<std::int64_t>()}); };
-  const Json told = link_->ask({{"do", "where"}, {"device", devices_[device].name}});
-  add("time", time(told["simulated_time_ns"]));
-  for (const Json& program : told["programs"]) {
+  const Json reply = link_->ask({{"do", "where"}, {"device", devices_[device].name}});
+  add("time", time(reply["simulated_time_ns"]));
+  for (const Json& program : reply["programs"]) {
     const std::string name = program.value("program", std::string());
     const std::string before = name.empty() ? "" : name + " ";
     add(before + "state", program.value("state", std::string()));
@@ -145,9 +145,9 @@ void Session::add_state(std::size_t device, Json& all) {
 void Session::add_scope(std::size_t device, const std::string& scope, bool as_hex, Json& all) {
   const std::string& name = devices_[device].name;
   const Json message{{"do", "variables"}, {"device", name}, {"scope", scope}};
-  for (const Json& told : link_->ask_for("scopes", message)) {
-    const Json words = told.value("words", Json::object());  // as the program spells them
-    for (const auto& [whole, value] : told["values"].items()) {
+  for (const Json& reply : link_->ask_for("scopes", message)) {
+    const Json words = reply.value("words", Json::object());  // as the program spells them
+    for (const auto& [whole, value] : reply["values"].items()) {
       const std::string own = whole.substr(name.size() + 1);
       Json one = entry(device, own, value, as_hex, scope == "program");
       if (scope == "axes") one["value"] = one["value"].get<std::string>() + " " + unit_of_axis(own);
@@ -207,8 +207,8 @@ const Json* Session::known_register(std::size_t device, const std::string& name)
   auto found = info.registers.find(name);
   if (found == info.registers.end()) {
     Json own;
-    const Json told = link_->ask({{"do", "registers"}, {"device", info.name}, {"find", name}});
-    for (const Json& row : told["registers"]) {
+    const Json reply = link_->ask({{"do", "registers"}, {"device", info.name}, {"find", name}});
+    for (const Json& row : reply["registers"]) {
       if (row["name"] == name) own = row;
     }
     found = info.registers.emplace(name, std::move(own)).first;

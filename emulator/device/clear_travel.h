@@ -9,8 +9,8 @@ namespace understudy::emulator {
 
 /// A range of pulses from now on, in the motor's direction; both ends are included.
 struct PulseRoom {
-  std::int64_t least = 0;
-  std::int64_t most = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
 };
 
 class ClearTravel {

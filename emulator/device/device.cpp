@@ -27,7 +27,7 @@ Device::Device(const Model& model, DeviceSettings settings)
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 
-Tick Device::next_event_tick(Tick done, Tick /*most*/, const ClearTravel& /*ahead*/) const {
+Tick Device::next_event_tick(Tick done, Tick /*limit*/, const ClearTravel& /*ahead*/) const {
   return next_active_tick(done);
 }
 

@@ -61,8 +61,8 @@ class Device {
   virtual ModbusStation* modbus() { return nullptr; }
   virtual const ModbusStation* modbus() const { return nullptr; }
   /// The device's text protocol (text/text_protocol.h).
-  virtual TextProtocol* speaker() { return nullptr; }
-  virtual const TextProtocol* speaker() const { return nullptr; }
+  virtual TextProtocol* text_protocol() { return nullptr; }
+  virtual const TextProtocol* text_protocol() const { return nullptr; }
   /// Values without a register (named_values.h).
   virtual NamedValues* named_values() { return nullptr; }
   virtual const NamedValues* named_values() const { return nullptr; }
@@ -102,10 +102,10 @@ class Device {
   /// Returns the first tick after `done` at which anything may change without an outside event, or kNever.
   /// The ticks before it may be skipped: the state is the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
-  /// Returns the first tick after `done` that must be run in full, at most `most` + 1. In the ticks before it
-  /// only positions change, within the room that `ahead` leaves each axis; fast_forward_to() can skip them in
-  /// one step.
-  virtual Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
+  /// Returns the first tick after `done` that must be run in full, at most `limit` + 1. In the ticks before
+  /// it only positions change, within the room that `ahead` leaves each axis; fast_forward_to() can skip them
+  /// in one step.
+  virtual Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const;
   /// Advances the device to the end of `tick`, which is after `done` and before next_event_tick(). The state
   /// is the same as after single ticks. Adds the pulses that each axis sends to `pulses`.
   virtual void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,

@@ -17,8 +17,8 @@ class DeviceOf : public Device {
   const RegisterBank* register_bank() const override { return facet<const RegisterBank>(*this); }
   ModbusStation* modbus() override { return facet<ModbusStation>(*this); }
   const ModbusStation* modbus() const override { return facet<const ModbusStation>(*this); }
-  TextProtocol* speaker() override { return facet<TextProtocol>(*this); }
-  const TextProtocol* speaker() const override { return facet<const TextProtocol>(*this); }
+  TextProtocol* text_protocol() override { return facet<TextProtocol>(*this); }
+  const TextProtocol* text_protocol() const override { return facet<const TextProtocol>(*this); }
   NamedValues* named_values() override { return facet<NamedValues>(*this); }
   const NamedValues* named_values() const override { return facet<const NamedValues>(*this); }
   KeptMemory* memory() override { return facet<KeptMemory>(*this); }

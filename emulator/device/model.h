@@ -43,8 +43,8 @@ struct NamedParameterRow {
   std::string_view name;    // "VM"
   int width = 32;           // bits
   bool persistent = true;
-  std::string least{};
-  std::string most{};
+  std::string min{};
+  std::string max{};
   std::string_view unit{};
   std::string factory{};
   std::string_view meaning{};
@@ -136,7 +136,7 @@ struct AxisRow {
 };
 
 /// A protocol on a line. Each protocol has one object, in addition to the facet that speaks it (modbus/,
-/// text/). The world's object for the protocol (world/speech/) defines what it means for a line and its
+/// text/). The world's object for the protocol (world/protocol/) defines what it means for a line and its
 /// hosts.
 struct Protocol {
   std::string_view name;  // "Modbus", for messages
@@ -170,7 +170,7 @@ struct LineRules {
 /// A limit for one request that is lower than the standard's.
 struct FunctionLimit {
   std::uint8_t code = 0;
-  int most = 0;  // bits or registers
+  int max = 0;  // bits or registers
 };
 
 /// An object of the device identification (MODBUS Application Protocol, 6.21): 0 is the vendor's name.
@@ -245,7 +245,7 @@ struct Model {
   Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
   /// Returns what a line of text can do; null: it takes no lines.
   Hazards (*hazards_of_line)(std::string_view line) = nullptr;
-  int most_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
+  int max_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
   /// The description file's text with everything that belongs to it, if a file describes the model.
   /// ModelFiles::parse() makes the same model from it.
   std::string_view description{};

@@ -55,8 +55,8 @@ std::vector<std::int64_t> read_row(const std::vector<PlacedWord>& words, int lin
   const std::string expected = "; expected " + std::string(form.row);
   std::vector<std::int64_t> cells;
   for (const PlacedWord& word : words) {
-    if (cells.size() == form.most)
-      throw ProgramError(line, word.column, "more than " + in_words(form.most) + " cells" + expected);
+    if (cells.size() == form.max)
+      throw ProgramError(line, word.column, "more than " + in_words(form.max) + " cells" + expected);
     const auto cell = cell_of(word.text, form);
     if (!cell) {
       throw ProgramError(line, word.column,
@@ -90,9 +90,9 @@ std::vector<CellRow> read_cells(std::string_view text, const CellForm& form) {
     const std::vector<PlacedWord> words = words_of(line.text);
     if (words.empty()) continue;
     CellRow row{.cells = read_row(words, line.number, form), .line = line.number};
-    if (rows.size() == form.most_rows) {
+    if (rows.size() == form.max_rows) {
       throw ProgramError(line.number, words.front().column,
-                         "one line too many; expected at most " + std::to_string(form.most_rows));
+                         "one line too many; expected at most " + std::to_string(form.max_rows));
     }
     rows.push_back(std::move(row));
   }

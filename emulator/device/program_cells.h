@@ -16,10 +16,10 @@ struct DeviceSettings;
 struct CellForm {
   std::string_view row;  // for people: "CMD DATA1 DATA2 JMP"
   std::size_t fewest = 1;
-  std::size_t most = 1;  // cells per row
+  std::size_t max = 1;  // cells per row
   std::int64_t lowest = 0;
   std::int64_t highest = 255;
-  std::size_t most_rows = 256;
+  std::size_t max_rows = 256;
 };
 
 struct CellRow {

@@ -11,8 +11,8 @@ namespace understudy::emulator {
 struct SettingEntryError : SettingError {
   /// `told` is the text for messages that do not name the entry.
   SettingEntryError(std::string setting_name, std::string entry_name, std::string what_is_wrong,
-                    const std::string& told)
-      : SettingError(std::move(setting_name), told),
+                    const std::string& message)
+      : SettingError(std::move(setting_name), message),
         entry(std::move(entry_name)),
         diagnostic(std::move(what_is_wrong)) {}
   SettingEntryError(std::string setting_name, std::string entry_name, const std::string& what_is_wrong)

@@ -13,7 +13,7 @@ namespace understudy::emulator {
 
 namespace {
 
-using What = TerminalSight::What;
+using What = TerminalView::What;
 using Kind = TerminalRow::Kind;
 
 std::int64_t word_of(const Device& device, bool is_of_inputs, int first, int count) {
@@ -25,38 +25,38 @@ std::int64_t word_of(const Device& device, bool is_of_inputs, int first, int cou
 
 }  // namespace
 
-std::vector<TerminalSight> terminal_sights(const Device& device) {
+std::vector<TerminalView> terminal_views(const Device& device) {
   const auto rows = device.model().terminals;
-  std::vector<TerminalSight> sights;
+  std::vector<TerminalView> views;
   for (std::size_t i = 0; i < rows.size();) {
     const int first = static_cast<int>(i);
     const TerminalGroup* const group = find_group_of(device.model(), first);
-    TerminalSight sight{.name = std::string(rows[i].name), .kind = rows[i].kind, .first = first};
+    TerminalView view{.name = std::string(rows[i].name), .kind = rows[i].kind, .first = first};
     if (group != nullptr) {
-      sight.what = What::word;
-      sight.name = group->name;
-      sight.count = group->count;
+      view.what = What::word;
+      view.name = group->name;
+      view.count = group->count;
     }
-    i += static_cast<std::size_t>(sight.count);
+    i += static_cast<std::size_t>(view.count);
     if (!device.terminals()->has_terminal(first)) continue;
-    sights.push_back(sight);
-    if (sight.kind != Kind::pulse_out) continue;
-    sight.what = What::pulses;
-    sight.name += ".pulses";
-    sights.push_back(std::move(sight));
+    views.push_back(view);
+    if (view.kind != Kind::pulse_out) continue;
+    view.what = What::pulses;
+    view.name += ".pulses";
+    views.push_back(std::move(view));
   }
-  return sights;
+  return views;
 }
 
-std::int64_t value_of(const Device& device, const TerminalSight& sight) {
-  switch (sight.what) {
-    case What::word: return word_of(device, is_input(sight.kind), sight.first, sight.count);
-    case What::pulses: return device.terminals()->output_pulses(sight.first);
+std::int64_t value_of(const Device& device, const TerminalView& view) {
+  switch (view.what) {
+    case What::word: return word_of(device, is_input(view.kind), view.first, view.count);
+    case What::pulses: return device.terminals()->output_pulses(view.first);
     case What::level: break;
   }
-  if (is_input(sight.kind)) return device.input(sight.first);
-  if (is_analog(sight.kind)) return device.terminals()->analog_level(sight.first);
-  return device.terminals()->output(sight.first) ? 1 : 0;
+  if (is_input(view.kind)) return device.input(view.first);
+  if (is_analog(view.kind)) return device.terminals()->analog_level(view.first);
+  return device.terminals()->output(view.first) ? 1 : 0;
 }
 
 std::int64_t value_of(const Device& device, const TerminalGroup& group) {

@@ -39,7 +39,7 @@ class Terminals {
 
 /// The terminals as observers see them, in the order of the model's table: groups as words, and for pulse
 /// outputs also their counts.
-struct TerminalSight {
+struct TerminalView {
   enum class What : std::uint8_t { level, word, pulses } what = What::level;
   std::string name;  // "DIN_3", "DI_8", "CMP.pulses"
   TerminalRow::Kind kind = TerminalRow::Kind::digital_in;
@@ -47,8 +47,8 @@ struct TerminalSight {
   int count = 1;
 };
 /// Returns the terminals that the device has.
-std::vector<TerminalSight> terminal_sights(const Device& device);
-std::int64_t value_of(const Device& device, const TerminalSight& sight);
+std::vector<TerminalView> terminal_views(const Device& device);
+std::int64_t value_of(const Device& device, const TerminalView& view);
 std::int64_t value_of(const Device& device, const TerminalGroup& group);
 
 }  // namespace understudy::emulator

@@ -27,8 +27,8 @@ constexpr SimTime kFine = std::chrono::microseconds(100);
 
 /// Draws a number from -1024 to 1024, small ones more often.
 std::int64_t draw_distance(Dice& dice, std::uint64_t powers = 11) {
-  const std::int64_t most = std::int64_t{1} << dice.below(powers);
-  return static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * most) + 1)) - most;
+  const std::int64_t max = std::int64_t{1} << dice.below(powers);
+  return static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * max) + 1)) - max;
 }
 
 /// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,
@@ -193,7 +193,7 @@ std::vector<Disturbance> draw_disturbances(const Ground& ground, Dice& dice) {
     const std::size_t place = dice.below(allowed.size());
     const std::size_t number = allowed[place];
     drawn.push_back(draw_one(ground, number, dice));
-    if (count_of(drawn, number) >= entries[number].most)
+    if (count_of(drawn, number) >= entries[number].max)
       allowed.erase(allowed.begin() + static_cast<std::ptrdiff_t>(place));
   }
   gather(drawn, ground.plan, dice);
@@ -215,7 +215,7 @@ std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const D
       // What happens soon after something else often goes on with it.
       if (!is_taken && !all.empty() && dice.one_in(2)) change_moment(one, all, ground, dice);
       const bool has_room =
-          all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].most;
+          all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].max;
       if (has_room) all.push_back(one);
     } else if (how == 2 && all.size() > 1) {
       all.erase(all.begin() + static_cast<std::ptrdiff_t>(dice.below(all.size())));

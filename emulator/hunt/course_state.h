@@ -6,8 +6,8 @@
 
 #include "base/state/state_bytes.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/reach.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/results/result_state.h"
 

@@ -15,8 +15,8 @@
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/case.h"
@@ -103,9 +103,9 @@ std::string with_comment(std::string step, const std::string& comment) {
 }
 
 /// Returns the spans of the plan that may be the broken one.
-std::vector<world::YamlFields> broken_spans(const Stage& stage, const play::Failure& failure) {
+std::vector<world::YamlFields> broken_spans(const CoursePlayer& course_player, const play::Failure& failure) {
   std::vector<world::YamlFields> spans;
-  for (const world::YamlFields& span : stage.plan().spans()) {
+  for (const world::YamlFields& span : course_player.plan().spans()) {
     const auto [key, value] = span.entries().front();
     const std::string name = value.is_map() && value.has("name") ? value.at("name").text()
                              : value.is_map()                    ? value.at("what").text()
@@ -115,7 +115,7 @@ std::vector<world::YamlFields> broken_spans(const Stage& stage, const play::Fail
   return spans;
 }
 
-std::string heading(const Stage& stage, const Shrunk& found, const Origin& origin) {
+std::string heading(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin) {
   const play::ScenarioResult& failed = *found.outcome.failed;
   const std::size_t kept = found.course.disturbances.size();
   std::string text =
@@ -131,47 +131,47 @@ std::string heading(const Stage& stage, const Shrunk& found, const Origin& origi
                              : ".\n";
   }
   if (!origin.again.empty()) text += "# `" + one_line(origin.again) + "` runs it again.\n";
-  if (!stage.scenario().which.values.empty())
-    text += "# The case is " + one_line(play::to_text(stage.scenario().which)) + ".\n";
+  if (!course_player.scenario().which.values.empty())
+    text += "# The case is " + one_line(play::to_text(course_player.scenario().which)) + ".\n";
   return text;
 }
 
 }  // namespace
 
-std::string name_of_finding(const Stage& stage, const Shrunk& found) {
+std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found) {
   // The kind has the path of the file, which may be spelled differently.
   std::string what = found.outcome.kind;
-  const std::string& file = stage.scenario().file;
+  const std::string& file = course_player.scenario().file;
   for (std::size_t at = 0; (at = what.find(file)) != std::string::npos;) what.erase(at, file.size());
   const std::uint64_t hash = hash_of(std::as_bytes(std::span(what)));
   constexpr std::size_t kDigits = 8;
   return fs::path(file).stem().string() + "-" + play::identity_text(hash).substr(0, kDigits);
 }
 
-std::string text_of_finding(const Stage& stage, const Shrunk& found, const Origin& origin,
+std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
                             const std::string& folder) {
   const Writer writer(folder);
   const play::Failure& failure = *found.outcome.failed->failure;
-  std::string text = heading(stage, found, origin) + "understudy: 1\n";
-  text += "name: " + name_of_finding(stage, found) + "\n";
-  for (const auto& [key, value] : writer.moved(stage.plan().head()).entries())
+  std::string text = heading(course_player, found, origin) + "understudy: 1\n";
+  text += "name: " + name_of_finding(course_player, found) + "\n";
+  for (const auto& [key, value] : writer.moved(course_player.plan().head()).entries())
     text += world::block_text(key, value, "", "");
-  if (!stage.scenario().choice.empty()) {
-    text += "choice: { " + stage.scenario().choice + ": [ " + stage.scenario().which.values.front().second +
-            " ] }\n";
+  if (!course_player.scenario().choice.empty()) {
+    text += "choice: { " + course_player.scenario().choice + ": [ " +
+            course_player.scenario().which.values.front().second + " ] }\n";
   }
-  if (stage.scenario().seed != 0 && !stage.plan().head().has("seed"))
-    text += "seed: " + std::to_string(stage.scenario().seed) + "\n";
+  if (course_player.scenario().seed != 0 && !course_player.plan().head().has("seed"))
+    text += "seed: " + std::to_string(course_player.scenario().seed) + "\n";
   text += "steps:\n";
-  for (const world::YamlFields& span : broken_spans(stage, failure))
+  for (const world::YamlFields& span : broken_spans(course_player, failure))
     text += with_comment(writer.step(span), "this is what must hold");
   std::size_t number = 0;
   const std::size_t count = found.course.disturbances.size();
   auto next = found.course.disturbances.begin();
-  const auto& steps = stage.plan().steps();
+  const auto& steps = course_player.plan().steps();
   for (std::size_t i = 0; i < steps.size() && i < found.course.end; ++i) {
     for (; next != found.course.disturbances.end() && next->step <= i; ++next) {
-      std::vector<world::YamlFields> its_steps = stage.plan().steps_of(*next);
+      std::vector<world::YamlFields> its_steps = course_player.plan().steps_of(*next);
       const world::YamlFields last = std::move(its_steps.back());
       its_steps.pop_back();
       for (const world::YamlFields& step : its_steps) text += writer.step(step);

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stage.h"
 
 namespace understudy::emulator::hunt {
 
@@ -18,9 +18,9 @@ struct Origin {
 };
 
 /// Returns the name of its file, without a folder and an ending: always the same one for a kind of failure.
-std::string name_of_finding(const Stage& stage, const Shrunk& found);
+std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found);
 /// Returns the text of a scenario file in that folder.
-std::string text_of_finding(const Stage& stage, const Shrunk& found, const Origin& origin,
+std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
                             const std::string& folder);
 
 }  // namespace understudy::emulator::hunt

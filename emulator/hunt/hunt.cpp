@@ -13,9 +13,9 @@
 
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/observer.h"
@@ -33,46 +33,48 @@ Hunt::Hunt(const play::CaseList& cases, ModelList models, HuntOptions options,
 std::unique_ptr<Stages> Hunt::take_stages() {
   const std::lock_guard lock(stages_mutex_);
   if (stages_.empty()) return std::make_unique<Stages>(cases_, models_, make_player_());
-  auto stages = std::move(stages_.back());
+  auto course_players = std::move(stages_.back());
   stages_.pop_back();
-  return stages;
+  return course_players;
 }
 
-void Hunt::give_back(std::unique_ptr<Stages> stages) {
+void Hunt::give_back(std::unique_ptr<Stages> course_players) {
   const std::lock_guard lock(stages_mutex_);
-  stages_.push_back(std::move(stages));
+  stages_.push_back(std::move(course_players));
 }
 
 /// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
-Course Hunt::draw(Stages& stages, std::uint64_t number) const {
+Course Hunt::draw(Stages& course_players, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
   Course course;
   if (seeds.empty() || !options_.is_guided || dice.one_in(2)) {
     course.case_number = dice.below(cases_.cases_of(0));
-    Stage& stage = *stages.of(course.case_number);
-    if (!stage.undisturbed_outcome().kind.empty()) return course;
-    course.disturbances = draw_disturbances({.plan = stage.plan(), .undisturbed = stage.undisturbed()}, dice);
+    CoursePlayer& course_player = *course_players.of(course.case_number);
+    if (!course_player.undisturbed_outcome().kind.empty()) return course;
+    course.disturbances =
+        draw_disturbances({.plan = course_player.plan(), .undisturbed = course_player.undisturbed()}, dice);
     return course;
   }
   const Seed& seed = seeds[corpus_.draw_seed(dice)];
   const Seed& other = seeds[dice.below(seeds.size())];
   course.case_number = seed.course.case_number;
-  Stage& stage = *stages.of(course.case_number);
+  CoursePlayer& course_player = *course_players.of(course.case_number);
   const bool is_of_case = other.course.case_number == course.case_number;
-  course.disturbances =
-      changed(seed.course.disturbances,
-              is_of_case ? std::span<const play::Disturbance>(other.course.disturbances)
-                         : std::span<const play::Disturbance>(),
-              {.plan = stage.plan(), .undisturbed = stage.undisturbed(), .moments = seed.moments}, dice);
+  course.disturbances = changed(
+      seed.course.disturbances,
+      is_of_case ? std::span<const play::Disturbance>(other.course.disturbances)
+                 : std::span<const play::Disturbance>(),
+      {.plan = course_player.plan(), .undisturbed = course_player.undisturbed(), .moments = seed.moments},
+      dice);
   return course;
 }
 
-Hunt::Played Hunt::play(Stages& stages, Course course) const {
-  Stage& stage = *stages.of(course.case_number);
-  Played played{.course = std::move(course), .outcome = stage.undisturbed_outcome()};
+Hunt::Played Hunt::play(Stages& course_players, Course course) const {
+  CoursePlayer& course_player = *course_players.of(course.case_number);
+  Played played{.course = std::move(course), .outcome = course_player.undisturbed_outcome()};
   if (played.outcome.kind.empty())
-    played.outcome = stage.play(played.course, options_.is_guided ? &played.reached : nullptr);
+    played.outcome = course_player.play(played.course, options_.is_guided ? &played.reached : nullptr);
   return played;
 }
 
@@ -95,12 +97,12 @@ void Hunt::judge(std::uint64_t number, const Played& played,
     tally_.reached = corpus_.counts();
   }
   if (!is_new) return;
-  auto stages = take_stages();
+  auto course_players = take_stages();
   Finding finding{.course = number, .disturbances = played.course.disturbances.size()};
-  finding.stage = stages->of(played.course.case_number);
-  finding.shrunk = Shrinker(*finding.stage, outcome.kind).shrink(played.course, outcome);
+  finding.course_player = course_players->of(played.course.case_number);
+  finding.shrunk = Shrinker(*finding.course_player, outcome.kind).shrink(played.course, outcome);
   found(finding);
-  give_back(std::move(stages));
+  give_back(std::move(course_players));
 }
 
 /// Plays the courses of this shard from `first` to `end`. Returns false if there was no time for all of them.
@@ -119,10 +121,12 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
     return play::CaseId{.file = 0, .number = next++};
   };
   const auto make_play = [&]() -> play::Play {
-    const auto return_it = [this](Stages* stages) { give_back(std::unique_ptr<Stages>(stages)); };
-    const std::shared_ptr<Stages> stages(take_stages().release(), return_it);
-    return [this, stages, &all, first](const play::CaseId& course) {
-      all[course.number - first] = play(*stages, draw(*stages, course.number));
+    const auto return_it = [this](Stages* course_players) {
+      give_back(std::unique_ptr<Stages>(course_players));
+    };
+    const std::shared_ptr<Stages> course_players(take_stages().release(), return_it);
+    return [this, course_players, &all, first](const play::CaseId& course) {
+      all[course.number - first] = play(*course_players, draw(*course_players, course.number));
       return std::vector<play::ScenarioResult>{};
     };
   };
@@ -137,9 +141,9 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
 
 /// Judges the only case without disturbances, if it fails: every course would fail in the same way.
 bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
-  auto stages = take_stages();
-  const Played played{.course = {}, .outcome = stages->of(0)->undisturbed_outcome()};
-  give_back(std::move(stages));
+  auto course_players = take_stages();
+  const Played played{.course = {}, .outcome = course_players->of(0)->undisturbed_outcome()};
+  give_back(std::move(course_players));
   if (played.outcome.kind.empty()) return false;
   judge(0, played, found);
   return true;
@@ -147,24 +151,24 @@ bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
 
 /// Plays the courses of earlier hunts, to learn what they have reached.
 void Hunt::play_earlier() {
-  auto stages = take_stages();
+  auto course_players = take_stages();
   options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances
   for (Course& course : options_.corpus) {
     if (options_.is_over()) break;
     if (course.case_number >= cases_.cases_of(0)) continue;
-    Stage& stage = *stages->of(course.case_number);
-    if (!stage.undisturbed_outcome().kind.empty()) continue;
+    CoursePlayer& course_player = *course_players->of(course.case_number);
+    if (!course_player.undisturbed_outcome().kind.empty()) continue;
     const bool fits =
         std::all_of(course.disturbances.begin(), course.disturbances.end(), [&](const auto& one) {
-          return is_possible(one, {.plan = stage.plan(), .undisturbed = stage.undisturbed()});
+          return is_possible(one, {.plan = course_player.plan(), .undisturbed = course_player.undisturbed()});
         });
     if (!fits) continue;
     arrange(course.disturbances);
-    const Played played = play(*stages, course);
+    const Played played = play(*course_players, course);
     if (played.outcome.kind.empty() && !played.outcome.is_cut_short)
       corpus_.add(played.course, played.reached);
   }
-  give_back(std::move(stages));
+  give_back(std::move(course_players));
   corpus_.renew();
 }
 
@@ -177,12 +181,12 @@ void Hunt::note_curve() {
 void Hunt::play_corpus(
     const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers) {
   corpus_.renew();
-  auto stages = take_stages();
+  auto course_players = take_stages();
   for (const Seed& seed : corpus_.seeds()) {
-    Stage& stage = *stages->of(seed.course.case_number);
-    stage.play(seed.course, observers(stage.scenario()));
+    CoursePlayer& course_player = *course_players->of(seed.course.case_number);
+    course_player.play(seed.course, observers(course_player.scenario()));
   }
-  give_back(std::move(stages));
+  give_back(std::move(course_players));
 }
 
 void Hunt::run(const std::function<void(const Finding&)>& found, const std::function<void()>& pause) {

@@ -15,9 +15,9 @@
 #include "emulator/device/model.h"
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stage.h"
 #include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 
@@ -39,7 +39,7 @@ struct Finding {
   std::uint64_t course = 0;      // the number of the first
   std::size_t disturbances = 0;  // how many it had
   Shrunk shrunk{};
-  std::shared_ptr<Stage> stage{};  // of its case
+  std::shared_ptr<CoursePlayer> course_player{};  // of its case
 };
 
 /// The totals so far.
@@ -94,9 +94,9 @@ class Hunt {
   };
 
   std::unique_ptr<Stages> take_stages();
-  void give_back(std::unique_ptr<Stages> stages);
-  Course draw(Stages& stages, std::uint64_t number) const;
-  Played play(Stages& stages, Course course) const;
+  void give_back(std::unique_ptr<Stages> course_players);
+  Course draw(Stages& course_players, std::uint64_t number) const;
+  Played play(Stages& course_players, Course course) const;
   void play_earlier();
   void note_curve();
   void judge(std::uint64_t number, const Played& played, const std::function<void(const Finding&)>& found);

@@ -60,7 +60,7 @@ class Lines final : public ProgramWatch {
   Lines(const Lines&) = delete;
   Lines& operator=(const Lines&) = delete;
 
-  void look(std::uint64_t mark) override {
+  void program_loaded(std::uint64_t mark) override {
     if (mark == mark_) return;
     mark_ = mark;
     seen_.clear();
@@ -82,7 +82,7 @@ class Lines final : public ProgramWatch {
 struct Sights {
   std::vector<Place> words;    // registers with named bits
   std::vector<Place> numbers;  // others that the device shows
-  std::vector<TerminalSight> terminals;
+  std::vector<TerminalView> terminals;
 };
 
 bool is_shown(const RegisterRow& row) {
@@ -106,10 +106,10 @@ Sights sights_of(const Device& device) {
     }
   }
   if (device.terminals() == nullptr) return sights;
-  for (TerminalSight& sight : terminal_sights(device)) {
-    if (sight.what != TerminalSight::What::pulses && !is_in_millivolts(sight.kind) &&
-        sight.kind != TerminalRow::Kind::counted_in)
-      sights.terminals.push_back(std::move(sight));
+  for (TerminalView& view : terminal_views(device)) {
+    if (view.what != TerminalView::What::pulses && !is_in_millivolts(view.kind) &&
+        view.kind != TerminalRow::Kind::counted_in)
+      sights.terminals.push_back(std::move(view));
   }
   return sights;
 }
@@ -152,8 +152,8 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
       request = mixed(request, byte);
     note(Sort::order, mixed(mixed(std::exchange(request_, request), std::exchange(reply_, 0)), request));
   }
-  void on_speech(const pty::Speech& speech) override {
-    reply_ = 1 + (speech.bytes.size() > 1 ? speech.bytes[1] >> 7 : 0);  // an exception has this bit
+  void on_transmission(const pty::Transmission& protocol) override {
+    reply_ = 1 + (protocol.bytes.size() > 1 ? protocol.bytes[1] >> 7 : 0);  // an exception has this bit
     look();
   }
   void on_strike(const pty::StruckMessage& message) override {
@@ -191,8 +191,8 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
       if (axes->has_axis(axis)) state = mixed(state, state_of_axis(d, *axes, axis));
     }
     if (!device.powered()) return state;
-    for (const TerminalSight& sight : sights_[d].terminals)
-      state = mixed(state, static_cast<std::uint64_t>(value_of(device, sight)));
+    for (const TerminalView& view : sights_[d].terminals)
+      state = mixed(state, static_cast<std::uint64_t>(value_of(device, view)));
     const RegisterBank* const bank = device.register_bank();
     for (const Place& place : sights_[d].words)
       state = mixed(state, static_cast<std::uint64_t>(read_value(*bank, place)));

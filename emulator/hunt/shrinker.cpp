@@ -11,7 +11,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/hunt/course.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/reading/variation.h"
 #include "emulator/play/scenario/scenario.h"
@@ -28,7 +28,7 @@ using When = Disturbance::When;
 bool Shrinker::try_course(Course course) {
   if (course == best_.course || best_.plays >= kMaxPlays) return false;
   ++best_.plays;
-  Outcome outcome = stage_.play(course);
+  Outcome outcome = course_player_.play(course);
   if (outcome.kind != kind_) return false;
   best_.course = std::move(course);
   best_.outcome = std::move(outcome);
@@ -37,7 +37,7 @@ bool Shrinker::try_course(Course course) {
 
 bool Shrinker::fails(const Course& course) {
   ++best_.plays;
-  return stage_.play(course).kind == kind_;
+  return course_player_.play(course).kind == kind_;
 }
 
 Shrunk Shrinker::shrink(const Course& course, const Outcome& outcome) {
@@ -95,7 +95,7 @@ void Shrinker::lower(std::size_t number, std::uint64_t low, std::uint64_t high,
 
 void Shrinker::simplify(std::size_t number) {
   const Disturbance& one = best_.course.disturbances[number];
-  const auto& values = stage_.plan().entries()[one.entry].values;
+  const auto& values = course_player_.plan().entries()[one.entry].values;
   if (one.when == When::nth) {
     lower(number, 1, static_cast<std::uint64_t>(one.moment),
           [](Disturbance& it, std::uint64_t value) { it.moment = static_cast<std::int64_t>(value); });
@@ -122,7 +122,7 @@ void Shrinker::round_moment(std::size_t number) {
   constexpr std::array<SimTime, 5> kUnits{1s, 100ms, 10ms, 1ms, 100us};
   const Disturbance& one = best_.course.disturbances[number];
   const SimTime present(one.moment);
-  const Window window = window_of(stage_.plan().entries()[one.entry], stage_.undisturbed());
+  const Window window = window_of(course_player_.plan().entries()[one.entry], course_player_.undisturbed());
   for (const SimTime unit : kUnits) {
     const SimTime below = present / unit * unit;
     for (const SimTime rounded : {below, below + unit}) {
@@ -138,14 +138,14 @@ void Shrinker::round_moment(std::size_t number) {
 /// Leaves out steps of the scenario, the last one first, if the course then still fails because of its
 /// disturbances, and the scenario without them does not.
 void Shrinker::leave_out_steps() {
-  const auto& steps = stage_.scenario().steps;
+  const auto& steps = course_player_.scenario().steps;
   const std::size_t last = std::min(best_.course.end, steps.size());
   for (std::size_t i = last; i-- > 0;) {
     if (std::holds_alternative<play::SayStep>(steps[i].what) || i == best_.outcome.failed_step) continue;
-    if (stage_.plan().steps()[i].continues) continue;
+    if (course_player_.plan().steps()[i].continues) continue;
     Course shorter = best_.course;
     shorter.left_out.insert(i);
-    for (std::size_t j = i + 1; j < steps.size() && stage_.plan().steps()[j].continues; ++j)
+    for (std::size_t j = i + 1; j < steps.size() && course_player_.plan().steps()[j].continues; ++j)
       shorter.left_out.insert(j);
     if (shorter.left_out.contains(best_.outcome.failed_step)) continue;
     Course undisturbed = shorter;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/hunt/course.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/course_player.h"
 
 namespace understudy::emulator::hunt {
 
@@ -21,7 +21,8 @@ struct Shrunk {
 class Shrinker {
  public:
   /// `kind` is how the course fails. Both must outlive it.
-  Shrinker(Stage& stage, const std::string& kind) : stage_(stage), kind_(kind) {}
+  Shrinker(CoursePlayer& course_player, const std::string& kind)
+      : course_player_(course_player), kind_(kind) {}
 
   Shrunk shrink(const Course& course, const Outcome& outcome);
 
@@ -40,7 +41,7 @@ class Shrinker {
   void leave_out_steps();
   bool is_minimal();
 
-  Stage& stage_;
+  CoursePlayer& course_player_;
   const std::string& kind_;
   Shrunk best_;
 };

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "emulator/device/model.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/play/performing/case_list.h"
 
 namespace understudy::emulator::hunt {
@@ -19,12 +19,13 @@ class Stages {
   Stages(const play::CaseList& cases, ModelList models, Player player)
       : reader_(cases), models_(models), player_(std::move(player)) {}
 
-  std::shared_ptr<Stage> of(std::uint64_t case_number) {
+  std::shared_ptr<CoursePlayer> of(std::uint64_t case_number) {
     const auto it = stages_.find(case_number);
     if (it != stages_.end()) return it->second;
     if (stages_.size() >= kMax) stages_.clear();
-    auto stage = std::make_shared<Stage>(reader_.read({.file = 0, .number = case_number}), models_, player_);
-    return stages_.emplace(case_number, std::move(stage)).first->second;
+    auto course_player =
+        std::make_shared<CoursePlayer>(reader_.read({.file = 0, .number = case_number}), models_, player_);
+    return stages_.emplace(case_number, std::move(course_player)).first->second;
   }
 
  private:
@@ -33,7 +34,7 @@ class Stages {
   play::CaseReader reader_;
   ModelList models_;
   Player player_;
-  std::map<std::uint64_t, std::shared_ptr<Stage>> stages_;  // by case
+  std::map<std::uint64_t, std::shared_ptr<CoursePlayer>> stages_;  // by case
 };
 
 }  // namespace understudy::emulator::hunt

@@ -16,7 +16,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/binder.h"
 #include "emulator/model_file/line_fields.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
@@ -49,14 +49,14 @@ motion::UnitScale read_scale(const YamlFields& field) {
   };
   if (!is_one(multiplier) || !is_one(divider))
     field.fail(understudy::quoted(text) +
-               " is not possible; expected a whole number above 0, or two as in 25/4");
+               " is not valid; expected a whole number above 0, or two as in 25/4");
   return motion::UnitScale::of(*multiplier, *divider);
 }
 
 double read_factor(const YamlFields& field) {
   const auto factor = parse_real(field.text());
   if (!factor || !(*factor > 0) || *factor > 1e9)
-    field.fail(understudy::quoted(field.text()) + " is not possible; expected a number above 0, up to 1e9");
+    field.fail(understudy::quoted(field.text()) + " is not valid; expected a number above 0, up to 1e9");
   return *factor;
 }
 
@@ -169,8 +169,9 @@ AxisBinding read_axis(const YamlFields& fields, const std::string& name, const D
       });
     }
   });
-  read("home_way",
-       [&](const YamlFields& field) { axis.home_direction = read_word(field, kWaySchema) == 0 ? -1 : +1; });
+  read("home_way", [&](const YamlFields& field) {
+    axis.home_direction = read_word(field, kDirectionSchema) == 0 ? -1 : +1;
+  });
   read("home_position", [&](const YamlFields& field) { axis.home_position = field.integer(kCountsSchema); });
   read("pulses_per_revolution", [&](const YamlFields& field) {
     axis.pulses_per_revolution = static_cast<int>(field.integer(kPerRevolutionSchema));

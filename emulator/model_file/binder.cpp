@@ -118,7 +118,7 @@ Condition Binder::condition(const YamlFields& field) const {
   const bool is_kept_in_range =
       row.ranged && row.access != Access::read && map_.policy().out_of_range != MapPolicy::OutOfRange::stored;
   if (is_kept_in_range)
-    limits = {.lowest = std::min(row.least, row.factory), .highest = std::max(row.most, row.factory)};
+    limits = {.lowest = std::min(row.min, row.factory), .highest = std::max(row.max, row.factory)};
   if (!made.spot.is_whole()) limits = {0, static_cast<Value>(mask_of(made.spot) >> made.spot.bit)};
   if (*made.value < limits.lowest || *made.value > limits.highest) {
     field.fail(understudy::quoted(number) + " never occurs; expected " + std::to_string(limits.lowest) +

@@ -26,14 +26,14 @@ char separator_of(std::string_view text) {
   for (int line = 0; line < kMaxTitles && !text.empty(); ++line) {
     const std::string_view first = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(first.size() + 1, text.size()));
-    char most = '\0';
+    char max = '\0';
     std::ptrdiff_t count = 0;
     for (const char separator : {',', ';', '\t'}) {
       const auto here = std::count(first.begin(), first.end(), separator);
-      if (here > count) most = separator;
+      if (here > count) max = separator;
       count = std::max(count, here);
     }
-    if (most != '\0') return most;
+    if (max != '\0') return max;
   }
   return ',';
 }

@@ -16,7 +16,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/binder.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
@@ -34,13 +34,13 @@ namespace {
 /// A function that can be served, and the most registers or bits of one request.
 struct Served {
   std::uint8_t code = 0;
-  int most = 1;
+  int max = 1;
 };
 std::vector<Served> all_served() {
   std::vector<Served> all;
-  for (const world::FunctionRow& row : world::kModbusFunctions) all.push_back({row.code, row.most});
+  for (const world::FunctionRow& row : world::kModbusFunctions) all.push_back({row.code, row.max});
   for (const world::OtherFunctionRow& row : world::kOtherModbusFunctions)
-    all.push_back({static_cast<std::uint8_t>(row.code), row.most});
+    all.push_back({static_cast<std::uint8_t>(row.code), row.max});
   std::sort(all.begin(), all.end(), [](const Served& a, const Served& b) { return a.code < b.code; });
   return all;
 }
@@ -59,20 +59,20 @@ std::uint8_t read_function(const YamlFields& field) {
 void read_limits(const YamlFields& field, Line& line) {
   field.require_map();
   const std::vector<Served> all = all_served();
-  for (const auto& [code, most] : field.entries()) {
+  for (const auto& [code, max] : field.entries()) {
     const auto number = parse_integer(code);
     const bool is_known =
         number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
     if (!is_known)
-      most.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
+      max.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
     const Served& row =
         *std::find_if(all.begin(), all.end(), [&](const Served& one) { return one.code == *number; });
-    const auto count = most.integer(kMaxSchema);
-    if (count > row.most) {
-      most.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
-                std::to_string(row.most) + " or fewer");
+    const auto count = max.integer(kMaxSchema);
+    if (count > row.max) {
+      max.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
+               std::to_string(row.max) + " or fewer");
     }
-    line.limits.push_back({.code = row.code, .most = static_cast<int>(count)});
+    line.limits.push_back({.code = row.code, .max = static_cast<int>(count)});
   }
 }
 
@@ -81,26 +81,26 @@ void read_identity(const YamlFields& field, Line& line) {
   field.require_keys(kIdentityKeys);
   line.identity.clear();
   constexpr std::size_t kBasic = 3;
-  constexpr std::size_t kMostLetters = 240;
+  constexpr std::size_t kMaxLetters = 240;
   for (std::size_t id = 0; id < kIdentityKeys.size(); ++id) {
     const auto given = field.find(kIdentityKeys[id].key);
     if (!given && id >= kBasic) continue;
     std::string text = given ? given->text() : "";
-    if (text.size() > kMostLetters)
-      given->fail("is too long; expected " + std::to_string(kMostLetters) + " letters or fewer");
+    if (text.size() > kMaxLetters)
+      given->fail("is too long; expected " + std::to_string(kMaxLetters) + " letters or fewer");
     line.identity.emplace_back(static_cast<std::uint8_t>(id), std::move(text));
   }
 }
 
 }  // namespace
 
-std::size_t read_word(const YamlFields& field, const Schema& form) {
+std::size_t read_word(const YamlFields& field, const Schema& schema) {
   const std::string written = field.text();
-  for (std::size_t i = 0; i < form.words.size(); ++i) {
-    if (form.words[i] == written) return i;
+  for (std::size_t i = 0; i < schema.words.size(); ++i) {
+    if (schema.words[i] == written) return i;
   }
-  const std::vector<std::string> words(form.words.begin(), form.words.end());
-  field.fail(understudy::quoted(written) + " is not possible" + suggestion(written, words));
+  const std::vector<std::string> words(schema.words.begin(), schema.words.end());
+  field.fail(understudy::quoted(written) + " is not valid" + suggestion(written, words));
 }
 
 void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
@@ -133,7 +133,7 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
     line.silence = field.duration();
     constexpr pty::SimTime kLongest = std::chrono::seconds(1);
     if (*line.silence <= pty::SimTime{0} || *line.silence > kLongest)
-      field.fail(understudy::quoted(field.text()) + " is not possible; expected more than 0, up to 1s");
+      field.fail(understudy::quoted(field.text()) + " is not valid; expected more than 0, up to 1s");
   });
   read("stations", [&](const YamlFields& field) {
     const auto ends = field.elements();
@@ -152,8 +152,8 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("identity", [&](const YamlFields& field) { read_identity(field, line); });
   read("server_id", [&](const YamlFields& field) {
     line.server_id = field.text();
-    constexpr std::size_t kMostLetters = 200;
-    if (line.server_id.size() > kMostLetters) field.fail("is too long; expected 200 letters or fewer");
+    constexpr std::size_t kMaxLetters = 200;
+    if (line.server_id.size() > kMaxLetters) field.fail("is too long; expected 200 letters or fewer");
   });
   read("broadcast",
        [&](const YamlFields& field) { line.obeys_broadcasts = read_word(field, kBroadcastSchema) == 0; });
@@ -161,9 +161,9 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
 
 void read_policy(const YamlFields& fields, MapPolicy& policy, Diagnostics& diagnostics) {
   diagnostics.attempt([&] { fields.require_keys(kMapKeys); });
-  const auto read = [&](std::string_view key, const Schema& form, const auto& take) {
+  const auto read = [&](std::string_view key, const Schema& schema, const auto& take) {
     diagnostics.attempt([&] {
-      if (const auto field = fields.find(key)) take(read_word(*field, form));
+      if (const auto field = fields.find(key)) take(read_word(*field, schema));
     });
   };
   read("holes", kRefusedOrZeroSchema, [&](std::size_t word) {

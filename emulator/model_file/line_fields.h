@@ -11,7 +11,7 @@
 namespace understudy::emulator::model_file {
 
 /// Returns the index of a word in a schema's list. Throws FileError for any other word.
-std::size_t read_word(const world::YamlFields& field, const world::Schema& form);
+std::size_t read_word(const world::YamlFields& field, const world::Schema& schema);
 
 /// Reads everything except `station_in`. Keeps all errors.
 void read_line(const world::YamlFields& fields, models::imported::Line& line,

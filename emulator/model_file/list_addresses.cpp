@@ -143,8 +143,8 @@ std::optional<PrintedAddress> parse_address(std::string_view text, bool is_hexad
     if (at == std::string_view::npos) continue;
     auto first = parse_one(text.substr(0, at), is_hexadecimal);
     const auto last = parse_one(text.substr(at + between.size()), is_hexadecimal);
-    constexpr std::int64_t kMostWords = 125;
-    if (!first || !last || last->number <= first->number || last->number - first->number >= kMostWords)
+    constexpr std::int64_t kMaxWords = 125;
+    if (!first || !last || last->number <= first->number || last->number - first->number >= kMaxWords)
       return std::nullopt;
     first->last = last->number;
     return first;

@@ -15,7 +15,7 @@
 #include "emulator/model_file/line_fields.h"
 #include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/list_words.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 

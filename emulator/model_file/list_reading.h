@@ -37,7 +37,7 @@ struct ListReading {
 class Remarks {
  public:
   void add(const std::string& kind, const FilePlace& place, const std::string& text) {
-    auto& [first, more] = all_.try_emplace(kind, Told{{place, text}, 0}).first->second;
+    auto& [first, more] = all_.try_emplace(kind, Reported{{place, text}, 0}).first->second;
     if (first.text != text || first.place.line != place.line || first.place.column != place.column) ++more;
   }
   void add(const Remarks& others) { all_.insert(others.all_.begin(), others.all_.end()); }
@@ -45,11 +45,11 @@ class Remarks {
   std::vector<FileError::Diagnostic> all() const;
 
  private:
-  struct Told {
+  struct Reported {
     FileError::Diagnostic first;
     std::size_t more = 0;
   };
-  std::map<std::string, Told> all_;
+  std::map<std::string, Reported> all_;
 };
 
 }  // namespace understudy::emulator::model_file

@@ -35,8 +35,9 @@ std::size_t length_of_decimal(std::string_view text) {
   const std::size_t begin = at;
   while (at < text.size() && is_digit(text[at])) ++at;
   if (at == begin) return 0;
-  const bool goes_on = at + 1 < text.size() && (text[at] == '.' || text[at] == ',') && is_digit(text[at + 1]);
-  if (!goes_on) return at;
+  const bool continues =
+      at + 1 < text.size() && (text[at] == '.' || text[at] == ',') && is_digit(text[at + 1]);
+  if (!continues) return at;
   ++at;
   while (at < text.size() && is_digit(text[at])) ++at;
   return at;

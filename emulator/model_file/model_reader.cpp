@@ -25,7 +25,7 @@
 #include "emulator/model_file/list_fields.h"
 #include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/list_text.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/model_file/value_fields.h"
 #include "emulator/models/imported/description.h"

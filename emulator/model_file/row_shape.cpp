@@ -18,7 +18,7 @@ namespace {
 
 using TypeKind = TypeMeaning::Kind;
 
-constexpr int kMostWords = 125;  // of one request
+constexpr int kMaxWords = 125;  // of one request
 
 /// Requires that columns agree. A list may say the same thing twice, but not two different things.
 void require_agreement(const ListRow& row, Type type) {
@@ -37,20 +37,19 @@ Type plain_type(const ListRow& row, Table table) {
   const std::string& width = row.text(Column::width);
   if (is_table_of_bits(table)) {
     if (!width.empty() && width != "1")
-      row.fail(Column::width, quoted(width) + " is not possible there; expected 1");
+      row.fail(Column::width, quoted(width) + " is not valid there; expected 1");
     return Type::bit;
   }
   if (!width.empty() && width != "16" && width != "32")
     row.fail(Column::width,
-             quoted(width) + " is not possible; expected 16 or 32, and 1 in coil and discrete");
+             quoted(width) + " is not valid; expected 16 or 32, and 1 in coil and discrete");
   const bool is_wide = width == "32";
   if (row.yes_or_no(Column::real)) {
     if (!is_wide) row.fail(Column::real, "a real number has 32 bits; expected the width 32");
     return Type::f32;
   }
-  const std::string& least = row.has(Column::least) ? row.text(Column::least) : row.text(Column::range);
-  const bool has_sign =
-      row.has(Column::is_signed) ? row.yes_or_no(Column::is_signed) : least.starts_with('-');
+  const std::string& min = row.has(Column::min) ? row.text(Column::min) : row.text(Column::range);
+  const bool has_sign = row.has(Column::is_signed) ? row.yes_or_no(Column::is_signed) : min.starts_with('-');
   if (is_wide) return has_sign ? Type::s32 : Type::u32;
   return has_sign ? Type::s16 : Type::u16;
 }
@@ -60,9 +59,9 @@ int words_in_column(const ListRow& row) {
   if (!row.has(Column::words)) return 0;
   const std::string text = lower(row.text(Column::words));
   const auto number = parse_decimal(text, true);
-  if (!number || number->places != 0 || number->digits < 1 || number->digits > 16 * kMostWords) {
+  if (!number || number->places != 0 || number->digits < 1 || number->digits > 16 * kMaxWords) {
     row.fail(Column::words, quoted(row.text(Column::words)) +
-                                " is not a number of registers; expected 1 to " + std::to_string(kMostWords));
+                                " is not a number of registers; expected 1 to " + std::to_string(kMaxWords));
   }
   const auto count = static_cast<int>(number->digits);
   const auto says = [&](std::string_view what) { return text.find(what) != std::string::npos; };

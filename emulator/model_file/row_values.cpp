@@ -54,11 +54,11 @@ std::optional<Step> step_of(const ListRow& row) {
 /// Reads numbers of one row. They are counts, unless one of them has decimals: then all are in the unit.
 class RowNumbers {
  public:
-  RowNumbers(const ListRow& row, const RowShape& shape, const std::string& least, const std::string& most)
+  RowNumbers(const ListRow& row, const RowShape& shape, const std::string& min, const std::string& max)
       : row_(row), shape_(shape) {
     const bool are_whole = shape.kind == TypeKind::number || shape.kind == TypeKind::decimal;
     in_units_ = are_whole && shape.type != Type::f32 &&
-                (has_decimals(least) || has_decimals(most) || has_decimals(row.text(Column::factory)));
+                (has_decimals(min) || has_decimals(max) || has_decimals(row.text(Column::factory)));
   }
 
   Value value(Column column, const std::string& word) const {
@@ -70,7 +70,7 @@ class RowNumbers {
                                   : limits_of(shape_.type);
     const bool is_possible = number && coded && *number >= limits.lowest && *number <= limits.highest;
     if (!is_possible) {
-      row_.fail(column, quoted(word) + " is not possible; expected a whole number from " +
+      row_.fail(column, quoted(word) + " is not valid; expected a whole number from " +
                             std::to_string(limits.lowest) + " to " + std::to_string(limits.highest));
     }
     return *coded;
@@ -90,9 +90,9 @@ class RowNumbers {
     if (const auto number = parse_integer(word)) return number;
     const auto number = parse_decimal(word, true);
     if (!number || number->places != 0) return std::nullopt;
-    const std::string behind = word.substr(word.find_last_of("0123456789") + 1);
+    const std::string suffix = word.substr(word.find_last_of("0123456789") + 1);
     const bool is_unit =
-        !behind.empty() && word.find_first_not_of("-+0123456789") + behind.size() == word.size();
+        !suffix.empty() && word.find_first_not_of("-+0123456789") + suffix.size() == word.size();
     return is_unit ? std::optional(number->digits) : std::nullopt;
   }
 
@@ -118,42 +118,42 @@ class RowNumbers {
 
 /// The two ends of a range, as they are written, and their columns.
 struct Ends {
-  std::string least;
-  std::string most;
-  Column first = Column::least;
-  Column last = Column::most;
+  std::string min;
+  std::string max;
+  Column first = Column::min;
+  Column last = Column::max;
 };
 
 Ends written_ends(const ListRow& row) {
-  Ends ends{.least = row.text(Column::least), .most = row.text(Column::most)};
+  Ends ends{.min = row.text(Column::min), .max = row.text(Column::max)};
   if (row.has(Column::range)) {
-    if (!ends.least.empty() || !ends.most.empty())
+    if (!ends.min.empty() || !ends.max.empty())
       row.fail(Column::range, "cannot be combined with min and max; expected one of the two");
     ends.first = ends.last = Column::range;
     const auto found = ends_of(row.text(Column::range));
     if (!found)
       row.fail(Column::range, quoted(row.text(Column::range)) + " is not a range; expected 0..3000");
-    std::tie(ends.least, ends.most) = *found;
+    std::tie(ends.min, ends.max) = *found;
   }
   return ends;
 }
 
 void take_range(const ListRow& row, const RowShape& shape, const Ends& ends, ListedRegister& listed) {
-  const RowNumbers numbers(row, shape, ends.least, ends.most);
-  const Value least = numbers.value(ends.first, ends.least);
-  const Value most = numbers.value(ends.last, ends.most);
-  if (is_before(most, least, listed.type)) {
-    row.fail(ends.last, quoted(ends.most) + " is below " + ends.least +
+  const RowNumbers numbers(row, shape, ends.min, ends.max);
+  const Value min = numbers.value(ends.first, ends.min);
+  const Value max = numbers.value(ends.last, ends.max);
+  if (is_before(max, min, listed.type)) {
+    row.fail(ends.last, quoted(ends.max) + " is below " + ends.min +
                             "; expected a maximum that is not below the minimum");
   }
-  listed.least = least;
-  listed.most = most;
+  listed.min = min;
+  listed.max = max;
   listed.ranged = true;
 }
 
 void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape, ListedRegister& listed) {
   if (shape.kind != TypeKind::number || listed.type == Type::f32) return;
-  const auto [least, most] = std::minmax_element(
+  const auto [min, max] = std::minmax_element(
       all.begin(), all.end(), [](const auto& one, const auto& other) { return one.value < other.value; });
   if (all.front().is_bit) {
     for (const NamedValue& bit : all) {
@@ -169,9 +169,9 @@ void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape,
     return;
   }
   const TypeLimits limits = limits_of(listed.type);
-  if (least->value < limits.lowest || most->value > limits.highest) return;
-  listed.least = least->value;
-  listed.most = most->value;
+  if (min->value < limits.lowest || max->value > limits.highest) return;
+  listed.min = min->value;
+  listed.max = max->value;
   listed.ranged = true;
 }
 
@@ -196,17 +196,17 @@ void read_values(const ListRow& row, const RowShape& shape, ListedRegister& list
 void read_range(const ListRow& row, const RowShape& shape, ListedRegister& listed) {
   if (shape.holds_only_words()) return;
   if (shape.is_flag) {
-    listed.least = 0;
-    listed.most = 1;
+    listed.min = 0;
+    listed.max = 1;
     listed.ranged = true;
   }
   const Ends ends = written_ends(row);
-  if (ends.least.empty() && ends.most.empty()) {
+  if (ends.min.empty() && ends.max.empty()) {
     if (row.has(Column::values)) read_values(row, shape, listed);
     return;
   }
-  if (ends.least.empty() || ends.most.empty())
-    row.fail(ends.least.empty() ? ends.last : ends.first,
+  if (ends.min.empty() || ends.max.empty())
+    row.fail(ends.min.empty() ? ends.last : ends.first,
              "is given alone; expected both min and max, or neither");
   take_range(row, shape, ends, listed);
 }
@@ -215,16 +215,16 @@ void read_factory(const ListRow& row, const RowShape& shape, ListedRegister& lis
   if (shape.holds_only_words()) return;
   const auto is_out = [&](Value value) {
     return listed.ranged &&
-           (is_before(value, listed.least, listed.type) || is_before(listed.most, value, listed.type));
+           (is_before(value, listed.min, listed.type) || is_before(listed.max, value, listed.type));
   };
   if (!row.has(Column::factory)) {
-    listed.factory = is_out(0) ? listed.least : 0;
+    listed.factory = is_out(0) ? listed.min : 0;
     return;
   }
   Ends ends;
-  if (row.has(Column::least) || row.has(Column::range)) ends = written_ends(row);
+  if (row.has(Column::min) || row.has(Column::range)) ends = written_ends(row);
   listed.factory =
-      RowNumbers(row, shape, ends.least, ends.most).value(Column::factory, row.text(Column::factory));
+      RowNumbers(row, shape, ends.min, ends.max).value(Column::factory, row.text(Column::factory));
 }
 
 std::string unit_of(const ListRow& row) {

@@ -30,7 +30,7 @@ struct Guess {
   std::string_view key;
   bool is_written = true;  // by hosts
   std::array<std::string_view, 4> words{};
-  std::string_view behind{};  // comes after the name, such as a bit
+  std::string_view suffix{};  // comes after the name, such as a bit
   std::string_view otherwise;
   std::string_view meaning;
 };
@@ -74,7 +74,7 @@ const ListedRegister* find_likely(const std::vector<ListedRegister>& registers, 
 std::string guessed(const std::vector<ListedRegister>& registers, const Guess& guess) {
   const ListedRegister* const likely = find_likely(registers, guess);
   if (likely == nullptr) return std::string(guess.otherwise);
-  return likely->name + (likely->type == Type::bit ? "" : std::string(guess.behind));
+  return likely->name + (likely->type == Type::bit ? "" : std::string(guess.suffix));
 }
 
 std::string padded(std::string text, std::size_t width) {

@@ -13,7 +13,7 @@
 #include "base/text/parse_real.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/model_file/binder.h"
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/models/imported/description.h"
 #include "emulator/models/imported/shown.h"
 #include "emulator/world/bench_file/device_fields.h"
@@ -96,13 +96,13 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       if (const auto field = keys.find("rate")) {
         const auto rate = parse_real(field->text());
         if (!rate || !(*rate > 0))
-          field->fail(understudy::quoted(field->text()) + " is not possible; expected a number above 0");
-        following.most_per_s = *rate;
+          field->fail(understudy::quoted(field->text()) + " is not valid; expected a number above 0");
+        following.max_per_s = *rate;
       }
       if (const auto field = keys.find("every")) {
         following.every = field->ticks();
         if (following.every < 1 || following.every > kMaxEvery)
-          field->fail(understudy::quoted(field->text()) + " is not possible; expected 1ms to 60s");
+          field->fail(understudy::quoted(field->text()) + " is not valid; expected 1ms to 60s");
       }
       made.followings.push_back(following);
     });

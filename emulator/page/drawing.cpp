@@ -95,12 +95,12 @@ void Drawing::line(std::vector<Point> points, Colour colour, double wide) {
 
 void Drawing::text(double x, double y, std::string_view text, Colour colour, double room,
                    Shape::Anchor anchor, double size) {
-  const auto most = static_cast<std::size_t>(std::clamp(room / (size * kAdvance), 0.0, 1e6));
+  const auto max = static_cast<std::size_t>(std::clamp(room / (size * kAdvance), 0.0, 1e6));
   std::string shown(text);
-  if (length_of(text) > most) {
-    if (most < 2) return;
+  if (length_of(text) > max) {
+    if (max < 2) return;
     std::size_t end = 0;
-    for (std::size_t count = 0; count < most; ++end) count += begins_character(text[end]) ? 1 : 0;
+    for (std::size_t count = 0; count < max; ++end) count += begins_character(text[end]) ? 1 : 0;
     shown = std::string(text.substr(0, end - 1)) + "\xE2\x80\xA6";
   }
   if (shown.empty()) return;

@@ -58,9 +58,10 @@ Page::Page(const PageOptions& options)
   options_.address.port = web_.port();
   web_.admit(access_of(options_.address, options_.hosts));
   for (std::size_t i = 0; i < options_.sockets.size(); ++i) {
-    benches_.push_back(std::make_unique<PageBench>(
-        web_, options_.sockets[i],
-        PageBench::Hears{.looked = [this, i] { show(i); }, .state_changed = [this, i] { tell_state(i); }}));
+    benches_.push_back(
+        std::make_unique<PageBench>(web_, options_.sockets[i],
+                                    PageBench::Callbacks{.looked = [this, i] { show(i); },
+                                                         .state_changed = [this, i] { send_state(i); }}));
   }
 }
 
@@ -108,7 +109,7 @@ void Page::opened(BrowserId browser) {
   });
 }
 
-void Page::heard(BrowserId browser, std::string_view text) {
+void Page::received(BrowserId browser, std::string_view text) {
   Browser& whose = browsers_[browser];
   if (!whose.is_known) {
     if (!is_token(token_of(text), token_)) return web_.close(browser, "the token is wrong");
@@ -226,7 +227,7 @@ void Page::show_to(BrowserId browser, Browser& whose, std::size_t bench) {
   send(browser, "{\"is\":\"look\",\"bench\":" + std::to_string(bench) + "," + news + "}");
 }
 
-void Page::tell_state(std::size_t bench) {
+void Page::send_state(std::size_t bench) {
   const Json said{{"is", "bench"},
                   {"bench", bench},
                   {"state", word_for(benches_[bench]->state())},

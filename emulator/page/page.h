@@ -56,7 +56,7 @@ class Page final : private WebEvents {
   std::optional<WebFile> file(std::string_view path) override;
   std::optional<WebFile> built_in(std::string_view name);
   void opened(BrowserId browser) override;
-  void heard(BrowserId browser, std::string_view text) override;
+  void received(BrowserId browser, std::string_view text) override;
   void closed(BrowserId browser) override;
   void drained(BrowserId browser) override;
 
@@ -65,7 +65,7 @@ class Page final : private WebEvents {
   void greet(BrowserId browser);
   void show(std::size_t bench);
   void show_to(BrowserId browser, Browser& whose, std::size_t bench);
-  void tell_state(std::size_t bench);
+  void send_state(std::size_t bench);
   void watched_changed(std::size_t bench);
   void send(BrowserId browser, std::string text);
 

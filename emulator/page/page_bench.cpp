@@ -67,8 +67,8 @@ void take_list(const Json& look, const char* key, const char* next_key, std::uin
 
 }  // namespace
 
-PageBench::PageBench(Web& web, std::string socket, Hears hears)
-    : web_(web), socket_(std::move(socket)), hears_(std::move(hears)), wire_(web.wire(socket_)) {}
+PageBench::PageBench(Web& web, std::string socket, Callbacks callbacks)
+    : web_(web), socket_(std::move(socket)), callbacks_(std::move(callbacks)), wire_(web.wire(socket_)) {}
 
 void PageBench::want(Wanted wanted) {
   for (const std::string& name : wanted.names) values_.try_emplace(name);
@@ -199,7 +199,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       for (const auto& one : lists_) one->look.reset();
       list->look.reset();
       if (is_by_number) return;
-      begin_anew(who);
+      restart(who);
     }
     // The frames and events before a restore do not belong to the present run.
     const std::uint64_t restores = look.value("restores", std::uint64_t{0});
@@ -233,11 +233,11 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
   }
   if (!is_last) return;
   ++looks_;
-  hears_.looked();
+  callbacks_.looked();
 }
 
 /// Starts again when another daemon answers, or the same one has restarted.
-void PageBench::begin_anew(std::uint64_t who) {
+void PageBench::restart(std::uint64_t who) {
   who_ = who;
   ++epoch_;
   next_frame_ = next_event_ = frames_from_ = events_from_ = 0;
@@ -256,9 +256,9 @@ void PageBench::lose() {
 
 void PageBench::be(State state) {
   if (state_ == state) return;
-  const bool is_told = state != State::unknown;
+  const bool is_reported = state != State::unknown;
   state_ = state;
-  if (is_told) hears_.state_changed();
+  if (is_reported) callbacks_.state_changed();
 }
 
 std::string PageBench::news_for(Watching& watching) const {

@@ -48,11 +48,11 @@ class PageBench {
 
   enum class State : std::uint8_t { unknown, there, silent, gone };
 
-  struct Hears {
+  struct Callbacks {
     std::function<void()> looked;  // called when there is something new
     std::function<void()> state_changed;
   };
-  PageBench(Web& web, std::string socket, Hears hears);
+  PageBench(Web& web, std::string socket, Callbacks callbacks);
 
   const std::string& socket() const { return socket_; }
   State state() const { return state_; }
@@ -103,14 +103,14 @@ class PageBench {
   };
   void take_look(const std::string& reply, const std::shared_ptr<NameList>& list, const Asked& asked,
                  bool is_last);
-  void begin_anew(std::uint64_t who);
+  void restart(std::uint64_t who);
   void divide_names();
   void be(State state);
   void lose();
 
   Web& web_;
   std::string socket_;
-  Hears hears_;
+  Callbacks callbacks_;
   State state_ = State::unknown;
   std::uint64_t epoch_ = 0;
   Wanted wanted_;

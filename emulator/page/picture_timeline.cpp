@@ -101,9 +101,9 @@ class Lanes {
     const double room = height - 12;
     const double size = high > low ? high - low : 2;
     const double base = high > low ? low : low - 1;
-    const Json& least = curve.at("least");
-    const Json& greatest = curve.at("greatest");
-    const double wide = (kEnd - kLabels) / static_cast<double>(least.size());
+    const Json& min = curve.at("least");
+    const Json& max = curve.at("greatest");
+    const double wide = (kEnd - kLabels) / static_cast<double>(min.size());
     std::vector<Point> points;
     const auto add = [&](double at, double value) {
       const Point point{at, y_ + 6 + room * (1 - (value - base) / size)};
@@ -113,14 +113,14 @@ class Lanes {
       if (is_more) points.back() = point;
       if (!is_more) points.push_back(point);
     };
-    for (std::size_t i = 0; i < least.size(); ++i) {
-      if (!least[i].is_number()) continue;
+    for (std::size_t i = 0; i < min.size(); ++i) {
+      if (!min[i].is_number()) continue;
       const double begin = kLabels + static_cast<double>(i) * wide;
       const bool is_falling =
-          i > 0 && least[i - 1].is_number() && greatest[i - 1].get<double>() > greatest[i].get<double>();
-      add(begin, (is_falling ? greatest : least)[i].get<double>());
-      if (greatest[i] != least[i]) add(begin, (is_falling ? least : greatest)[i].get<double>());
-      add(begin + wide, (is_falling ? least : greatest)[i].get<double>());
+          i > 0 && min[i - 1].is_number() && max[i - 1].get<double>() > max[i].get<double>();
+      add(begin, (is_falling ? max : min)[i].get<double>());
+      if (max[i] != min[i]) add(begin, (is_falling ? min : max)[i].get<double>());
+      add(begin + wide, (is_falling ? min : max)[i].get<double>());
     }
     drawing_.line(std::move(points), colour, 1.5);
   }

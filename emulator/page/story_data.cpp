@@ -64,13 +64,13 @@ Json values_of(const Asker& ask, const std::vector<std::string>& names) {
 /// Returns a curve as a list of runs: the first dot, its least and its greatest value.
 Json runs_of(const Json& curve) {
   Json runs = Json::array();
-  const Json& least = curve.at("least");
-  const Json& greatest = curve.at("greatest");
-  for (std::size_t i = 0; i < least.size(); ++i) {
-    if (i > 0 && least[i] == least[i - 1] && greatest[i] == greatest[i - 1]) continue;
+  const Json& min = curve.at("least");
+  const Json& max = curve.at("greatest");
+  for (std::size_t i = 0; i < min.size(); ++i) {
+    if (i > 0 && min[i] == min[i - 1] && max[i] == max[i - 1]) continue;
     runs.push_back(i);
-    runs.push_back(least[i]);
-    runs.push_back(greatest[i]);
+    runs.push_back(min[i]);
+    runs.push_back(max[i]);
   }
   return runs;
 }

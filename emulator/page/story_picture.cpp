@@ -24,7 +24,7 @@ constexpr double kRight = kPictureWidth - kPictureMargin;
 
 /// Draws a text in as many lines as it needs, broken at spaces.
 double wrapped(Drawing& drawing, double top, const std::string& text, Colour colour) {
-  const auto most = static_cast<std::size_t>((kRight - kPictureMargin) / Drawing::width_of("x"));
+  const auto max = static_cast<std::size_t>((kRight - kPictureMargin) / Drawing::width_of("x"));
   std::string line;
   const auto put = [&] {
     drawing.text(kPictureMargin, top + kRow / 2, line, colour, kRight - kPictureMargin);
@@ -35,7 +35,7 @@ double wrapped(Drawing& drawing, double top, const std::string& text, Colour col
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string word = text.substr(at, end - at);
     at = end + 1;
-    if (!line.empty() && length_of(line) + 1 + length_of(word) > most) put();
+    if (!line.empty() && length_of(line) + 1 + length_of(word) > max) put();
     line += (line.empty() ? "" : " ") + word;
   }
   if (!line.empty()) put();

@@ -22,8 +22,8 @@ namespace understudy::emulator::page {
 
 class UnixWire final : public ControlWire {
  public:
-  UnixWire(boost::asio::io_context& io, std::string path, std::size_t most)
-      : link_(std::make_shared<Link>(io, std::move(path), most)) {}
+  UnixWire(boost::asio::io_context& io, std::string path, std::size_t max)
+      : link_(std::make_shared<Link>(io, std::move(path), max)) {}
   ~UnixWire() override { link_->end(); }
   void ask(std::string message, Answered answered) override {
     link_->ask(std::move(message), std::move(answered));
@@ -31,8 +31,8 @@ class UnixWire final : public ControlWire {
 
  private:
   struct Link : std::enable_shared_from_this<Link> {
-    Link(boost::asio::io_context& io, std::string to, std::size_t most)
-        : socket(io), path(std::move(to)), longest(most) {}
+    Link(boost::asio::io_context& io, std::string to, std::size_t max)
+        : socket(io), path(std::move(to)), longest(max) {}
 
     void ask(std::string message, Answered answered) {
       asked.push_back({std::move(message) + "\n", std::move(answered)});

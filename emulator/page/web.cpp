@@ -124,7 +124,7 @@ class Web::Inside {
   class Visit;
   class Browser;
 
-  Inside(const WebAddress& address, const WebLimits& given, WebEvents& hears);
+  Inside(const WebAddress& address, const WebLimits& given, WebEvents& given_events);
   void accept();
 
   WebLimits limits;
@@ -184,7 +184,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
     if (is_closing_) return;
     is_closing_ = true;
     reason_ = std::string(why.substr(0, 120));
-    if (waiting_.empty()) say_goodbye();
+    if (waiting_.empty()) send_close();
   }
 
  private:
@@ -193,7 +193,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
       if (error || !self->is_open_) return self->be_gone();
       if (!self->is_closing_) {
         const auto bytes = self->input_.data();
-        self->inside_.events.heard(self->id_, {static_cast<const char*>(bytes.data()), bytes.size()});
+        self->inside_.events.received(self->id_, {static_cast<const char*>(bytes.data()), bytes.size()});
       }
       self->input_.consume(self->input_.size());
       self->read();
@@ -207,12 +207,12 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
                           self->waiting_bytes_ -= self->waiting_.front()->size();
                           self->waiting_.pop_front();
                           if (!self->waiting_.empty()) return self->write();
-                          if (self->is_closing_) return self->say_goodbye();
+                          if (self->is_closing_) return self->send_close();
                           self->inside_.events.drained(self->id_);
                         });
   }
 
-  void say_goodbye() {
+  void send_close() {
     const websocket::close_reason reason(websocket::close_code::policy_error,
                                          beast::string_view(reason_.data(), reason_.size()));
     socket_.async_close(reason, [self = shared_from_this()](Error) { self->be_gone(); });
@@ -275,14 +275,14 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   void have_read(Error error) {
     const Request& request = parser_.get();
     if (error == http::error::header_limit) {
-      return say(
+      return respond(
           refusal_of(request, http::status::request_header_fields_too_large, "the request is too long"));
     }
     if (error == http::error::body_limit)
-      return say(refusal_of(request, http::status::payload_too_large, "expected no body"));
+      return respond(refusal_of(request, http::status::payload_too_large, "expected no body"));
     if (error && error.category() == http::make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
-      return say(refusal_of(request, http::status::bad_request, "the request is not HTTP"));
+      return respond(refusal_of(request, http::status::bad_request, "the request is not HTTP"));
     }
     if (error) return;
     answer(request);
@@ -291,17 +291,17 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   void answer(const Request& request) {
     const bool is_upgrade = websocket::is_upgrade(request);
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
-      return say(refusal_of(request, http::status::method_not_allowed, "expected GET"));
+      return respond(refusal_of(request, http::status::method_not_allowed, "expected GET"));
     }
     const auto origin = view(request[http::field::origin]);
     if (request.count(http::field::host) != 1 ||
         !inside_.access.admits_host(view(request[http::field::host])) ||
         (is_upgrade || !origin.empty() ? !inside_.access.admits_origin(origin) : false)) {
-      return say(refusal_of(request, http::status::forbidden, "this is not the address of the page"));
+      return respond(refusal_of(request, http::status::forbidden, "this is not the address of the page"));
     }
     const std::string_view target = view(request.target());
     if (is_upgrade) {
-      if (target != "/ws") return say(refusal_of(request, http::status::not_found, "not found"));
+      if (target != "/ws") return respond(refusal_of(request, http::status::not_found, "not found"));
       stream_.expires_never();
       is_browser_ = true;
       const auto browser =
@@ -309,17 +309,17 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
       return browser->open(request);
     }
     auto file = inside_.events.file(target.substr(0, target.find('?')));
-    if (!file) return say(refusal_of(request, http::status::not_found, "not found"));
+    if (!file) return respond(refusal_of(request, http::status::not_found, "not found"));
     const bool is_packed =
         !file->gzipped.empty() && accepts_gzip(view(request[http::field::accept_encoding]));
     Response found =
         answer_to(request, http::status::ok, file->type, std::move(is_packed ? file->gzipped : file->bytes));
     found.set(http::field::vary, "Accept-Encoding");
     if (is_packed) found.set(http::field::content_encoding, "gzip");
-    say(std::move(found));
+    respond(std::move(found));
   }
 
-  void say(Response&& response) {
+  void respond(Response&& response) {
     response_ = std::move(response);
     stream_.expires_after(inside_.limits.request);
     http::async_write(stream_, response_, [self = shared_from_this()](Error, std::size_t) {
@@ -337,8 +337,8 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   Response response_;
 };
 
-Web::Inside::Inside(const WebAddress& address, const WebLimits& given, WebEvents& hears)
-    : limits(given), events(hears) {
+Web::Inside::Inside(const WebAddress& address, const WebLimits& given, WebEvents& given_events)
+    : limits(given), events(given_events) {
   Error error;
   const auto parsed = net::ip::make_address(address.address, error);
   if (error) throw WebError(address.address + ": is not an address; expected one such as 127.0.0.1");

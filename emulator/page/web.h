@@ -38,7 +38,7 @@ class WebEvents {
  public:
   virtual std::optional<WebFile> file(std::string_view path) = 0;
   virtual void opened(BrowserId browser) = 0;
-  virtual void heard(BrowserId browser, std::string_view text) = 0;
+  virtual void received(BrowserId browser, std::string_view text) = 0;
   /// Called when a browser has gone, also after close().
   virtual void closed(BrowserId browser) = 0;
   /// Called when all queued data has been sent.

@@ -12,7 +12,7 @@
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/probe/probe_names.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/view/inventory.h"
 
 namespace understudy::emulator::world {

@@ -14,7 +14,7 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/faults/trigger.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
@@ -58,7 +58,7 @@ pty::Strike strike_of(std::size_t number, const Fault& fault, bool is_request) {
 }
 
 /// Returns true if the stage lets at least a part of a reply be sent at once.
-bool is_said_at_once(const pty::WireFault& stage) {
+bool is_sent_at_once(const pty::WireFault& stage) {
   using Stage = pty::WireFault::Kind;
   return stage.kind != Stage::drop && stage.kind != Stage::delay &&
          ((stage.kind != Stage::truncate && stage.kind != Stage::split) || stage.size > 0);
@@ -127,7 +127,7 @@ Tick FaultWatch::next_tick(Tick done) const {
   for (const auto& [number, armed] : faults_) {
     const Fault& fault = armed.fault;
     if (is_of_frames(fault.kind)) continue;
-    if (waits(fault)) next = std::min(next, next_look(fault.trigger, armed.course, done));
+    if (waits(fault)) next = std::min(next, next_poll(fault.trigger, armed.course, done));
     if (fault.kind == Kind::encoder_noise && armed.course.in_force && fault.period_ticks != 0) {
       const Tick half = fault.period_ticks / 2;
       next = std::min(next, (done / half + 1) * half);
@@ -136,7 +136,7 @@ Tick FaultWatch::next_tick(Tick done) const {
   return next;
 }
 
-void FaultWatch::look(SimTime now, bool is_tick) {
+void FaultWatch::check(SimTime now, bool is_tick) {
   for (auto& [number, armed] : faults_) {
     auto& [fault, course] = armed;
     if (is_of_frames(fault.kind) || !waits(fault)) continue;
@@ -161,19 +161,19 @@ bool FaultWatch::has_news() const {
 
 // --- frames --------------------------------------------------------------------------------------
 
-bool FaultWatch::is_at(const Fault& fault, const HeardFrame& frame) const {
+bool FaultWatch::is_at(const Fault& fault, const ReceivedFrame& frame) const {
   if (!fault.on_line) return fault.device == frame.device;
   return lines_[fault.device][static_cast<std::size_t>(fault.place)] == frame.line;
 }
 
-bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
-  const LineProtocol& speech = world_.line(frame.line).speech;
-  return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
+bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame) {
+  const LineProtocol& protocol = world_.line(frame.line).protocol;
+  return strikes_frame(armed.fault.trigger, armed.course, protocol.facts_of(frame), *this, stream(number));
 }
 
 /// Returns true if the fault strikes the request. All stations of a line hear the same request, so the fault
 /// is judged once, when the first station asks.
-bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
+bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame) {
   FaultCourse& course = armed.course;
   if (!armed.fault.on_line) return frame.is_for_device && is_hit(number, armed, frame);
   if (frame.last_character > course.judged_character) {
@@ -184,24 +184,24 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
 }
 
 /// Reports strikes to the observers of the line. This has no other effect.
-void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
-                      std::span<const pty::Strike> strikes) {
+void FaultWatch::report(const ReceivedFrame& frame, bool is_reply, bool is_sent,
+                        std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
-  world_.tell_strike(frame.line,
-                     {.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
+  world_.report_strike(frame.line,
+                       {.time = frame.now, .is_reply = is_reply, .is_sent = is_sent, .strikes = strikes});
 }
 
-bool FaultWatch::is_early(const HeardFrame& frame) {
+bool FaultWatch::is_early(const ReceivedFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (armed.fault.kind != Kind::early_reply || !is_at(armed.fault, frame)) continue;
     if (is_hit(number, armed, frame)) strikes.push_back(strike_of(number, armed.fault, true));
   }
-  tell(frame, false, false, strikes);
+  report(frame, false, false, strikes);
   return !strikes.empty();
 }
 
-std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
+std::vector<pty::WireFault> FaultWatch::on_request(const ReceivedFrame& frame) {
   std::vector<pty::WireFault> stages;
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
@@ -214,11 +214,11 @@ std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
     // A dropped request does not reach the next stages.
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
-  tell(frame, false, false, strikes);
+  report(frame, false, false, strikes);
   return stages;
 }
 
-FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
+FrameFaults::Treatment FaultWatch::on_serving(const ReceivedFrame& frame) {
   Treatment treatment;
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
@@ -240,11 +240,11 @@ FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
     if (fault.trigger.lasts == SimTime{0}) course.until = kForever;
     if (fault.kind == Kind::power_cut) treatment.is_answered = false;
   }
-  tell(frame, false, false, strikes);
+  report(frame, false, false, strikes);
   return treatment;
 }
 
-std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
+std::vector<pty::WireFault> FaultWatch::on_reply(const ReceivedFrame& frame) {
   std::vector<pty::WireFault> stages;
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
@@ -255,7 +255,7 @@ std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
     stages.push_back(stage_of(armed.fault));
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
-  tell(frame, true, std::all_of(stages.begin(), stages.end(), is_said_at_once), strikes);
+  report(frame, true, std::all_of(stages.begin(), stages.end(), is_sent_at_once), strikes);
   return stages;
 }
 

@@ -30,21 +30,21 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   /// Returns the first tick after `done` at whose end look() must be called.
   Tick next_tick(Tick done) const;
   /// Records which faults have begun or ended by now.
-  void look(SimTime now, bool is_tick);
+  void check(SimTime now, bool is_tick);
   bool has_news() const;
 
   // --- frames ----------------------------------------------------------------------------------
-  bool is_early(const HeardFrame& frame) override;
-  std::vector<pty::WireFault> on_request(const HeardFrame& frame) override;
-  Treatment on_serving(const HeardFrame& frame) override;
-  std::vector<pty::WireFault> on_reply(const HeardFrame& frame) override;
+  bool is_early(const ReceivedFrame& frame) override;
+  std::vector<pty::WireFault> on_request(const ReceivedFrame& frame) override;
+  Treatment on_serving(const ReceivedFrame& frame) override;
+  std::vector<pty::WireFault> on_reply(const ReceivedFrame& frame) override;
 
  private:
   bool holds(const std::string& expression) override;
-  bool is_at(const Fault& fault, const HeardFrame& frame) const;
-  bool is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
-  bool is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
-  void tell(const HeardFrame& frame, bool is_reply, bool is_said, std::span<const pty::Strike> strikes);
+  bool is_at(const Fault& fault, const ReceivedFrame& frame) const;
+  bool is_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame);
+  bool is_request_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame);
+  void report(const ReceivedFrame& frame, bool is_reply, bool is_sent, std::span<const pty::Strike> strikes);
   std::uint64_t stream(std::size_t number) const;
 
   World& world_;

@@ -32,10 +32,11 @@ class OutcomeHash::LineHasher final : public pty::LineObserver {
     hash_.add(static_cast<std::uint64_t>(character.value) << 1 | (is_heard ? 1 : 0));
   }
   void on_nothing_more() override {}
-  void on_speech(const pty::Speech& speech) override {
-    begin(speech.start);
-    hash_.add(speech.bytes.size() << 2 | (speech.has_collided ? 2 : 0) | (speech.is_for_host ? 1 : 0));
-    for (const std::uint8_t byte : speech.bytes) hash_.add(byte);
+  void on_transmission(const pty::Transmission& transmission) override {
+    begin(transmission.start);
+    hash_.add(transmission.bytes.size() << 2 | (transmission.has_collided ? 2 : 0) |
+              (transmission.is_for_host ? 1 : 0));
+    for (const std::uint8_t byte : transmission.bytes) hash_.add(byte);
   }
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
@@ -74,10 +75,10 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
     const TerminalRow::Kind kind = model.terminals[i].kind;
     const auto number = static_cast<int>(i);
     if (is_input(kind)) continue;
-    const bool goes_on = !all.empty() && kind == TerminalRow::Kind::digital_out && all.back().kind == kind &&
-                         all.back().first + all.back().count == number &&
-                         all.back().count < TerminalGroup::kMax;
-    if (goes_on) {
+    const bool continues = !all.empty() && kind == TerminalRow::Kind::digital_out &&
+                           all.back().kind == kind && all.back().first + all.back().count == number &&
+                           all.back().count < TerminalGroup::kMax;
+    if (continues) {
       ++all.back().count;
     } else {
       all.push_back({kind, number, 1});

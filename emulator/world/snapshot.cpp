@@ -350,7 +350,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       OfWorld::line(world, i).restore(lines[i]);
       OfWorld::line(world, i).due_changed();
     }
-    OfWorld::tell(world);
+    OfWorld::notify(world);
   };
 }
 

@@ -127,7 +127,7 @@ struct StateOf<emulator::world::World> {
   static constexpr std::size_t apart = 18;
   static void name_all(Value& all) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, driven_axes, contacts,
-                            told_edges, input_turns, sent_pulses, inputs, supplies, wires, watchers,
+                            sent_edges, input_turns, sent_pulses, inputs, supplies, wires, watchers,
                             stops_here, listener, faults, next_fault, fault_watch, seed, disturbed, now, done,
                             ticks, bulk_ticks, skip_tries] = all;
   }
@@ -137,15 +137,15 @@ struct StateOf<emulator::world::World> {
   static auto& ticks(auto& world) { return world.ticks_; }
   static void rearm(Value& world) { world.arm_faults(); }
   /// Called after all parts have been restored.
-  static void tell(Value& world) {
-    for (std::size_t d = 0; d < world.devices_.size(); ++d) world.tell_edges_anew(d);
+  static void notify(Value& world) {
+    for (std::size_t d = 0; d < world.devices_.size(); ++d) world.resend_edges(d);
   }
 };
 
 template <>
 struct StateOf<emulator::world::World::TickCounts> {
   using Value = emulator::world::World::TickCounts;
-  static constexpr auto fields = FieldList{field<&Value::run>(), field<&Value::crossed>()};
+  static constexpr auto fields = FieldList{field<&Value::run>(), field("crossed", &Value::skipped)};
 };
 
 }  // namespace understudy

@@ -21,14 +21,14 @@ struct TooDeepJson : std::runtime_error {
 
 /// Thrown for an object with too many members. The library searches all of them for each new one.
 struct TooManyMembers : std::runtime_error {
-  explicit TooManyMembers(std::size_t most)
-      : std::runtime_error("an object has more than " + std::to_string(most) + " members") {}
+  explicit TooManyMembers(std::size_t max)
+      : std::runtime_error("an object has more than " + std::to_string(max) + " members") {}
 };
 
 /// Limits on the parsed text.
 struct JsonBounds {
-  int deepest = INT_MAX;                // how deeply objects and lists may nest
-  std::size_t most_members = SIZE_MAX;  // of one object
+  int deepest = INT_MAX;               // how deeply objects and lists may nest
+  std::size_t max_members = SIZE_MAX;  // of one object
 };
 
 /// Throws the result of `twice` for a key that appears twice in one object, TooDeepJson and
@@ -45,7 +45,7 @@ Json parse_strict_json(std::string_view text, const Twice& twice, const JsonBoun
     if (event != Json::parse_event_t::key) return true;
     const auto& key = parsed.template get_ref<const std::string&>();
     if (!keys.back().insert(key).second) throw twice(key);
-    if (keys.back().size() > bounds.most_members) throw TooManyMembers(bounds.most_members);
+    if (keys.back().size() > bounds.max_members) throw TooManyMembers(bounds.max_members);
     return true;
   });
 }

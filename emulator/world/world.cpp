@@ -25,7 +25,7 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/outside.h"
 #include "emulator/world/plant/plant.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/view/world_view.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
@@ -70,14 +70,14 @@ std::unique_ptr<WorldLine> made_line(const LineSetup& setup,
                                      .strict_framing = options.strict_framing,
                                      .patience = options.patience,
                                      .rest_patience = as_long_as(setup.byte_timeout, options.patience)};
-  const LineProtocol& speech = protocol_of(devices[first.device]->model());
+  const LineProtocol& protocol = protocol_of(devices[first.device]->model());
   auto line =
-      std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}});
+      std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), protocol, {}, {}});
   for (const auto& [number, port] : setup.stations) {
     Device& device = *devices[number];
-    const pty::RtuFraming framing = speech.framing(device.model(), conditions);
+    const pty::RtuFraming framing = protocol.framing(device.model(), conditions);
     if (line->stations.empty() || framing.silence < line->framing.silence) line->framing = framing;
-    line->stations.push_back(speech.make_station(device, port, conditions));
+    line->stations.push_back(protocol.make_station(device, port, conditions));
     line->line.attach(*line->stations.back());
   }
   return line;
@@ -110,7 +110,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   for (const LineSetup& setup : bench.lines) {
     lines_.push_back(made_line(setup, devices_, options, log));
-    if (lines_.back()->speech.may_be_unasked()) unasked_lines_.push_back(lines_.back().get());
+    if (lines_.back()->protocol.may_be_unasked()) unasked_lines_.push_back(lines_.back().get());
   }
   for (const InputSetup& setup : bench.inputs) {
     set_external_input(setup.device, setup.terminal, setup.level);
@@ -126,7 +126,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
   // No host could see anything that devices send at power-up, so sending begins with the first tick.
-  look_for_speech(kTickLength);
+  poll_text(kTickLength);
 }
 
 World::~World() = default;
@@ -176,26 +176,26 @@ void World::advance_to(SimTime time) {
     Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
     if (active > done_ + 1) active = std::min(active, next_fault_tick());
     const bool tries = active == done_ + 1 && may_fast_forward(reachable);
-    const Tick crossed = tries ? last_tick_to_skip(reachable) : done_;
+    const Tick skipped = tries ? last_tick_to_skip(reachable) : done_;
     bool is_rest = false;
-    if (crossed > done_) {
-      fast_forward_to(crossed);
+    if (skipped > done_) {
+      fast_forward_to(skipped);
     } else if (active > done_ + 1) {
       const Tick alike = last_alike();
       is_rest = is_at_rest && alike > done_;
       is_at_rest = true;
       const Tick last_quiet =
           watchers_.empty() || is_rest ? std::min({reachable, active - 1, alike}) : done_ + 1;
-      ticks_.crossed += static_cast<std::uint64_t>(last_quiet - done_);
+      ticks_.skipped += static_cast<std::uint64_t>(last_quiet - done_);
       done_ = last_quiet;
       for (const auto& device : devices_) device->set_now(done_);
     } else {
       is_at_rest = false;
       run_tick();
-      if (fault_watch_) look_at_faults();
+      if (fault_watch_) check_faults();
       if (!unasked_lines_.empty()) {
         now_ = std::max(now_, time_of(done_));
-        look_for_speech(now_);
+        poll_text(now_);
         line_time = next_line_time();
       }
     }
@@ -212,7 +212,7 @@ void World::advance_to(SimTime time) {
 Tick World::last_alike() const {
   Tick next = kNever;
   for (const TickWatcher* watcher : watchers_) {
-    next = std::min(next, watcher->next_look(done_));
+    next = std::min(next, watcher->next_poll(done_));
     if (next == done_ + 1) break;
   }
   return next == kNever ? kNever : next - 1;
@@ -254,7 +254,7 @@ SimTime World::next_line_time() const {
 /// Runs what is due on the lines at `time`, after the faults that strike at that moment.
 void World::run_lines(SimTime time) {
   if (fault_watch_) {
-    fault_watch_->look(now_, false);
+    fault_watch_->check(now_, false);
     settle_faults();
   }
   for (const auto& line : lines_) line->line.run(time);
@@ -262,10 +262,10 @@ void World::run_lines(SimTime time) {
 }
 
 /// Lets lines send what devices have to send after a tick or an outside event.
-void World::look_for_speech(SimTime now) {
+void World::poll_text(SimTime now) {
   for (WorldLine* line : unasked_lines_) {
     for (const auto& station : line->stations) {
-      if (station->look_for_speech(now)) line->line.due_changed();
+      if (station->poll_text(now)) line->line.due_changed();
     }
   }
 }
@@ -335,7 +335,7 @@ void World::step_plant(std::size_t number) {
     }
   }
   if (all_quiet) {  // no contact has changed
-    if (meets_edges(number)) look_at_places(number);
+    if (meets_edges(number)) check_positions(number);
     return;
   }
   for (const ContactWire& wire : contacts_[number]) {
@@ -345,7 +345,7 @@ void World::step_plant(std::size_t number) {
     is_on = level;
     apply_input(number, wire.input);
   }
-  if (meets_edges(number)) tell_edges(number);
+  if (meets_edges(number)) send_edges(number);
 }
 
 bool World::level_of(const WireSetup& wire) const {
@@ -367,16 +367,16 @@ void World::latch_wires() {
   for (const WireSetup& wire : wires_) {
     if (wire.to_axis >= 0) continue;
     apply_input(wire.to_device, wire.to_terminal);
-    if (meets_edges(wire.to_device)) tell_edges(wire.to_device);
+    if (meets_edges(wire.to_device)) send_edges(wire.to_device);
   }
 }
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
-  begin_act();
-  tell([&](OutsideListener& listener) { listener.on_input(device, terminal, level); });
+  run_due_lines();
+  notify([&](OutsideListener& listener) { listener.on_input(device, terminal, level); });
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
-  tell_edges(device);
+  send_edges(device);
 }
 
 std::int32_t World::external_input(std::size_t device, int terminal) const {
@@ -391,30 +391,30 @@ void World::apply_input(std::size_t device, int terminal) {
 }
 
 /// Runs what is due at this moment first, in the same order as a replay does.
-void World::begin_act() {
+void World::run_due_lines() {
   if (now_ > SimTime{0}) run_lines(now_);
 }
 
 Refusal World::write(std::size_t device, const PreparedWrite& write) {
-  begin_act();
-  tell([&](OutsideListener& listener) { listener.on_write(device, write); });
+  run_due_lines();
+  notify([&](OutsideListener& listener) { listener.on_write(device, write); });
   return write_prepared(*devices_[device]->register_bank(), write);
 }
 
 std::optional<std::string> World::assign(std::size_t device, const std::string& name, double value) {
-  begin_act();
+  run_due_lines();
   NamedValues* const values = devices_[device]->named_values();
   if (values == nullptr) return "cannot be set; expected a name of the device";
   if (auto diagnostic = values->assign(name, value)) return diagnostic;
-  tell([&](OutsideListener& listener) { listener.on_assign(device, name, value); });
-  look_for_speech(now_);
+  notify([&](OutsideListener& listener) { listener.on_assign(device, name, value); });
+  poll_text(now_);
   return std::nullopt;
 }
 
 void World::switch_power(std::size_t device, bool on) {
   if (supplies_[device].is_switched_on == on) return;
-  begin_act();
-  tell([&](OutsideListener& listener) { listener.on_power(device, on); });
+  run_due_lines();
+  notify([&](OutsideListener& listener) { listener.on_power(device, on); });
   supplies_[device].is_switched_on = on;
   settle_power(device);
 }
@@ -429,7 +429,7 @@ void World::settle_power(std::size_t device) {
   if (devices_[device]->powered() == on) return;
   devices_[device]->switch_power(on);
   disturbed_ = true;
-  tell_edges_anew(device);
+  resend_edges(device);
   for (const auto& line : lines_) {
     for (const auto& station : line->stations) {
       if (&station->device() != devices_[device].get()) continue;
@@ -442,7 +442,7 @@ void World::settle_power(std::size_t device) {
                                      [](const auto& station) { return station->device().powered(); });
     if (speaks != line->stations.end()) line->line.set_settings((*speaks)->settings());
   }
-  look_for_speech(now_);
+  poll_text(now_);
 }
 
 }  // namespace understudy::emulator::world

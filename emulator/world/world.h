@@ -51,7 +51,7 @@ class World final : public WorldView {
   /// anything.
   std::optional<SimTime> next_due() const;
   std::uint64_t ticks_run() const { return ticks_.run; }          // those run one by one
-  std::uint64_t ticks_skipped() const { return ticks_.crossed; }  // those skipped in bulk
+  std::uint64_t ticks_skipped() const { return ticks_.skipped; }  // those skipped in bulk
 
   /// If `on` is false, every tick is run one by one. The results are the same, which tests check.
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
@@ -102,8 +102,8 @@ class World final : public WorldView {
     lines_[line]->line.remove_observer(observer);
   }
   /// Reports to the observers what a fault has done to a message. It has no other effect.
-  void tell_strike(std::size_t line, const pty::StruckMessage& message) {
-    lines_[line]->line.tell_strike(message);
+  void report_strike(std::size_t line, const pty::StruckMessage& message) {
+    lines_[line]->line.report_strike(message);
   }
 
   // --- devices and the plant ---------------------------------------------------------------------
@@ -170,8 +170,8 @@ class World final : public WorldView {
 
   /// The edges last given to a device for an axis, and the machine's position where the device's count was
   /// 0.
-  struct ToldEdges {
-    bool is_told = false;
+  struct SentEdges {
+    bool is_sent = false;
     std::int64_t origin = 0;
     MachineEdges edges{};
   };
@@ -194,33 +194,33 @@ class World final : public WorldView {
 
   struct TickCounts {
     std::uint64_t run = 0;
-    std::uint64_t crossed = 0;
+    std::uint64_t skipped = 0;
   };
 
   struct Supply {
     bool is_switched_on = true;
   };
 
-  template <class Tell>
-  void tell(Tell what) const {
+  template <class Notify>
+  void notify(Notify what) const {
     for (OutsideListener* listener : listeners_) what(*listener);
   }
-  void begin_act();
+  void run_due_lines();
   void run_tick();
   Tick last_alike() const;
   void show_tick(bool is_rest);
   void run_lines(SimTime time);
   Tick next_active_tick() const;
-  Tick next_event_tick(Tick most) const;
+  Tick next_event_tick(Tick limit) const;
   bool has_moving_wires() const;
   /// Fewer ticks than this are faster to run one by one than to skip.
   static constexpr Tick kMinSkip = 4;
-  bool may_fast_forward(Tick most) const {
+  bool may_fast_forward(Tick limit) const {
     // A restore may have set time back by much.
     const bool is_too_soon = done_ < skip_tries_.next && skip_tries_.next - done_ <= SkipTries::kMaxApart;
-    return !is_too_soon && most - done_ >= kMinSkip && bulk_ticks_ && !disturbed_ && watchers_.empty();
+    return !is_too_soon && limit - done_ >= kMinSkip && bulk_ticks_ && !disturbed_ && watchers_.empty();
   }
-  Tick last_tick_to_skip(Tick most);
+  Tick last_tick_to_skip(Tick limit);
   void fast_forward_to(Tick tick);
   SimTime next_line_time() const;
   void run_device(std::size_t number);
@@ -238,11 +238,11 @@ class World final : public WorldView {
   MachineEdges edges_of(std::size_t device, std::size_t axis) const;
   void begin_edges();
   bool meets_edges(std::size_t device) const {
-    return device < told_edges_.size() && !told_edges_[device].empty() && devices_[device]->powered();
+    return device < sent_edges_.size() && !sent_edges_[device].empty() && devices_[device]->powered();
   }
-  void tell_edges(std::size_t device);
-  void tell_edges_anew(std::size_t device);
-  void look_at_places(std::size_t device);
+  void send_edges(std::size_t device);
+  void resend_edges(std::size_t device);
+  void check_positions(std::size_t device);
   void turn_inputs();
   void wire_contacts(std::size_t number);
   bool level_of(const WireSetup& wire) const;
@@ -252,9 +252,9 @@ class World final : public WorldView {
   void apply_adapters();
   void remove_fault(std::map<std::size_t, ArmedFault>::iterator fault);
   void settle_power(std::size_t device);
-  void look_for_speech(SimTime now);
+  void poll_text(SimTime now);
   void arm_faults();
-  void look_at_faults();
+  void check_faults();
   void settle_faults();
   Tick next_fault_tick() const;
 
@@ -266,7 +266,7 @@ class World final : public WorldView {
   std::vector<std::vector<PlantAxis>> plants_;         // [device][axis]
   std::vector<std::vector<std::size_t>> driven_axes_;  // by device: those with a drive
   std::vector<std::vector<ContactWire>> contacts_;     // by device; as wired in the bench
-  std::vector<std::vector<ToldEdges>> told_edges_;     // by device; empty if the device does not use edges
+  std::vector<std::vector<SentEdges>> sent_edges_;     // by device; empty if the device does not use edges
   std::vector<InputTurn> input_turns_;
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]

@@ -43,12 +43,12 @@ MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
         edges.index.first = stops->first - origin;
         edges.index.last = stops->last - origin;
       }
-    } else if (const auto way = plant.way_of(wire.contact)) {
+    } else if (const auto switch_setup = plant.switch_of(wire.contact)) {
       edges.spans[edges.span_count++] = {.input = wire.input,
-                                         .level_inside = !way->opens,
-                                         .first = way->on.first - origin,
-                                         .last = way->on.last - origin,
-                                         .slack = way->hysteresis_pulses};
+                                         .level_inside = !switch_setup->opens,
+                                         .first = switch_setup->on.first - origin,
+                                         .last = switch_setup->on.last - origin,
+                                         .slack = switch_setup->hysteresis_pulses};
     }
   }
   return edges;
@@ -58,39 +58,39 @@ void World::begin_edges() {
   const auto asks = [](const Axes* axes) { return axes != nullptr && axes->meets_edges(); };
   if (std::none_of(axes_.begin(), axes_.end(), asks)) return;
   for (std::size_t d = 0; d < devices_.size(); ++d) {
-    told_edges_.emplace_back(asks(axes_[d]) ? plants_[d].size() : 0);
-    for (std::size_t a = 0; a < told_edges_[d].size(); ++a) plants_[d][a].look_between_ticks();
-    tell_edges(d);
+    sent_edges_.emplace_back(asks(axes_[d]) ? plants_[d].size() : 0);
+    for (std::size_t a = 0; a < sent_edges_[d].size(); ++a) plants_[d][a].check_between_ticks();
+    send_edges(d);
   }
 }
 
-void World::tell_edges(std::size_t device) {
+void World::send_edges(std::size_t device) {
   if (!meets_edges(device)) return;
-  for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {
-    ToldEdges& told = told_edges_[device][a];
+  for (std::size_t a = 0; a < sent_edges_[device].size(); ++a) {
+    SentEdges& sent = sent_edges_[device][a];
     const MachineEdges edges = edges_of(device, a);
     const auto axis = static_cast<int>(a);
-    told.origin = plants_[device][a].position_pulses() - axes_[device]->place_pulses(axis);
-    if (told.is_told && told.edges == edges) continue;
-    told.is_told = true;
-    told.edges = edges;
+    sent.origin = plants_[device][a].position_pulses() - axes_[device]->place_pulses(axis);
+    if (sent.is_sent && sent.edges == edges) continue;
+    sent.is_sent = true;
+    sent.edges = edges;
     axes_[device]->set_edges(axis, edges);
   }
 }
 
-void World::tell_edges_anew(std::size_t device) {
-  if (device >= told_edges_.size()) return;
-  for (ToldEdges& told : told_edges_[device]) told.is_told = false;
-  tell_edges(device);
+void World::resend_edges(std::size_t device) {
+  if (device >= sent_edges_.size()) return;
+  for (SentEdges& sent : sent_edges_[device]) sent.is_sent = false;
+  send_edges(device);
 }
 
 /// Sends the edges again if the machine has lost or gained pulses. Runs after ticks in which no switch has
 /// changed.
-void World::look_at_places(std::size_t device) {
-  for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {
+void World::check_positions(std::size_t device) {
+  for (std::size_t a = 0; a < sent_edges_[device].size(); ++a) {
     const std::int64_t place = axes_[device]->place_pulses(static_cast<int>(a));
-    if (plants_[device][a].position_pulses() - place == told_edges_[device][a].origin) continue;
-    return tell_edges(device);
+    if (plants_[device][a].position_pulses() - place == sent_edges_[device][a].origin) continue;
+    return send_edges(device);
   }
 }
 

@@ -19,8 +19,8 @@ namespace understudy::emulator::world {
 
 std::size_t World::inject(const Fault& fault) {
   check_fault(*this, fault);
-  begin_act();
-  tell([&](OutsideListener& listener) { listener.on_inject(fault); });
+  run_due_lines();
+  notify([&](OutsideListener& listener) { listener.on_inject(fault); });
   disturbed_ = true;
   const std::size_t number = next_fault_++;
   if (is_done_at_once(fault.kind) && !waits(fault)) {
@@ -62,8 +62,8 @@ void World::clear_faults() {
 
 /// Removes a fault. The caller must call arm_faults() afterwards.
 void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
-  begin_act();
-  tell([&](OutsideListener& listener) { listener.on_clear_fault(fault->first); });
+  run_due_lines();
+  notify([&](OutsideListener& listener) { listener.on_clear_fault(fault->first); });
   const std::size_t device = fault->second.fault.device;
   faults_.erase(fault);
   disturbed_ = true;
@@ -93,9 +93,9 @@ void World::arm_faults() {
 Tick World::next_fault_tick() const { return fault_watch_ ? fault_watch_->next_tick(done_) : kNever; }
 
 /// Checks the faults at the end of a tick that was run.
-void World::look_at_faults() {
+void World::check_faults() {
   now_ = std::max(now_, time_of(done_));
-  fault_watch_->look(now_, true);
+  fault_watch_->check(now_, true);
   settle_faults();
   for (const auto& [number, armed] : faults_) {
     const Fault& fault = armed.fault;
@@ -114,7 +114,7 @@ void World::settle_faults() {
     if (!course.is_news) continue;
     course.is_news = false;
     disturbed_ = true;
-    tell([&, which = number, in_force = course.in_force](OutsideListener& listener) {
+    notify([&, which = number, in_force = course.in_force](OutsideListener& listener) {
       listener.on_fault(which, in_force);
     });
     switch (fault.kind) {
@@ -173,7 +173,7 @@ void World::apply_faults(std::size_t device) {
       devices_[device]->axes()->set_encoder(static_cast<int>(a), plant.encoder_counts());
   }
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
-  tell_edges(device);
+  send_edges(device);
 }
 
 }  // namespace understudy::emulator::world

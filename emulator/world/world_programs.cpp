@@ -15,33 +15,33 @@
 namespace understudy::emulator::world {
 
 void World::load_program(std::size_t device, std::string_view text) {
-  begin_act();
+  run_due_lines();
   // Refused programs are reported too, whatever the reason, because the device may show the refusal.
-  const auto told = [&](bool is_refused) {
+  const auto report = [&](bool is_refused) {
     if (devices_[device]->user_program() != nullptr) {
-      tell([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });
+      notify([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });
     }
-    look_for_speech(now_);
+    poll_text(now_);
   };
   try {
     emulator::load_program(*devices_[device], text);
   } catch (const ProgramError&) {
-    told(true);
+    report(true);
     throw;
   }
-  told(false);
+  report(false);
 }
 
 Objection World::command(std::size_t device, std::string_view text) {
-  begin_act();
-  if (TextProtocol* const speaker = devices_[device]->speaker()) {
-    tell([&](OutsideListener& listener) { listener.on_command(device, text); });
-    const DeviceAnswer answer = speaker->take_command(text);
-    look_for_speech(now_);
+  run_due_lines();
+  if (TextProtocol* const protocol = devices_[device]->text_protocol()) {
+    notify([&](OutsideListener& listener) { listener.on_command(device, text); });
+    const DeviceAnswer answer = protocol->take_command(text);
+    poll_text(now_);
     return {.refusal = answer.refusal, .cause = Cause::none, .reason = answer.reason};
   }
   const auto [first, words] = window_message(*devices_[device], text);
-  tell([&](OutsideListener& listener) { listener.on_command(device, text); });
+  notify([&](OutsideListener& listener) { listener.on_command(device, text); });
   return write_request(*devices_[device]->register_bank(), Table::holding, first, words);
 }
 

@@ -77,7 +77,7 @@ bool is_good(const Command& command, std::size_t parameter, const CommandOptions
       [[fallthrough]];
     case Kind::number:
     case Kind::speed:
-    case Kind::as_it_comes:
+    case Kind::any_value:
     case Kind::byte_variable:
     case Kind::memory: return row.lists(value);
   }
@@ -98,8 +98,8 @@ std::optional<std::size_t> bad_radius(const Command& command) {
 /// values.
 struct SpeedEnds {
   Verb verb;
-  std::int64_t least;
-  std::int64_t most;
+  std::int64_t min;
+  std::int64_t max;
 };
 constexpr std::int64_t kMaxSpeed = 4'000'000;
 constexpr std::int64_t kMaxSlope = kMaxSpeed * 125;
@@ -123,10 +123,10 @@ constexpr SpeedEnds kSpeedEnds[] = {
     {Verb::set_vl, 96, kMax},
 };
 
-std::optional<std::size_t> beyond_ends(const Command& command, std::size_t parameter, std::int64_t least,
-                                       std::int64_t most) {
+std::optional<std::size_t> beyond_ends(const Command& command, std::size_t parameter, std::int64_t min,
+                                       std::int64_t max) {
   const std::int64_t value = command.number(parameter);
-  if (is_reference(command, parameter) || (value >= least && value <= most)) return std::nullopt;
+  if (is_reference(command, parameter) || (value >= min && value <= max)) return std::nullopt;
   return parameter;
 }
 
@@ -147,7 +147,7 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOp
   if (options.speeds_have_ends) {
     for (const SpeedEnds& ends : kSpeedEnds) {
       if (ends.verb != verb) continue;
-      return beyond_ends(command, command.row().parameter_count() - 1, ends.least, ends.most);
+      return beyond_ends(command, command.row().parameter_count() - 1, ends.min, ends.max);
     }
   }
   if (options.few_take_references && std::ranges::find(kSayReferences, verb) == std::end(kSayReferences)) {
@@ -214,8 +214,8 @@ std::string expected_of(const Command& command, std::size_t parameter) {
                                                                          : ", or bVAR0 to bVAR127";
   switch (row.kind) {
     case Kind::axes:
-      if (row.most < 3) return "X or Y";
-      return row.most == 3 ? "X, Y or XY" : "axes, X to XYZU";
+      if (row.max < 3) return "X or Y";
+      return row.max == 3 ? "X, Y or XY" : "axes, X to XYZU";
     case Kind::setting_axes:
       return command.is_macro_line() ? "axes, X to XYZU" : "axes, X to XYZU, or INITIAL_X to INITIAL_XYZU";
     case Kind::axis: return "X, Y, Z or U, each at most once";
@@ -227,7 +227,7 @@ std::string expected_of(const Command& command, std::size_t parameter) {
     case Kind::comparison: return "one of < <= > >= == !=";
     case Kind::number:
     case Kind::speed:
-    case Kind::as_it_comes:
+    case Kind::any_value:
     case Kind::operand:
     case Kind::isr_if_used:
     case Kind::point_if_used: break;
@@ -238,9 +238,9 @@ std::string expected_of(const Command& command, std::size_t parameter) {
   if (is_radius && row.lists(command.number(parameter)) && bad_radius(command)) {
     return "at most half of Lp and of Wp";
   }
-  if (row.only == 0) return std::to_string(row.least) + " to " + std::to_string(row.most) + or_variable;
+  if (row.only == 0) return std::to_string(row.min) + " to " + std::to_string(row.max) + or_variable;
   std::string list;
-  for (std::int64_t value = row.least; value <= row.most; ++value) {
+  for (std::int64_t value = row.min; value <= row.max; ++value) {
     if (row.lists(value)) list += (list.empty() ? "" : ", ") + std::to_string(value);
   }
   return "one of " + list + or_variable;

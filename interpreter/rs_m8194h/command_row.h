@@ -23,7 +23,7 @@ enum class Width : std::uint8_t {
 enum class Kind : std::uint8_t {
   number,         // within its range, or one of its list
   speed,          // also accelerations and their rates: any value; the machine clamps it
-  as_it_comes,    // any value
+  any_value,      // any value
   axes,           // a mask of X Y Z U, not empty
   setting_axes,   // like axes; bit 4 in a real-time command: into the Initial Table
   axis,           // one of X Y Z U; no axis twice
@@ -45,15 +45,15 @@ struct Parameter {
   std::string_view name;  // as in the manual
   Kind kind = Kind::number;
   Width width = Width::byte;
-  std::int64_t least = 0;
-  std::int64_t most = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
   std::uint32_t only = 0;  // if not 0: bit n is set if n is one of the list
   Reference reference = Reference::none;
   std::string_view values = {};  // the meanings of the numbers
 
   constexpr int registers() const { return width == Width::byte ? 1 : 2; }
   constexpr bool lists(std::int64_t value) const {
-    return value >= least && value <= most && (only == 0 || ((only >> value) & 1U) != 0);
+    return value >= min && value <= max && (only == 0 || ((only >> value) & 1U) != 0);
   }
 };
 

@@ -38,8 +38,8 @@ constexpr auto kBlockRules = std::to_array<BlockRule>({
 struct DepthRule {
   Verb verb;
   Verb opener;
-  int least;
-  int most;
+  int min;
+  int max;
   Fault fault;
 };
 constexpr auto kDepthRules = std::to_array<DepthRule>({
@@ -66,7 +66,7 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
     const bool opens = verb == rule.opener;
     const int open = opens && options.levels_are_of_both ? static_cast<int>(blocks.size())
                                                          : count_open(blocks, rule.opener);
-    return open >= rule.least && open <= rule.most ? Fault::none : rule.fault;
+    return open >= rule.min && open <= rule.max ? Fault::none : rule.fault;
   }
   return Fault::none;
 }

@@ -60,10 +60,10 @@ class LineRun {
     level().line = static_cast<std::uint16_t>(line);
     return Ran::on;
   }
-  Ran go_on() { return go_to(level().line + std::size_t{1}); }
+  Ran next_line() { return go_to(level().line + std::size_t{1}); }
   /// Completes the line. From now on the run checks whether the wait is over.
   Ran wait(Hold what, std::int64_t until_ms, std::uint32_t awaited = 0) {
-    go_on();
+    next_line();
     hold(run_, what, until_ms, awaited);
     const bool is_over_at_once = is_over(run_, now_ms_, options_, machine_);
     if (what != Hold::timer) decide(is_over_at_once);
@@ -73,7 +73,7 @@ class LineRun {
   }
   Ran fail(const Command& command, Fault fault) {
     machine_.report({name_of_level(run_, level()), command.code, level().line, fault});
-    return go_on();
+    return next_line();
   }
   std::int32_t value(std::uint32_t operand) const { return value_of(operand, machine_); }
   ReturnRegister& return_register() {
@@ -84,7 +84,7 @@ class LineRun {
 
   Ran set_var(const Command& command) {
     machine_.set_variable(variable_number(command.values[0]), value(command.values[1]));
-    return go_on();
+    return next_line();
   }
 
   Ran set_rvar(const Command& command) {
@@ -92,7 +92,7 @@ class LineRun {
     if (options_.return_value_is_used_up && !returned.is_full) return fail(command, Fault::operand);
     machine_.set_variable(variable_number(command.values[0]), returned.value);
     if (options_.return_value_is_used_up) returned = {};
-    return go_on();
+    return next_line();
   }
 
   Ran var_calculate(const Command& command) {
@@ -104,7 +104,7 @@ class LineRun {
       const std::int64_t exact = calculate_exactly(arithmetic, value(command.values[0]), right);
       machine_.set_variable(result, options_.results_end_at_32_bits ? nearest_of_32_bits(exact)
                                                                     : static_cast<std::int32_t>(exact));
-      return go_on();
+      return next_line();
     }
     if (!options_.division_by_zero_keeps) machine_.set_variable(result, 0);
     return fail(command, Fault::operand);
@@ -116,7 +116,7 @@ class LineRun {
     const bool is_returned =
         command.verb() != Verb::get_di_signal_all || !options_.raw_signals_are_not_returned;
     if (is_returned) return_register() = {machine_.read(resolved), true};
-    return go_on();
+    return next_line();
   }
 
   // --- blocks ----------------------------------------------------------------------------------
@@ -126,7 +126,7 @@ class LineRun {
     if (options_.for_runs_once_at_least) passes = std::max(passes, 1);
     if (!decide(passes > 0)) return go_to(leads_to_);
     level().loops.push_back({level().line, passes});
-    return go_on();
+    return next_line();
   }
 
   std::int32_t count_down(std::size_t variable) {
@@ -146,7 +146,7 @@ class LineRun {
     }
     if (decide(loop.left > 0)) return go_to(leads_to_);
     level().loops.pop_back();
-    return go_on();
+    return next_line();
   }
 
   Ran exit_for(const Command&) {
@@ -160,7 +160,7 @@ class LineRun {
   Ran if_(const Command& command) {
     const ComparisonRow* row = find_comparison(command.values[1]);
     const bool is_true = holds(row->comparison, value(command.values[0]), value(command.values[2]));
-    return decide(is_true) ? go_on() : go_to(leads_to_);
+    return decide(is_true) ? next_line() : go_to(leads_to_);
   }
 
   Ran skip(const Command&) { return go_to(leads_to_); }
@@ -181,7 +181,7 @@ class LineRun {
 
   Ran stop_wait(const Command& command) {
     const bool passes = run_.is_isr && options_.isr_never_waits;
-    return passes && decide(true) ? go_on() : wait(Hold::axes, 0, command.values[0]);
+    return passes && decide(true) ? next_line() : wait(Hold::axes, 0, command.values[0]);
   }
 
   Ran frnet_wait(const Command& command) {
@@ -193,7 +193,7 @@ class LineRun {
       resolved.values[3] = static_cast<std::uint32_t>(std::max(time_ms, 0));
     }
     if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
-    if (run_.is_isr && options_.isr_never_waits && decide(true)) return go_on();
+    if (run_.is_isr && options_.isr_never_waits && decide(true)) return next_line();
     const std::int64_t until_ms =
         resolved.values[3] == 0 ? kNever : now_ms_ + std::int64_t{resolved.values[3]};
     return wait(Hold::frnet, until_ms, packed(resolved.values[0], resolved.values[1], resolved.values[2]));
@@ -210,7 +210,7 @@ class LineRun {
         !has_lines({false, static_cast<int>(command.values[0])}, machine_)) {
       return fail(command, Fault::undefined_command);
     }
-    go_on();
+    next_line();
     run_.levels.push_back({.number = static_cast<std::uint8_t>(command.values[0])});
     return Ran::on;
   }
@@ -235,7 +235,7 @@ class LineRun {
       hold(run_, Hold::machine);
       return Ran::waits;
     }
-    return go_on();
+    return next_line();
   }
 
   /// The lines that the interpreter executes itself.

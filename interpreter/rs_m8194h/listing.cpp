@@ -33,9 +33,9 @@ namespace {
 
 constexpr std::string_view kAxes = "XYZU";
 
-std::optional<int> number_in(std::string_view text, int least, int most) {
+std::optional<int> number_in(std::string_view text, int min, int max) {
   const std::optional<std::int64_t> number = parse_integer(text);
-  if (!number || *number < least || *number > most) return std::nullopt;
+  if (!number || *number < min || *number > max) return std::nullopt;
   return static_cast<int>(*number);
 }
 

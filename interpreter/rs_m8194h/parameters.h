@@ -9,64 +9,60 @@
 namespace understudy::interpreter::rs_m8194h::rows {
 
 constexpr Parameter axes(std::string_view name) {
-  return {.name = name, .kind = Kind::axes, .least = 1, .most = kAllAxes};
+  return {.name = name, .kind = Kind::axes, .min = 1, .max = kAllAxes};
 }
 inline constexpr Parameter kSettingAxes = {
-    .name = "axis", .kind = Kind::setting_axes, .least = 1, .most = kAllAxes};
-constexpr Parameter axes_up_to(std::string_view name, std::int64_t most) {
-  return {.name = name, .kind = Kind::axes, .least = 1, .most = most};
+    .name = "axis", .kind = Kind::setting_axes, .min = 1, .max = kAllAxes};
+constexpr Parameter axes_up_to(std::string_view name, std::int64_t max) {
+  return {.name = name, .kind = Kind::axes, .min = 1, .max = max};
 }
 constexpr Parameter one_axis(std::string_view name) {
-  return {.name = name, .kind = Kind::axis, .least = 1, .most = 8};
+  return {.name = name, .kind = Kind::axis, .min = 1, .max = 8};
 }
 constexpr Parameter axis_or_none(std::string_view name) {
-  return {.name = name, .kind = Kind::axis_or_none, .least = 0, .most = 8};
+  return {.name = name, .kind = Kind::axis_or_none, .min = 0, .max = 8};
 }
 
 /// A byte constant is below 0x80, so that bVARn can replace it in a macro.
-constexpr Parameter byte(std::string_view name, std::int64_t least, std::int64_t most,
+constexpr Parameter byte(std::string_view name, std::int64_t min, std::int64_t max,
                          std::string_view values = {}) {
-  return {
-      .name = name, .least = least, .most = most, .reference = Reference::byte_variable, .values = values};
+  return {.name = name, .min = min, .max = max, .reference = Reference::byte_variable, .values = values};
 }
 constexpr Parameter byte_of(std::string_view name, std::uint32_t only, std::string_view values = {}) {
   return {.name = name,
-          .least = 0,
-          .most = 31,
+          .min = 0,
+          .max = 31,
           .only = only,
           .reference = Reference::byte_variable,
           .values = values};
 }
 /// A byte that is checked when a macro is stored, and that no variable may replace.
-constexpr Parameter constant_byte(std::string_view name, std::int64_t least, std::int64_t most) {
-  return {.name = name, .least = least, .most = most};
+constexpr Parameter constant_byte(std::string_view name, std::int64_t min, std::int64_t max) {
+  return {.name = name, .min = min, .max = max};
 }
 constexpr Parameter any_byte(std::string_view name) {
-  return {.name = name, .kind = Kind::as_it_comes, .least = 0, .most = 0xFFFF};
+  return {.name = name, .kind = Kind::any_value, .min = 0, .max = 0xFFFF};
 }
 constexpr Parameter any_isr(std::string_view name) {
   return {.name = name,
           .kind = Kind::isr_if_used,
-          .least = 0,
-          .most = kIsrCount,
+          .min = 0,
+          .max = kIsrCount,
           .reference = Reference::byte_variable};
 }
 
-constexpr Parameter unsigned_range(std::string_view name, std::int64_t least, std::int64_t most,
+constexpr Parameter unsigned_range(std::string_view name, std::int64_t min, std::int64_t max,
                                    std::string_view values = {}) {
   return {.name = name,
           .width = Width::unsigned_long,
-          .least = least,
-          .most = most,
+          .min = min,
+          .max = max,
           .reference = Reference::variable,
           .values = values};
 }
-constexpr Parameter long_range(std::string_view name, std::int64_t least, std::int64_t most) {
-  return {.name = name,
-          .width = Width::signed_long,
-          .least = least,
-          .most = most,
-          .reference = Reference::variable};
+constexpr Parameter long_range(std::string_view name, std::int64_t min, std::int64_t max) {
+  return {
+      .name = name, .width = Width::signed_long, .min = min, .max = max, .reference = Reference::variable};
 }
 constexpr Parameter position(std::string_view name) { return long_range(name, kMin, kMax); }
 constexpr Parameter point(std::string_view name) {
@@ -78,45 +74,41 @@ constexpr Parameter speed(std::string_view name) {
   return {.name = name,
           .kind = Kind::speed,
           .width = Width::unsigned_long,
-          .least = 0,
-          .most = UINT32_MAX,
+          .min = 0,
+          .max = UINT32_MAX,
           .reference = Reference::variable};
 }
 constexpr Parameter signed_speed(std::string_view name) {
   return {.name = name,
           .kind = Kind::speed,
           .width = Width::signed_long,
-          .least = INT32_MIN,
-          .most = INT32_MAX,
+          .min = INT32_MIN,
+          .max = INT32_MAX,
           .reference = Reference::variable};
 }
 constexpr Parameter any_long(std::string_view name) {
-  return {.name = name,
-          .kind = Kind::as_it_comes,
-          .width = Width::signed_long,
-          .least = INT32_MIN,
-          .most = INT32_MAX};
+  return {
+      .name = name, .kind = Kind::any_value, .width = Width::signed_long, .min = INT32_MIN, .max = INT32_MAX};
 }
 constexpr Parameter any_real(std::string_view name) {
-  return {.name = name, .kind = Kind::as_it_comes, .width = Width::real, .least = 0, .most = UINT32_MAX};
+  return {.name = name, .kind = Kind::any_value, .width = Width::real, .min = 0, .max = UINT32_MAX};
 }
 
 constexpr Parameter variable(std::string_view name) {
   return {.name = name,
           .kind = Kind::variable,
           .width = Width::signed_long,
-          .least = kVariable0,
-          .most = kVariable0 + kVariableCount - 1};
+          .min = kVariable0,
+          .max = kVariable0 + kVariableCount - 1};
 }
 constexpr Parameter byte_variable(std::string_view name) {
   return {.name = name,
           .kind = Kind::byte_variable,
-          .least = kByteVariable0,
-          .most = kByteVariable0 + kByteVariableCount - 1};
+          .min = kByteVariable0,
+          .max = kByteVariable0 + kByteVariableCount - 1};
 }
 constexpr Parameter memory(std::string_view name) {
-  return {
-      .name = name, .kind = Kind::memory, .width = Width::signed_long, .least = 0, .most = kMemoryCount - 1};
+  return {.name = name, .kind = Kind::memory, .width = Width::signed_long, .min = 0, .max = kMemoryCount - 1};
 }
 constexpr Parameter operand(std::string_view name) {
   Parameter parameter = position(name);
@@ -124,10 +116,10 @@ constexpr Parameter operand(std::string_view name) {
   return parameter;
 }
 constexpr Parameter arithmetic(std::string_view name) {
-  return {.name = name, .kind = Kind::arithmetic, .least = 0, .most = 0x7F, .values = "+ - * / & |"};
+  return {.name = name, .kind = Kind::arithmetic, .min = 0, .max = 0x7F, .values = "+ - * / & |"};
 }
 constexpr Parameter comparison(std::string_view name) {
-  return {.name = name, .kind = Kind::comparison, .least = 0, .most = 0xFFFF, .values = "< <= > >= == !="};
+  return {.name = name, .kind = Kind::comparison, .min = 0, .max = 0xFFFF, .values = "< <= > >= == !="};
 }
 
 /// The uses of a function.

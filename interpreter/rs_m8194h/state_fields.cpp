@@ -38,7 +38,7 @@ void StateOf<lang::Command>::read(lang::Command& command, StateReader& reader) {
                 "a command is not in the manual");
 }
 
-std::string StateOf<lang::Command>::told(const lang::Command& command) {
+std::string StateOf<lang::Command>::reported(const lang::Command& command) {
   return lang::find_code(command.code) == nullptr ? "" : lang::text_of(command);
 }
 

@@ -40,7 +40,7 @@ struct StateOf<interpreter::rs_m8194h::Command> {
   static void write(const interpreter::rs_m8194h::Command& command, StateWriter& writer);
   static void read(interpreter::rs_m8194h::Command& command, StateReader& reader);
   /// Describes the command, for differences between two states.
-  static std::string told(const interpreter::rs_m8194h::Command& command);
+  static std::string reported(const interpreter::rs_m8194h::Command& command);
 };
 
 template <>

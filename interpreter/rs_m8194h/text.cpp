@@ -97,7 +97,7 @@ std::string text_of_value(const Command& command, std::size_t parameter) {
     }
     case Kind::number:
     case Kind::speed:
-    case Kind::as_it_comes:
+    case Kind::any_value:
     case Kind::operand:
     case Kind::isr_if_used:
     case Kind::point_if_used: break;
@@ -175,7 +175,7 @@ std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row
     case Kind::byte_variable: return variable_of(text, true);
     case Kind::number:
     case Kind::speed:
-    case Kind::as_it_comes:
+    case Kind::any_value:
     case Kind::operand:
     case Kind::isr_if_used:
     case Kind::point_if_used:

@@ -48,7 +48,7 @@ class Assembler {
       read(tokens_of(line.text, line.number, Colon::ends_its_token));
       if (errors_.size() >= kMaxMistakes) break;
     }
-    if (errors_.size() < kMaxMistakes) look_at_labels();
+    if (errors_.size() < kMaxMistakes) check_labels();
 
     Assembly assembly;
     leave_first(errors_);
@@ -60,7 +60,7 @@ class Assembler {
 
  private:
   /// Called after the whole text was read.
-  void look_at_labels() {
+  void check_labels() {
     if (pending_.mark)
       fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
     give_flags();

@@ -97,7 +97,7 @@ struct Dialect {
   } wait_cut_short = WaitCutShort::line_is_over;
   /// If a line is overwritten while it waits, the new line runs in the next slot, or the wait continues as it
   /// began.
-  enum class RewrittenLine : std::uint8_t { read_anew, waits_on } rewritten_line = RewrittenLine::read_anew;
+  enum class RewrittenLine : std::uint8_t { reread, waits_on } rewritten_line = RewrittenLine::reread;
 
   bool operator==(const Dialect&) const = default;
 };

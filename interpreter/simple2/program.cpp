@@ -30,7 +30,7 @@ void Program::set_cell(int number, std::uint8_t value) {
   Line& changed = lines_[line_of(number)];
   const std::uint8_t flag_before = changed.flag;
   changed.*member = value;
-  if (rules_.found == FlagRules::Found::when_told) return;
+  if (rules_.found == FlagRules::Found::on_request) return;
   if (member == &Line::command && rules_.after_end == FlagRules::AfterEnd::do_not_count) {
     find_flags();  // an END may have been added or removed
   } else if (member == &Line::flag) {

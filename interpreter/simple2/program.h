@@ -30,7 +30,7 @@ struct FlagRules {
   /// Flags after the first END count, or do not.
   enum class AfterEnd : std::uint8_t { count, do_not_count } after_end = AfterEnd::count;
   /// The lines are searched for flags at every write, or only in find_flags().
-  enum class Found : std::uint8_t { at_every_write, when_told } found = Found::at_every_write;
+  enum class Found : std::uint8_t { at_every_write, on_request } found = Found::at_every_write;
 
   bool operator==(const FlagRules&) const = default;
 };

@@ -38,7 +38,7 @@ bool is_for_hosts(const CommandRow& row) {
 }
 bool is_let_through(const CommandRow& row) { return is_one_of(kLetThrough, row.verb) || row.is_query(); }
 
-bool is_variable_schema(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
+bool takes_real_variable(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
     case Place::immediate:
       if (row.immediate == Printed::nothing) return !is_one_of(kForPrograms, row.verb);
       if (row.immediate == Printed::yes) return true;
-      return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_schema(row);
+      return columns.variable_forms == Columns::VariableForms::typed_too && takes_real_variable(row);
     case Place::external:
       // EXIT leaves a running program; it has no meaning elsewhere.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;

@@ -185,7 +185,7 @@ inline constexpr int kEventCount = 8;
 inline constexpr int kVariableCount = 65;  // N0 to N64, R0 to R64
 inline constexpr int kArrayCount = 2001;   // NS(0) to NS(2000), RS(0) to RS(2000)
 /// The limits of integers: "MAX N0=32766".
-inline constexpr int kIntegerLeast = -32768;
-inline constexpr int kIntegerMost = 32766;
+inline constexpr int kIntegerMin = -32768;
+inline constexpr int kIntegerMax = 32766;
 
 }  // namespace understudy::interpreter::slim

@@ -31,46 +31,49 @@ bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& opti
 }
 
 /// The arguments of an editing command.
-struct Desk {
+struct EditArguments {
   Editor& editor;
   Program& program;
   const ProgramOptions& options;
   int line;  // the line that the command names
 };
-using Beginning = Error (*)(const Desk&);
+using Beginning = Error (*)(const EditArguments&);
 
 constexpr HandlerRow<Verb, Beginning> kBeginningRows[] = {
     {Verb::program_new,
-     [](const Desk& desk) {
-       desk.program.clear();
-       desk.editor = {.mode = Editor::Mode::lines};
+     [](const EditArguments& arguments) {
+       arguments.program.clear();
+       arguments.editor = {.mode = Editor::Mode::lines};
        return Error::none;
      }},
     {Verb::program_append,
-     [](const Desk& desk) {
-       desk.editor = {.mode = Editor::Mode::lines};
+     [](const EditArguments& arguments) {
+       arguments.editor = {.mode = Editor::Mode::lines};
        return Error::none;
      }},
     {Verb::download,
-     [](const Desk& desk) {
-       desk.program.clear();
-       desk.editor = {.mode = Editor::Mode::download};
+     [](const EditArguments& arguments) {
+       arguments.program.clear();
+       arguments.editor = {.mode = Editor::Mode::download};
        return Error::none;
      }},
     {Verb::program_edit,
-     [](const Desk& desk) {
-       if (desk.line < 0 || desk.line >= desk.program.size()) return Error::range;
-       desk.editor = {.mode = Editor::Mode::replace, .line = desk.line};
+     [](const EditArguments& arguments) {
+       if (arguments.line < 0 || arguments.line >= arguments.program.size()) return Error::range;
+       arguments.editor = {.mode = Editor::Mode::replace, .line = arguments.line};
        return Error::none;
      }},
     {Verb::program_insert,
-     [](const Desk& desk) {
-       if (desk.line < 0 || desk.line > desk.program.size()) return Error::range;
-       if (desk.program.size() >= desk.options.capacity) return Error::buffer_full;
-       desk.editor = {.mode = Editor::Mode::insert, .line = desk.line};
+     [](const EditArguments& arguments) {
+       if (arguments.line < 0 || arguments.line > arguments.program.size()) return Error::range;
+       if (arguments.program.size() >= arguments.options.capacity) return Error::buffer_full;
+       arguments.editor = {.mode = Editor::Mode::insert, .line = arguments.line};
        return Error::none;
      }},
-    {Verb::program_delete, [](const Desk& desk) { return desk.program.remove(desk.line, desk.options); }},
+    {Verb::program_delete,
+     [](const EditArguments& arguments) {
+       return arguments.program.remove(arguments.line, arguments.options);
+     }},
 };
 constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRows);
 

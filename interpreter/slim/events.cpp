@@ -106,7 +106,7 @@ void arm_events(Events& events, const EventOptions& options) {
   for (Event& event : events) arm(event, options);
 }
 
-Error look_at_events(Events& events, const EventOptions& options, const Machine& machine) {
+Error check_events(Events& events, const EventOptions& options, const Machine& machine) {
   Error first_error = Error::none;
   for (Event& event : events) {
     if (!is_complete(event)) continue;

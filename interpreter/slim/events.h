@@ -46,7 +46,7 @@ void define_event(Events& events, const Command& command, const EventOptions& op
 void arm_events(Events& events, const EventOptions& options);
 
 /// Checks all conditions. Returns the error of a condition that cannot be tested; that event is disabled.
-Error look_at_events(Events& events, const EventOptions& options, const Machine& machine);
+Error check_events(Events& events, const EventOptions& options, const Machine& machine);
 /// Takes the event whose turn it is; it is then no longer pending.
 std::optional<Operand> take_event(Events& events);
 /// Returns true if the next check would change anything, if only the machine's clock advances.

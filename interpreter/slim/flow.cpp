@@ -61,7 +61,7 @@ class LineRun {
     if (machine_.watch() != nullptr) begin();
     if (line.error != Error::none) return fail(line.error);
     const std::optional<Command>& command = line.parsed.command;
-    if (!command) return go_on();
+    if (!command) return next_line();
     const bool has_to_change = asked_of_host(*command) || has_variable_index(*command);
     const Error error = has_to_change ? run_changed(*command) : run_command(*command);
     return error == Error::none ? error : fail(error);
@@ -70,14 +70,14 @@ class LineRun {
   Error fail(Error error) {
     execution_.has_number = false;
     if (options_.failed_line == FlowOptions::FailedLine::is_passed) {
-      go_on();
+      next_line();
     } else {
       finish(execution_, Ending::failed, error);
     }
     return error;
   }
 
-  Error go_on() { return go_to(execution_.line + 1); }
+  Error next_line() { return go_to(execution_.line + 1); }
 
  private:
   /// Tells an observer that the line begins. One that waits has begun already.
@@ -119,7 +119,7 @@ class LineRun {
     if (command.verb == Verb::wait_done) decide_wait(!outcome.waits);
     if (outcome.program == Outcome::Program::ends) return end(Ending::exited);
     if (outcome.program == Outcome::Program::forgets_what_it_interrupted) forget_what_was_interrupted();
-    return outcome.waits ? hold(Hold::machine) : go_on();
+    return outcome.waits ? hold(Hold::machine) : next_line();
   }
 
   /// Lets the routine of an event continue to its RET, after which the program is over.
@@ -131,7 +131,7 @@ class LineRun {
 
   Error take_bare_number(const Command& asking) {
     const bool is_integer = asking.verb == Verb::get_integer;
-    if (options_.bare_number == FlowOptions::BareNumber::is_dropped) return go_on();
+    if (options_.bare_number == FlowOptions::BareNumber::is_dropped) return next_line();
     Command command{.verb = Verb::set_variable, .row = is_integer ? row_of("N#=data") : row_of("R#=data")};
     command.operands.push_back({.kind = is_integer ? Kind::integer_variable : Kind::real_variable});
     command.operands.push_back(
@@ -157,7 +157,7 @@ class LineRun {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    return decide(holds) ? jump_to(command.operands.back()) : go_on();
+    return decide(holds) ? jump_to(command.operands.back()) : next_line();
   }
 
   Error jump_if_within(const Command& command) {
@@ -169,7 +169,7 @@ class LineRun {
     const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
     if (now_ms_ < until_ms) return hold(Hold::window, until_ms);
     decide(false);
-    return go_on();
+    return next_line();
   }
 
   Error call(const Command& command) {
@@ -186,7 +186,7 @@ class LineRun {
     execution_.stack.pop_back();
     go_to(frame.line);
     const bool is_timed = frame.hold == Hold::timer || frame.hold == Hold::window;
-    if (is_timed && options_.interrupted_timer == FlowOptions::InterruptedTimer::goes_on) {
+    if (is_timed && options_.interrupted_timer == FlowOptions::InterruptedTimer::continues) {
       hold(frame.hold, frame.until_ms);
     }
     return Error::none;
@@ -196,18 +196,18 @@ class LineRun {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    return decide_wait(holds) ? go_on() : hold(Hold::input);
+    return decide_wait(holds) ? next_line() : hold(Hold::input);
   }
 
   Error wait_time(const Command& command) {
     const double time_ms = command.operands[0].number;
-    if (time_ms == 0) return go_on();
+    if (time_ms == 0) return next_line();
     return hold(Hold::timer, now_ms_ + static_cast<std::int64_t>(time_ms));
   }
 
   Error define(const Command&) {
     define_event(execution_.events, original(), options_.events);
-    return go_on();
+    return next_line();
   }
 
   Error hold(Hold what, std::int64_t until_ms = 0) {
@@ -280,7 +280,7 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
   number = read->number;
   if (asked == Kind::get_integer) {
     if (read->kind != Kind::integer) return Error::syntax;
-    return number >= dialect.integer_least && number <= kIntegerMost ? Error::none : Error::range;
+    return number >= dialect.integer_min && number <= kIntegerMax ? Error::none : Error::range;
   }
   constexpr double kMax = std::numeric_limits<float>::max();
   number = rounded_real(number);
@@ -322,7 +322,7 @@ Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program&
                        const FlowOptions& options, const Machine& machine) {
   if (options.events_need_program) return Error::none;
   if (now_ms % options.events.look_every_ms == 0) {
-    const Error error = look_at_events(execution.events, options.events, machine);
+    const Error error = check_events(execution.events, options.events, machine);
     if (error != Error::none) return error;
   }
   const std::optional<Operand> address = take_event(execution.events);
@@ -374,11 +374,11 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
   LineRun line(execution, now_ms, program, options, machine);
   const bool is_lines_turn = now_ms % options.lines_every_ms == 0;
   // A wait that is over ends before an event can restart it.
-  if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.go_on();
+  if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.next_line();
   if (!execution.running) return Error::none;
   Error event_error = Error::none;
   if (now_ms % options.events.look_every_ms == 0) {
-    event_error = look_at_events(execution.events, options.events, machine);
+    event_error = check_events(execution.events, options.events, machine);
   }
   if (is_lines_turn && event_error == Error::none) event_error = serve_events(execution, program, options);
   if (event_error != Error::none && options.failed_line == FlowOptions::FailedLine::ends_program) {

@@ -31,7 +31,7 @@ struct FlowOptions {
   /// If an event interrupts WT or JTI, it starts again afterwards, or its time has continued.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
-    goes_on
+    continues
   } interrupted_timer = InterruptedTimer::begins_again;
   /// A line that the machine refuses ends the program, or is skipped.
   enum class FailedLine : std::uint8_t { ends_program, is_passed } failed_line = FailedLine::ends_program;

@@ -15,10 +15,10 @@ struct Outcome {
   Error error = Error::none;
   /// The effect on the program that gave the command.
   enum class Program : std::uint8_t {
-    goes_on,
+    continues,
     forgets_what_it_interrupted,  // the program ends at the RET of the event's routine
     ends,
-  } program = Program::goes_on;
+  } program = Program::continues;
 
   bool operator==(const Outcome&) const = default;
 };

@@ -34,15 +34,15 @@ constexpr std::string_view head_of(const CommandRow& row) {
 
 /// The part of a row that a word of a line is compared with.
 struct RowKey {
-  enum class Schema : std::uint8_t { plain, assignment, query };
-  Schema form = Schema::plain;
+  enum class Syntax : std::uint8_t { plain, assignment, query };
+  Syntax syntax = Syntax::plain;
   bool takes_module = false;
   std::string_view head;  // for a query everything after the "?"
 
   constexpr explicit RowKey(const CommandRow& row)
-      : form(row.is_query()        ? Schema::query
-             : row.is_assignment() ? Schema::assignment
-                                   : Schema::plain),
+      : syntax(row.is_query()        ? Syntax::query
+               : row.is_assignment() ? Syntax::assignment
+                                     : Syntax::plain),
         takes_module(row.takes_module()),
         head(row.is_query() ? row.command.substr(1) : head_of(row)) {}
 
@@ -106,7 +106,7 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
   bool is_first = true;
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const RowKey& key = kRowKeys[i];
-    if (key.form != RowKey::Schema::plain || key.takes_module != name.has_prefix) continue;
+    if (key.syntax != RowKey::Syntax::plain || key.takes_module != name.has_prefix) continue;
     if (!key.is_called(name.word)) continue;
     if (is_no_module(name)) return refused(Error::range);
     const CommandRow& row = kCommands[i];
@@ -161,7 +161,7 @@ ParseResult assign_variable(std::string_view target_text, std::string_view data,
 ParseResult parse_assignment(const Prefixed& name, std::string_view data, const Dialect& dialect) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const RowKey& key = kRowKeys[i];
-    if (key.form != RowKey::Schema::assignment || key.takes_module != name.has_prefix) continue;
+    if (key.syntax != RowKey::Syntax::assignment || key.takes_module != name.has_prefix) continue;
     if (!key.is_called(name.word)) continue;
     const CommandRow& row = kCommands[i];
     const bool is_element =
@@ -178,7 +178,8 @@ ParseResult parse_assignment(const Prefixed& name, std::string_view data, const 
 /// Returns the row of a query without a prefix; -1 for a parameter.
 int find_query(std::string_view word) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
-    if (kRowKeys[i].form == RowKey::Schema::query && kRowKeys[i].is_called(word)) return static_cast<int>(i);
+    if (kRowKeys[i].syntax == RowKey::Syntax::query && kRowKeys[i].is_called(word))
+      return static_cast<int>(i);
   }
   return -1;
 }

@@ -24,7 +24,7 @@ struct Dialect {
     accepted
   } module_move_from_variable = ModuleMoveFromVariable::refused;
   std::size_t longest_line = kLineLength;  // longer ones are refused
-  int integer_least = kIntegerLeast;       // the minimum of integer variables
+  int integer_min = kIntegerMin;           // the minimum of integer variables
   int event_count = kEventCount;           // EV1 to EVn; 1 .. kEventCount
   bool helix_constants = true;  // SAA R0,R1,90,5 is accepted, as its form is printed, besides four variables
   bool quantities = false;      // the value of a query is also a function: N0=PE, JG VM,R0,$A

@@ -25,15 +25,15 @@ using Kind = Operand::Kind;
 constexpr std::array<std::string_view, 8> kConditionWords{"I", "NI", "Z", "NZ", "E", "NE", "G", "NG"};
 
 struct Range {
-  double least = 0;
-  double most = 0;
+  double min = 0;
+  double max = 0;
 };
 constexpr Range kNoNegatives{0, std::numeric_limits<std::int32_t>::max()};
 constexpr Range kAnyReal{-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
 /// The range of an integer variable.
 constexpr Range integer_range(const Dialect& dialect) {
-  return {static_cast<double>(dialect.integer_least), kIntegerMost};
+  return {static_cast<double>(dialect.integer_min), kIntegerMax};
 }
 
 constexpr bool is_constant(const Operand& operand) {
@@ -41,7 +41,7 @@ constexpr bool is_constant(const Operand& operand) {
 }
 
 Error in_range(double number, Range range) {
-  return number >= range.least && number <= range.most ? Error::none : Error::range;
+  return number >= range.min && number <= range.max ? Error::none : Error::range;
 }
 
 Error check_whole(const Operand& operand, Range range) {
@@ -303,7 +303,7 @@ constexpr std::array<Matching::Rule, static_cast<std::size_t>(Slot::text) + 1> M
     {Slot::levels, &Matching::take_one, &Matching::whole, {0, (1 << kPortCount) - 1}},
     {Slot::axis_module, &Matching::take_one, &Matching::axis_module, {0, 8}},
     {Slot::flag, &Matching::take_one, &Matching::whole, {0, 1}},
-    {Slot::whole, &Matching::take_one, &Matching::whole, {kIntegerLeast, kIntegerMost}},
+    {Slot::whole, &Matching::take_one, &Matching::whole, {kIntegerMin, kIntegerMax}},
     {Slot::variant, &Matching::take_one, &Matching::variant},
     {Slot::event, &Matching::take_event, &Matching::event},
     {Slot::condition, &Matching::take_condition},

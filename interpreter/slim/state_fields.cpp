@@ -29,11 +29,11 @@ void StateOf<lang::Operand>::check(const lang::Operand& operand) {
   require_state(std::isfinite(operand.number), "a number is not finite");
   const bool of_array = is_array(operand.kind) && !operand.index_is_variable;
   const bool of_variables = is_variable(operand.kind) && !of_array;
-  const int most = of_array                          ? lang::kArrayCount - 1
-                   : of_variables                    ? lang::kVariableCount - 1
-                   : operand.kind == Kind::condition ? static_cast<int>(lang::Condition::not_greater)
-                                                     : 8;
-  require_within(operand.index, 0, most);
+  const int max = of_array                          ? lang::kArrayCount - 1
+                  : of_variables                    ? lang::kVariableCount - 1
+                  : operand.kind == Kind::condition ? static_cast<int>(lang::Condition::not_greater)
+                                                    : 8;
+  require_within(operand.index, 0, max);
 }
 
 void StateOf<lang::Event>::check(const lang::Event& event) {

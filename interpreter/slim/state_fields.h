@@ -91,7 +91,9 @@ struct StateOf<interpreter::slim::Program> {
   static void write(const interpreter::slim::Program& program, StateWriter& writer);
   static void read(interpreter::slim::Program& program, StateReader& reader);
   /// Describes a program, for differences between two states.
-  static std::vector<std::string> told(const interpreter::slim::Program& program) { return program.texts(); }
+  static std::vector<std::string> reported(const interpreter::slim::Program& program) {
+    return program.texts();
+  }
 };
 
 }  // namespace understudy

@@ -67,8 +67,8 @@ Item parse_name(const std::string& word) {
   struct Numbered {
     std::string_view letters;
     Kind kind;
-    int least;
-    int most;
+    int min;
+    int max;
   };
   static constexpr std::array<Numbered, 4> kNumbered{{
       {"N", Kind::integer_variable, 0, kVariableCount - 1},
@@ -79,7 +79,7 @@ Item parse_name(const std::string& word) {
   for (const Numbered& form : kNumbered) {
     if (!is_numbered(word, form.letters)) continue;
     const int index = *whole_number(std::string_view(word).substr(form.letters.size()));
-    if (index < form.least || index > form.most) return wrong(Error::range);
+    if (index < form.min || index > form.max) return wrong(Error::range);
     return right({.kind = form.kind, .index = index});
   }
   // Other code checks whether the name exists and is allowed here.

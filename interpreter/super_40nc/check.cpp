@@ -59,7 +59,7 @@ class Checker {
     }
     if (checked_.errors.size() < kMaxMistakes) {
       end_area();
-      if (options_.labels_are_common) look_at_common_labels();
+      if (options_.labels_are_common) check_common_labels();
     }
     leave_first(checked_.errors);
     leave_first(checked_.warnings);
@@ -178,14 +178,14 @@ class Checker {
       instruction.op = Op::out_tc;
       row = &row_of(Op::out_tc);
     }
-    look_at_area(*row, token);
-    if (checked_.errors.size() == errors) look_at_fields(*row, instruction, tokens, at);
+    check_area(*row, token);
+    if (checked_.errors.size() == errors) check_fields(*row, instruction, tokens, at);
     places_.push_back(token);
     current_.lines.push_back(instruction);
     step_ += steps_of(instruction);
   }
 
-  void look_at_area(const InstructionRow& row, const Token& token) {
+  void check_area(const InstructionRow& row, const Token& token) {
     const std::string name(row_of(area_).name);
     if (!has(row.areas, area_)) {
       std::string where;
@@ -233,8 +233,8 @@ class Checker {
     return operand;
   }
 
-  void look_at_fields(const InstructionRow& row, const Instruction& instruction,
-                      const std::vector<Token>& tokens, std::size_t at) {
+  void check_fields(const InstructionRow& row, const Instruction& instruction,
+                    const std::vector<Token>& tokens, std::size_t at) {
     const std::size_t errors = checked_.errors.size();
     for (std::size_t i = 0; i < instruction.fields.size(); ++i) {
       const Operand field = instruction.fields[i];
@@ -259,7 +259,7 @@ class Checker {
     if (row.op == Op::c3p && lacks_one && !options_.c3p_may_lack_fields) {
       fail(tokens[at], Code::unknown, "C3P needs all four fields", "all four");
     }
-    if (row.op == Op::zrst && checked_.errors.size() == errors) look_at_range(instruction, tokens[at]);
+    if (row.op == Op::zrst && checked_.errors.size() == errors) check_range(instruction, tokens[at]);
   }
   static constexpr std::int32_t kGreatestLabel = 9999999;
 
@@ -274,7 +274,7 @@ class Checker {
     return may_reset ? some : static_cast<Letters>(some & ~letters(Letter::t, Letter::c));
   }
 
-  void look_at_range(const Instruction& zrst, const Token& token) {
+  void check_range(const Instruction& zrst, const Token& token) {
     const auto& [first, last, unused, unused2] = zrst.fields;
     const bool is_swapped = first.number > last.number && options_.swapped == Options::Swapped::is_refused;
     if (first.letter != last.letter || is_swapped || block_of(first) != block_of(last)) {
@@ -324,7 +324,7 @@ class Checker {
   }
 
   /// Looks for labels that an earlier area has as well.
-  void look_at_common_labels() {
+  void check_common_labels() {
     std::map<std::int32_t, std::pair<std::size_t, int>> first;  // area, step
     for (const AreaRow& row : kAreas) {
       const auto& area = program_.areas[index_of(row.area)];

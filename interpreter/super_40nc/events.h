@@ -42,13 +42,13 @@ inline constexpr std::size_t kEventCount = 16;
 
 enum class Reaction : std::uint8_t {
   nothing,
-  fresh_start,  // from line 0, with the parameters' modes and speeds
-  go_on,        // continues with the next line, or with the suspended wait
-  resume,       // continues what was frozen
-  pause,        // pauses between lines; a wait is suspended
-  pause_later,  // pauses when its motion has ended
-  hold,         // like pause, and holds the motions outside the lines
-  freeze,       // freezes its motion or wait, and the motions outside the lines
+  fresh_start,   // from line 0, with the parameters' modes and speeds
+  next_or_wait,  // continues with the next line, or with the suspended wait
+  resume,        // continues what was frozen
+  pause,         // pauses between lines; a wait is suspended
+  pause_later,   // pauses when its motion has ended
+  hold,          // like pause, and holds the motions outside the lines
+  freeze,        // freezes its motion or wait, and the motions outside the lines
   next_line,
   forget,        // becomes idle: drops its pointer, calls, waits and held motions; motors continue
   restart,       // gives END's signal, and makes a fresh start
@@ -65,7 +65,7 @@ inline constexpr auto kReactions = [] {
   using enum Reaction;
   return std::array<std::array<Reaction, kPhaseCount>, kEventCount>{{
       //  idle         executing     moving       homing       waiting       paused     held
-      {{fresh_start, nothing, nothing, nothing, nothing, go_on, resume}},              // start
+      {{fresh_start, nothing, nothing, nothing, nothing, next_or_wait, resume}},       // start
       {{nothing, pause, pause_later, pause_later, pause, nothing, nothing}},           // contact_off
       {{nothing, hold, freeze, freeze, freeze, hold, nothing}},                        // hold
       {{nothing, nothing, next_line, next_line, nothing, nothing, nothing}},           // motion_ended
@@ -90,29 +90,29 @@ constexpr Reaction reaction_of(Event event, Phase phase) {
 
 /// The effect of an event on motions outside the lines (a DRV with CHK 0, VDRV), and on axes that follow the
 /// wheel by MPG. The machine receives the same calls as for its line.
-enum class Beside : std::uint8_t { goes_on, is_held, is_stopped, machine_knows };
-struct BesideRow {
+enum class OutsideEffect : std::uint8_t { continues, is_held, is_stopped, machine_knows };
+struct OutsideEffectRow {
   Event event;
-  Beside motion;
-  Beside wheel;
+  OutsideEffect motion;
+  OutsideEffect wheel;
 };
-inline constexpr std::array<BesideRow, kEventCount> kBeside{{
-    {Event::start, Beside::goes_on, Beside::goes_on},
-    {Event::contact_off, Beside::goes_on, Beside::goes_on},
-    {Event::hold, Beside::is_held, Beside::goes_on},
-    {Event::motion_ended, Beside::goes_on, Beside::goes_on},
-    {Event::single_step, Beside::goes_on, Beside::goes_on},
-    {Event::end, Beside::goes_on, Beside::goes_on},
-    {Event::end_continuous, Beside::goes_on, Beside::goes_on},
-    {Event::stop, Beside::is_stopped, Beside::is_stopped},
-    {Event::reset, Beside::is_stopped, Beside::is_stopped},
-    {Event::emergency, Beside::is_stopped, Beside::is_stopped},
-    {Event::inhibit, Beside::goes_on, Beside::machine_knows},
-    {Event::broken, Beside::machine_knows, Beside::machine_knows},
-    {Event::file_changed, Beside::goes_on, Beside::goes_on},
-    {Event::plc_stop, Beside::goes_on, Beside::goes_on},
-    {Event::plc_run, Beside::goes_on, Beside::goes_on},
-    {Event::limit_pauses, Beside::machine_knows, Beside::machine_knows},
+inline constexpr std::array<OutsideEffectRow, kEventCount> kOutsideEffects{{
+    {Event::start, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::contact_off, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::hold, OutsideEffect::is_held, OutsideEffect::continues},
+    {Event::motion_ended, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::single_step, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::end, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::end_continuous, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::stop, OutsideEffect::is_stopped, OutsideEffect::is_stopped},
+    {Event::reset, OutsideEffect::is_stopped, OutsideEffect::is_stopped},
+    {Event::emergency, OutsideEffect::is_stopped, OutsideEffect::is_stopped},
+    {Event::inhibit, OutsideEffect::continues, OutsideEffect::machine_knows},
+    {Event::broken, OutsideEffect::machine_knows, OutsideEffect::machine_knows},
+    {Event::file_changed, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::plc_stop, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::plc_run, OutsideEffect::continues, OutsideEffect::continues},
+    {Event::limit_pauses, OutsideEffect::machine_knows, OutsideEffect::machine_knows},
 }};
 
 }  // namespace understudy::interpreter::super_40nc

@@ -187,7 +187,7 @@ constexpr std::size_t place_of_needed(Op op) {
 }
 
 /// How an instruction uses its condition in the PLC.
-enum class InPlc : std::uint8_t {
+enum class ConditionUse : std::uint8_t {
   nothing,  // not in the PLC, or without a condition
   contact,  // it makes the condition
   every_scan,
@@ -209,7 +209,7 @@ struct InstructionRow {
   Areas areas;  // areas in which it is allowed
   int steps;
   Slots slots;
-  InPlc in_plc;
+  ConditionUse in_plc;
   std::string_view meaning;  // description in the documentation
   std::string_view section;  // of the manual
   Waits waits = Waits::no;
@@ -248,27 +248,27 @@ struct InstructionRow {
 
 // Functions that make rows, by the manual's groups.
 constexpr InstructionRow logic(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
-                               InPlc in_plc, std::string_view meaning, std::string_view section) {
+                               ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::logic, areas, steps, slots, in_plc, meaning, section};
 }
-constexpr InstructionRow data(Op op, std::string_view mnemonic, int steps, const Slots& slots, InPlc in_plc,
-                              std::string_view meaning, std::string_view section) {
+constexpr InstructionRow data(Op op, std::string_view mnemonic, int steps, const Slots& slots,
+                              ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::data, (1U << kAreaCount) - 1, steps, slots, in_plc, meaning, section};
 }
 constexpr InstructionRow sequence(Op op, std::string_view mnemonic, int steps, const Slots& slots,
                                   Waits waits, std::string_view meaning, std::string_view section) {
-  return {op,      mnemonic, Group::sequence, (1U << kStepProgramCount) - 1,
-          steps,   slots,    InPlc::nothing,  meaning,
+  return {op,      mnemonic, Group::sequence,       (1U << kStepProgramCount) - 1,
+          steps,   slots,    ConditionUse::nothing, meaning,
           section, waits};
 }
 constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
-                                InPlc in_plc, std::string_view meaning, std::string_view section) {
+                                ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::motion, areas, steps, slots, in_plc, meaning, section};
 }
 /// Makes the row of an instruction without a description, which is refused when it is loaded.
 constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
-  return {op,     mnemonic, Group::undocumented, 0,
-          1,      {},       InPlc::nothing,      "Only named in the manual; refused",
+  return {op,     mnemonic, Group::undocumented,   0,
+          1,      {},       ConditionUse::nothing, "Only named in the manual; refused",
           section};
 }
 

@@ -65,7 +65,7 @@ class LadderMaker {
     }
     ladder_.steps_.push_back(end);
     for (const auto& [letter, number] : reads_) ladder_.reads_.push_back({letter, number});
-    look_at_timers();
+    check_timers();
   }
 
  private:
@@ -77,8 +77,8 @@ class LadderMaker {
     return known->second;
   }
   bool has_memory(Op op) const {
-    const InPlc how = row_of(op).in_plc;
-    return how == InPlc::rising_edge || how == InPlc::falling_edge || needs_edge(op, options_);
+    const ConditionUse how = row_of(op).in_plc;
+    return how == ConditionUse::rising_edge || how == ConditionUse::falling_edge || needs_edge(op, options_);
   }
 
   std::uint32_t constant(std::int32_t value) {
@@ -197,7 +197,7 @@ class LadderMaker {
 
   /// Marks timers whose value is read, or that another instruction uses as well: these must not run
   /// unobserved.
-  void look_at_timers() {
+  void check_timers() {
     std::set<std::uint32_t> seen = timers_read_;
     for (const std::uint32_t index : ladder_.timers_) {
       LadderStep& timer = ladder_.steps_[index];

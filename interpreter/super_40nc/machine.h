@@ -89,7 +89,7 @@ class Machine : public Watched {
   /// wheel continue.
   virtual void hold(Area by) = 0;
   /// Continues held motion; a home search begins again.
-  virtual void go_on(Area by) = 0;
+  virtual void resume_motions(Area by) = 0;
   /// Drops held motion.
   virtual void drop_held(Area by) = 0;
   /// STP: for C, stops everything that C moves; for another area, whatever moves its axis. Returns the other

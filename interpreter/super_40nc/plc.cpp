@@ -45,21 +45,23 @@ class Scan {
     for (;; ++step) {
       if constexpr (is_watched) begin(*step);
       switch (step->act) {
-        case Act::load: push(told<is_watched>(*step, contact(*step) != inverted(*step))); break;
+        case Act::load: push(reported<is_watched>(*step, contact(*step) != inverted(*step))); break;
         case Act::series:
-          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, contact(*step) != inverted(*step)));
+          blocks_ &= ~std::uint64_t{1} | bit(reported<is_watched>(*step, contact(*step) != inverted(*step)));
           break;
-        case Act::parallel: blocks_ |= bit(told<is_watched>(*step, contact(*step) != inverted(*step))); break;
-        case Act::load_edge: push(told<is_watched>(*step, edge(*step))); break;
+        case Act::parallel:
+          blocks_ |= bit(reported<is_watched>(*step, contact(*step) != inverted(*step)));
+          break;
+        case Act::load_edge: push(reported<is_watched>(*step, edge(*step))); break;
         case Act::series_edge:
-          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, edge(*step)));
+          blocks_ &= ~std::uint64_t{1} | bit(reported<is_watched>(*step, edge(*step)));
           break;
-        case Act::parallel_edge: blocks_ |= bit(told<is_watched>(*step, edge(*step))); break;
-        case Act::load_comparison: push(told<is_watched>(*step, holds(*step))); break;
+        case Act::parallel_edge: blocks_ |= bit(reported<is_watched>(*step, edge(*step))); break;
+        case Act::load_comparison: push(reported<is_watched>(*step, holds(*step))); break;
         case Act::series_comparison:
-          blocks_ &= ~std::uint64_t{1} | bit(told<is_watched>(*step, holds(*step)));
+          blocks_ &= ~std::uint64_t{1} | bit(reported<is_watched>(*step, holds(*step)));
           break;
-        case Act::parallel_comparison: blocks_ |= bit(told<is_watched>(*step, holds(*step))); break;
+        case Act::parallel_comparison: blocks_ |= bit(reported<is_watched>(*step, holds(*step))); break;
         case Act::join_series: blocks_ = (blocks_ >> 1) & (~std::uint64_t{1} | blocks_); break;
         case Act::join_parallel: blocks_ = (blocks_ >> 1) | (blocks_ & 1); break;
         case Act::branch: branches_ = (branches_ << 1) | (blocks_ & 1); break;
@@ -108,7 +110,7 @@ class Scan {
     if (step.line != kNoLine) machine_.watch()->runs(kWatchedPart, step.line, 1);
   }
   template <bool is_watched>
-  bool told(const LadderStep& step, bool conducts) const {
+  bool reported(const LadderStep& step, bool conducts) const {
     if constexpr (is_watched) machine_.watch()->decides(kWatchedPart, step.line, conducts, 1);
     return conducts;
   }
@@ -170,14 +172,14 @@ class Scan {
     if (!is_on && holds_value) return;
     if ((!is_on || !was_on) && !holds_value) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
-    if (was_on) take_back(step);
+    if (was_on) undo_write(step);
     const bool counts = was_on || options_.timers_count_at_once;
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     if (counts && (present < preset || options_.timers_count_on) && a_unit_is_over_) {
       const bool had_changed = has_changed_;
-      const std::int32_t most = options_.timers_count_on ? INT32_MAX : preset;
-      present = static_cast<std::int32_t>(std::min<std::int64_t>(most, std::int64_t{present} + growth_));
+      const std::int32_t max = options_.timers_count_on ? INT32_MAX : preset;
+      present = static_cast<std::int32_t>(std::min<std::int64_t>(max, std::int64_t{present} + growth_));
       put(step.c, static_cast<std::uint32_t>(present), step.flags);
       if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
     }
@@ -200,7 +202,7 @@ class Scan {
     return plc_.timed[step.memory];
   }
   /// Undoes a write to the timer's value, if a choice ignores such writes.
-  void take_back(const LadderStep& step) {
+  void undo_write(const LadderStep& step) {
     if (!options_.timers_ignore_writes || timed(step) == kNotTimedYet) return;
     put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
   }
@@ -289,7 +291,7 @@ bool conducts_quietly(const Instruction& line, const Access& access) {
   return access.contact(line.fields[0]) != is_inverted(line.op);
 }
 
-void tell_crossed(const Ladder& ladder, const Machine& machine, const Access& access, std::int64_t scans) {
+void report_skipped(const Ladder& ladder, const Machine& machine, const Access& access, std::int64_t scans) {
   for (const LadderStep& step : ladder.steps()) {
     if (step.line == kNoLine) continue;
     machine.watch()->runs(kWatchedPart, step.line, scans);
@@ -302,12 +304,12 @@ void tell_crossed(const Ladder& ladder, const Machine& machine, const Access& ac
 
 }  // namespace
 
-void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
-           const Options& options) {
+void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
+                  const Options& options) {
   if (!plc.runs) return;
   const std::span<std::uint32_t> cells = machine.cells();
   const Access access(machine);
-  if (machine.watch() != nullptr) tell_crossed(ladder, machine, access, scans);
+  if (machine.watch() != nullptr) report_skipped(ladder, machine, access, scans);
   for (const std::uint32_t index : ladder.timers()) {
     const LadderStep& timer = ladder.steps()[index];
     if (plc.memories[timer.memory] == 0 || options.timer_unit_ms > 1) continue;

@@ -52,6 +52,7 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
              const Options& options);
 
 /// Runs several quiet scans at once, at most Scanned::quiet_scans.
-void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans, const Options& options);
+void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
+                  const Options& options);
 
 }  // namespace understudy::interpreter::super_40nc

@@ -20,7 +20,7 @@ namespace understudy::interpreter::super_40nc {
 bool PlcLines::count_as_edge(const LadderStep& step, bool is_on, bool& fires) {
   const Op op = ladder_.line(step.line).op;
   const bool was_on = std::exchange(plc_.memories[step.memory], is_on ? 1 : 0) != 0;
-  const bool is_falling = row_of(op).in_plc == InPlc::falling_edge;
+  const bool is_falling = row_of(op).in_plc == ConditionUse::falling_edge;
   fires = is_on != was_on && is_on != is_falling;
   if (plc_.is_first_scan && !options_.outputs_fire_at_run) fires = false;
   const bool is_motion = op == Op::drv || op == Op::hom || op == Op::str;
@@ -30,9 +30,9 @@ bool PlcLines::count_as_edge(const LadderStep& step, bool is_on, bool& fires) {
 
 bool PlcLines::carry_out(const LadderStep& step, bool is_on) {
   const Instruction& line = ladder_.line(step.line);
-  const InPlc how = row_of(line.op).in_plc;
+  const ConditionUse how = row_of(line.op).in_plc;
   const int number = ladder_.step_of(step.line);
-  if (how == InPlc::rising_edge || how == InPlc::falling_edge) {
+  if (how == ConditionUse::rising_edge || how == ConditionUse::falling_edge) {
     bool fires = false;
     bool has_changed = count_as_edge(step, is_on, fires);
     if (line.op == Op::pls || line.op == Op::plf) {

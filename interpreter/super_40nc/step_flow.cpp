@@ -69,7 +69,7 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
     return jump_to_label(area);
   } else if ((line.op == Op::if_ && !decide(area, holds)) || line.op == Op::else_) {
     state(area).step = code(area).target_of(code(area).line_at(state(area).step));
-    return Slice::goes_on;
+    return Slice::continues;
   } else if (line.op == Op::cal) {
     return call(area, line);
   } else if (line.op == Op::ret) {
@@ -85,15 +85,15 @@ StepPrograms::Slice StepPrograms::carry_out(Area area, const Instruction& line) 
 /// Advances to the next line, unless the line has stopped its program or moved the pointer.
 StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
   StepState& program = state(area);
-  if (!program.owns_pointer) return Slice::goes_on;
+  if (!program.owns_pointer) return Slice::continues;
   program.phase = Phase::executing;
   program.step += steps_of(line);
-  return Slice::goes_on;
+  return Slice::continues;
 }
 
 StepPrograms::Slice StepPrograms::jump(Area area, int step) {
   state(area).step = step;
-  return options_.jumps_end_slice ? Slice::is_over : Slice::goes_on;
+  return options_.jumps_end_slice ? Slice::is_over : Slice::continues;
 }
 
 StepPrograms::Slice StepPrograms::jump_to_label(Area area) {
@@ -215,7 +215,7 @@ StepPrograms::Slice StepPrograms::control(Area area, const Instruction& line) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (has_axis(axes, axis)) act(area_of_axis(axis));
   }
-  return Slice::goes_on;
+  return Slice::continues;
 }
 
 }  // namespace understudy::interpreter::super_40nc

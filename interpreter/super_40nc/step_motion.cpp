@@ -68,7 +68,7 @@ AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
 }
 
 /// Removes the axes that the program may not move. Returns true if the program continues without them.
-bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
+bool StepPrograms::drop_forbidden_axes(Area area, AxisValues& values) {
   bool is_void = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     auto& value = values[static_cast<std::size_t>(axis)];
@@ -122,7 +122,7 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
     take(Event::single_step, area);
     return Slice::is_over;
   }
-  return waits ? Slice::is_over : Slice::goes_on;
+  return waits ? Slice::is_over : Slice::continues;
 }
 
 StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
@@ -136,7 +136,7 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
     }
   }
   if (is_empty(values)) return advance(area, line);
-  if (!drop_what_it_may_not_move(area, values)) return Slice::is_over;
+  if (!drop_forbidden_axes(area, values)) return Slice::is_over;
   if (is_empty(values)) return advance(area, line);
   const bool stops = std::any_of(values.begin(), values.end(), [](const auto& value) { return value == 0; });
   const bool turns =
@@ -178,7 +178,7 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
   AxisValues moved;
   for (const int axis : axes) moved[static_cast<std::size_t>(axis)] = 0;
   const AxisValues all = moved;
-  if (!drop_what_it_may_not_move(area, moved)) return Slice::is_over;
+  if (!drop_forbidden_axes(area, moved)) return Slice::is_over;
   if (moved != all) return advance(area, line);
   if (is_inhibited()) {
     state(area).phase = Phase::waiting;

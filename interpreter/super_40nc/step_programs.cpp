@@ -37,7 +37,7 @@ void StepPrograms::take(Event event, Area area) {
     case Reaction::motions_wait:
     case Reaction::rest_waits: break;  // checked when their time comes
     case Reaction::fresh_start:
-    case Reaction::go_on:
+    case Reaction::next_or_wait:
     case Reaction::resume: begin(area, reaction); break;
     case Reaction::pause: pause(area, false); break;
     case Reaction::hold:
@@ -100,7 +100,7 @@ void StepPrograms::resume(Area area) {
   program.waits_to_resume = false;
   program.phase = std::exchange(program.resumes, Phase::executing);
   // A motion that cannot continue because of a limit resets the program.
-  if (std::exchange(program.machine_holds, false)) machine_.go_on(area);
+  if (std::exchange(program.machine_holds, false)) machine_.resume_motions(area);
 }
 
 void StepPrograms::load_modes(Area area) {
@@ -294,7 +294,7 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
   return access_.contact(contact) == waits_for_on ? 0 : kForEver;
 }
 
-void StepPrograms::cross(Area area, std::int64_t ticks) {
+void StepPrograms::fast_forward(Area area, std::int64_t ticks) {
   StepState& program = state(area);
   if (options_.waits_stand_inhibited && is_inhibited()) return;
   if (program.phase == Phase::waiting && program.left_ms > 0) program.left_ms -= ticks;

@@ -28,7 +28,7 @@ struct StepState {
   Phase phase = Phase::idle;
   Phase resumes = Phase::executing;  // phase in which a paused or held program continues
   bool is_paused_by_key = false;     // by M8006 or PAUSE
-  bool machine_holds = false;        // the machine holds motions, until go_on()
+  bool machine_holds = false;        // the machine holds motions, until resume_motions()
   bool waits_to_resume = false;      // M8004
   int step = 0;                      // the next or current step, counted from the beginning of its area
   int next_step = 0;                 // step after a motion
@@ -84,14 +84,14 @@ class StepPrograms : public StepControl {
   /// Returns how many ticks a slice would only count, if no contact, register or axis changes.
   std::int64_t quiet_ms(Area area) const;
   /// Runs `ticks` ticks at once, at most quiet_ms().
-  void cross(Area area, std::int64_t ticks);
+  void fast_forward(Area area, std::int64_t ticks);
   /// Returns the contact that WAT or WTN waits for, or unset.
   Operand awaited(Area area) const;
 
  private:
   static void move_pointer(StepState& program, int step);
   struct Stepping;  // executes one instruction in its slice
-  enum class Slice : std::uint8_t { goes_on, is_over };
+  enum class Slice : std::uint8_t { continues, is_over };
 
   StepState& state(Area area) { return states_.programs[index_of(area)]; }
   const StepState& state(Area area) const { return states_.programs[index_of(area)]; }
@@ -152,7 +152,7 @@ class StepPrograms : public StepControl {
   Slice begin_motion(Area area, const Instruction& line, const Request& request, bool waits);
   bool goes_on_by_path(Area area, const Instruction& line) const;
   AxisValues values_of(Area area, const Instruction& line) const;
-  bool drop_what_it_may_not_move(Area area, AxisValues& values);
+  bool drop_forbidden_axes(Area area, AxisValues& values);
   std::int32_t feed() const { return machine_.special_register(named::kFeed); }
   Plane plane() const;
 

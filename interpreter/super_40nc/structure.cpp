@@ -36,16 +36,16 @@ class Structure {
         fault(Code::memory_full, "does not fit into area " + std::string(row_of(area_).name),
               std::to_string(capacity) + (counts_steps ? " steps" : " lines") + " at most");
       }
-      if (op != Op::nop) look_at_logic(op);
-      look_at_pairs(op);
-      if (op == Op::lab) look_at_label(lines[i].fields[0].number);
+      if (op != Op::nop) check_logic(op);
+      check_pairs(op);
+      if (op == Op::lab) check_label(lines[i].fields[0].number);
       if (names_label(op)) jumps_.emplace_back(line_, lines[i].fields[0].number);
-      if (op == Op::out || op == Op::out_tc) look_at_coil(lines[i].fields[0]);
+      if (op == Op::out || op == Op::out_tc) check_coil(lines[i].fields[0]);
       has_end_ |= op == Op::end;
       if (op != Op::nop) before_ = op;
     }
-    look_at_end();
-    look_at_jumps();
+    check_end();
+    check_jumps();
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const Fault& a, const Fault& b) { return a.line < b.line; });
     return std::move(faults_);
@@ -58,9 +58,9 @@ class Structure {
 
   // --- blocks and branches ------------------------------------------------------------------------
 
-  void look_at_logic(Op op) {
+  void check_logic(Op op) {
     const bool is_plc = area_ == Area::plc;
-    if (!is_plc) look_at_group(op);
+    if (!is_plc) check_group(op);
     if (is_contact(op)) {
       if (begins_block(op)) {
         ++blocks_;
@@ -98,11 +98,11 @@ class Structure {
   bool is_loose_allowed() const { return options_.loose_groups == Options::LooseGroups::take_last_result; }
 
   /// In step programs, contacts belong to the jump after them.
-  void look_at_group(Op op) {
+  void check_group(Op op) {
     if (is_loose_allowed()) return;
-    const bool goes_on = is_contact(before_) || joins_blocks(before_) || reads_group(before_);
+    const bool continues = is_contact(before_) || joins_blocks(before_) || reads_group(before_);
     const bool is_part = is_contact(op) || joins_blocks(op);
-    if (is_part && !begins_block(op) && !goes_on) {
+    if (is_part && !begins_block(op) && !continues) {
       fault(Code::logic, "has no block to continue", "a block before it");
     }
     const bool follows_jump = before_ == Op::cj || before_ == Op::cjn;
@@ -121,7 +121,7 @@ class Structure {
     bool has_else = false;
   };
 
-  void look_at_pairs(Op op) {
+  void check_pairs(Op op) {
     if (op == Op::if_) {
       ifs_.push_back({line_});
       if (static_cast<int>(ifs_.size()) == options_.if_depth + 1) {
@@ -138,7 +138,7 @@ class Structure {
     }
   }
 
-  void look_at_label(std::int32_t label) {
+  void check_label(std::int32_t label) {
     const auto [first, is_new] = labels_.emplace(label, line_);
     if (is_new) return;
     faults_.push_back({line_, Code::label_twice, "label K" + std::to_string(label) + " appears twice", "one",
@@ -149,7 +149,7 @@ class Structure {
 
   static bool names_label(Op op) { return op == Op::jmp || op == Op::cj || op == Op::cjn || op == Op::cal; }
 
-  void look_at_jumps() {
+  void check_jumps() {
     for (const auto& [line, label] : jumps_) {
       if (labels_.contains(label)) continue;
       if (options_.labels_are_common && !options_.labels_must_exist) continue;  // another area may have it
@@ -159,14 +159,14 @@ class Structure {
     }
   }
 
-  void look_at_coil(const Operand& coil) {
+  void check_coil(const Operand& coil) {
     if (options_.double_coils == Options::DoubleCoils::last_wins) return;
     if (!coils_.emplace(std::pair(static_cast<int>(coil.letter), coil.number), line_).second) {
       fault(Code::logic, "switches a coil that another OUT switches", "one OUT");
     }
   }
 
-  void look_at_end() {
+  void check_end() {
     if (program_.lines.empty()) return;
     line_ = static_cast<int>(program_.lines.size()) - 1;
     const bool is_open = area_ != Area::plc && (is_contact(before_) || joins_blocks(before_));

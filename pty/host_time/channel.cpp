@@ -39,7 +39,7 @@ pthread_key_t at_end_of_thread;
 // Above the descriptors that programs usually have, so that those get the same numbers as without us.
 constexpr int kLowestDescriptor = 200;
 
-void complain(const char* what) {
+void report(const char* what) {
   char text[256];
   size_t size = 0;
   const auto add = [&](const char* part) {
@@ -102,7 +102,7 @@ int connect_to_bench() {
   return -1;
 }
 
-Message message_of(Said what) {
+Message message_of(MessageKind what) {
   Message message = {};
   message.what = what;
   message.process = getpid();
@@ -121,7 +121,7 @@ int own_descriptor() {
   connection.descriptor = fresh;
   connection.inode = status.st_ino;
   pthread_setspecific(at_end_of_thread, &connection);
-  Message hello = message_of(Said::hello);
+  Message hello = message_of(MessageKind::hello);
   hello.sequence = kVersion;
   put(fresh, hello);
   return fresh;
@@ -159,14 +159,14 @@ __attribute__((constructor)) void begin() {
   const char* const path = getenv(kVariable);
   if (path == nullptr || *path == '\0') return;
   if (strlen(path) >= sizeof bench_address.sun_path)
-    return complain("the path of the bench's socket is too long");
+    return report("the path of the bench's socket is too long");
   bench_address.sun_family = AF_UNIX;
   strcpy(bench_address.sun_path, path);
   const Page* const mapped = map_page(path);
   if (mapped == nullptr)
-    return complain("the bench cannot be reached; expected to be started by `understudy exec --host-time`");
+    return report("the bench cannot be reached; expected to be started by `understudy exec --host-time`");
   if (mapped->version != kVersion)
-    return complain("the preloaded library and the bench have different versions");
+    return report("the preloaded library and the bench have different versions");
   page = mapped;
   pthread_key_create(&at_end_of_thread, close_connection);
   pthread_atfork(nullptr, nullptr, begin_anew_in_child);
@@ -186,11 +186,11 @@ Message receive_one(int descriptor) {
 /// Tells the bench that something else has ended a wait. The bench may have ended it too in the meantime.
 void cancel(int descriptor, const Message& wait) {
   Message message = wait;
-  message.what = Said::cancel;
+  message.what = MessageKind::cancel;
   put(descriptor, message);
   while (true) {
     const Message answer = receive_one(descriptor);
-    if (answer.what == Said::cancelled && answer.sequence == wait.sequence) return;
+    if (answer.what == MessageKind::cancelled && answer.sequence == wait.sequence) return;
   }
 }
 
@@ -227,7 +227,8 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
       break;
     }
     if (size != static_cast<ssize_t>(sizeof answer)) give_up();
-    if (answer.what != Said::go || answer.sequence != message.sequence) continue;  // of an earlier wait
+    if (answer.what != MessageKind::go || answer.sequence != message.sequence)
+      continue;  // of an earlier wait
     break;
   }
   if (entries != few) free(entries);
@@ -279,7 +280,7 @@ bool is_over(int descriptor, const Message& message) {
   Message answer;
   while (UNDERSTUDY_REAL(recv)(descriptor, &answer, sizeof answer, MSG_DONTWAIT) ==
          static_cast<ssize_t>(sizeof answer)) {
-    if (answer.what == Said::go && answer.sequence == message.sequence) return true;
+    if (answer.what == MessageKind::go && answer.sequence == message.sequence) return true;
   }
   return false;
 }
@@ -313,7 +314,7 @@ Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until
     return woken;
   }
   const int descriptor = own_descriptor();
-  Message message = message_of(Said::wait);
+  Message message = message_of(MessageKind::wait);
   message.sequence = ++connection.sequence;
   message.until_ns = until_ns;
   message.is_on_word = message.has_others = 1;
@@ -345,7 +346,7 @@ Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until
 Woken wait_for(const Wait& wait) {
   const int error = errno;
   const int descriptor = own_descriptor();
-  Message message = message_of(Said::wait);
+  Message message = message_of(MessageKind::wait);
   message.sequence = ++connection.sequence;
   message.until_ns = wait.until_ns;
   message.is_for_drain = wait.is_for_drain ? 1 : 0;
@@ -371,8 +372,8 @@ bool sleep_until(int64_t until_ns) {
   return true;
 }
 
-void begin_outside() { put(own_descriptor(), message_of(Said::outside)); }
-void end_outside() { put(own_descriptor(), message_of(Said::inside)); }
+void begin_outside() { put(own_descriptor(), message_of(MessageKind::outside)); }
+void end_outside() { put(own_descriptor(), message_of(MessageKind::inside)); }
 
 void tell_timer(Message message, int descriptor) {
   const Message own = message_of(message.what);
@@ -389,7 +390,7 @@ void tell_timer(Message message, int descriptor) {
 
 void tell_child(int process) {
   const int error = errno;
-  Message message = message_of(Said::child);
+  Message message = message_of(MessageKind::child);
   message.process = process;
   put(own_descriptor(), message);
   errno = error;

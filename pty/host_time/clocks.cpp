@@ -37,8 +37,8 @@ timespec time_of(int64_t ns) { return {ns / kBillion, ns % kBillion}; }
 
 int64_t ns_of(const timespec& time) {
   if (time.tv_sec < 0 || time.tv_nsec < 0 || time.tv_nsec >= kBillion) return -1;
-  constexpr int64_t kMost_s = kNever / kBillion - 1;
-  return time.tv_sec >= kMost_s ? kNever : time.tv_sec * kBillion + time.tv_nsec;
+  constexpr int64_t kMax_s = kNever / kBillion - 1;
+  return time.tv_sec >= kMax_s ? kNever : time.tv_sec * kBillion + time.tv_nsec;
 }
 
 int64_t ns_of(const timeval& time) {

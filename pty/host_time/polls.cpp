@@ -40,8 +40,8 @@ bool is_connected_outside(int descriptor) {
 /// Sorts the descriptors of a wait into lines of the bench and others, which it stores.
 class Sorted {
  public:
-  explicit Sorted(nfds_t most) {
-    if (most > kFew) others_ = static_cast<pollfd*>(malloc(most * sizeof(pollfd)));
+  explicit Sorted(nfds_t max) {
+    if (max > kFew) others_ = static_cast<pollfd*>(malloc(max * sizeof(pollfd)));
   }
   ~Sorted() {
     if (others_ != few_) free(others_);

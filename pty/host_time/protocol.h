@@ -55,7 +55,7 @@ struct Page {
   Door doors[kMaxDoors];
 };
 
-enum class Said : uint32_t {
+enum class MessageKind : uint32_t {
   // the host's thread
   hello = 1,  // the first message; `sequence` is the version
   child,      // `process` is a new child of this process
@@ -70,7 +70,7 @@ enum class Said : uint32_t {
 };
 
 struct Message {
-  Said what;
+  MessageKind what;
   uint32_t sequence;  // the number of the thread's wait, of the timer, or the version
   int64_t until_ns;   // simulated time; kNever: without end
   int64_t interval_ns;

@@ -20,7 +20,7 @@ constexpr int64_t kTenth_ns = kBillion / 10;  // the unit of VTIME
 /// How a read waits.
 struct Patience {
   bool is_canonical = false;
-  size_t least = 1;  // bytes
+  size_t min = 1;  // bytes
   int64_t length_ns = kNever;
   bool is_between_bytes = false;  // the length starts again with each byte
 };
@@ -36,12 +36,12 @@ bool take_patience(int descriptor, size_t size, int* number, Patience& patience)
     patience.is_canonical = true;
     return true;
   }
-  const size_t least = settings.c_cc[VMIN];
+  const size_t min = settings.c_cc[VMIN];
   const int64_t tenths = settings.c_cc[VTIME];
-  if (least == 0 && tenths == 0) return false;
-  if (least > 0) patience.least = least < size ? least : size;
+  if (min == 0 && tenths == 0) return false;
+  if (min > 0) patience.min = min < size ? min : size;
   if (tenths > 0) patience.length_ns = tenths * kTenth_ns;
-  patience.is_between_bytes = least > 0 && tenths > 0;
+  patience.is_between_bytes = min > 0 && tenths > 0;
   return true;
 }
 
@@ -66,11 +66,11 @@ ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& 
       if ((entry.revents & POLLIN) != 0) return static_cast<ssize_t>(size);
     } else {
       if (ioctl(descriptor, FIONREAD, &present) != 0) return static_cast<ssize_t>(size);
-      const size_t most = static_cast<size_t>(present) < size ? static_cast<size_t>(present) : size;
-      if (most >= patience.least) return static_cast<ssize_t>(most);
+      const size_t max = static_cast<size_t>(present) < size ? static_cast<size_t>(present) : size;
+      if (max >= patience.min) return static_cast<ssize_t>(max);
       if (patience.is_between_bytes && present > present_before) wait.until_ns = after(patience.length_ns);
       present_before = present;
-      if (now_ns() >= wait.until_ns) return static_cast<ssize_t>(most);
+      if (now_ns() >= wait.until_ns) return static_cast<ssize_t>(max);
     }
     if (wait_for(wait) == Woken::by_signal) {
       errno = EINTR;
@@ -101,8 +101,8 @@ UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
   if (may_wait && !wait_for_door(descriptor)) return -1;
   if (!may_wait || !take_patience(descriptor, size, &number, patience))
     return UNDERSTUDY_REAL(read)(descriptor, place, size);
-  const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
-  return most <= 0 ? most : UNDERSTUDY_REAL(read)(descriptor, place, static_cast<size_t>(most));
+  const ssize_t max = wait_for_bytes(descriptor, number, size, patience);
+  return max <= 0 ? max : UNDERSTUDY_REAL(read)(descriptor, place, static_cast<size_t>(max));
 }
 
 UNDERSTUDY_EXPORT ssize_t __read_chk(int descriptor, void* place, size_t size, size_t room) {
@@ -117,12 +117,12 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   Patience patience;
   if (is_active() && size > 0 && !wait_for_door(descriptor)) return -1;
   if (is_active() && take_patience(descriptor, size, &number, patience)) {
-    const ssize_t most = wait_for_bytes(descriptor, number, size, patience);
-    if (most <= 0) return most;
+    const ssize_t max = wait_for_bytes(descriptor, number, size, patience);
+    if (max <= 0) return max;
     for (int i = 0; i < count; ++i) {  // fills one part only: terminals may return less
       if (parts[i].iov_len > 0) {
         const size_t part =
-            static_cast<size_t>(most) < parts[i].iov_len ? static_cast<size_t>(most) : parts[i].iov_len;
+            static_cast<size_t>(max) < parts[i].iov_len ? static_cast<size_t>(max) : parts[i].iov_len;
         return UNDERSTUDY_REAL(read)(descriptor, parts[i].iov_base, part);
       }
     }

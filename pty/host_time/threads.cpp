@@ -30,10 +30,10 @@ static_assert(sizeof(Condition) <= sizeof(pthread_cond_t));
 
 Condition& condition_of(pthread_cond_t* condition) { return *reinterpret_cast<Condition*>(condition); }
 
-void wake(Condition& condition, int most) {
+void wake(Condition& condition, int max) {
   __atomic_fetch_add(&condition.signals, 1, __ATOMIC_ACQ_REL);
   if (__atomic_load_n(&condition.waiters, __ATOMIC_ACQUIRE) == 0) return;
-  syscall(SYS_futex, &condition.signals, condition.is_shared != 0 ? FUTEX_WAKE : FUTEX_WAKE_PRIVATE, most,
+  syscall(SYS_futex, &condition.signals, condition.is_shared != 0 ? FUTEX_WAKE : FUTEX_WAKE_PRIVATE, max,
           nullptr, nullptr, 0);
 }
 
@@ -102,7 +102,7 @@ int wait_for_post(sem_t* place, clockid_t clock, const timespec* time) {
 /// Timed waits for locks are rare, so the lock is tried again and again in simulated time.
 template <class Try>
 int try_until(clockid_t clock, const timespec* time, Try try_once) {
-  constexpr int64_t kMostBetween_ns = 10'000'000;
+  constexpr int64_t kMaxBetween_ns = 10'000'000;
   int64_t between_ns = 1'000'000;
   int64_t until = kNever;
   const bool has_end = take_end(clock, time, until);
@@ -113,7 +113,7 @@ int try_until(clockid_t clock, const timespec* time, Try try_once) {
     const int64_t now = now_ns();
     if (now >= until) return ETIMEDOUT;
     sleep_until(until - now < between_ns ? until : now + between_ns);
-    if (between_ns < kMostBetween_ns) between_ns *= 2;
+    if (between_ns < kMaxBetween_ns) between_ns *= 2;
   }
 }
 

@@ -53,7 +53,7 @@ bool take_setting(const itimerspec& spec, bool is_absolute, clockid_t clock, Set
 
 Message message_of(uint32_t number, const Setting& setting) {
   Message message = {};
-  message.what = Said::timer;
+  message.what = MessageKind::timer;
   message.sequence = number;
   message.until_ns = setting.next_ns == 0 ? kNever : setting.next_ns;
   message.interval_ns = setting.interval_ns;

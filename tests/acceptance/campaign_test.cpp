@@ -254,7 +254,7 @@ TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {
 }
 
 /// The peak memory in KiB, like /usr/bin/time, measured by Python.
-long most_memory(const Words& arguments) {
+long max_memory(const Words& arguments) {
   Words command{"python3", "-c",
                 "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)\n"
                 "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)",
@@ -266,9 +266,9 @@ long most_memory(const Words& arguments) {
 
 TEST_F(Campaign, MemoryDoesNotGrowWithTheNumberOfCases) {
   const auto memory = [&](int cases) {
-    return most_memory({"run", file(cases), "--jobs", "2", "--results", folder_ / "rows.jsonl", "--results",
-                        folder_ / "rows.sqlite", "--junit", folder_ / "rows.xml", "--report",
-                        folder_ / "page.html"});
+    return max_memory({"run", file(cases), "--jobs", "2", "--results", folder_ / "rows.jsonl", "--results",
+                       folder_ / "rows.sqlite", "--junit", folder_ / "rows.xml", "--report",
+                       folder_ / "page.html"});
   };
   // Until here, the allocator of each thread grows to its size.
   const long few = memory(10'000);

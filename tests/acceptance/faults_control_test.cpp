@@ -248,7 +248,7 @@ TEST(ControlTurn, IsRefusedWhereNothingTurns) {
   expect_refused(daemon, {"turn", "feeder.B=1"},
                  "turn: feeder.B has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
   expect_refused(daemon, {"turn", "feeder.A=1", "in=soon"},
-                 "turn: in: 'soon' is not possible; expected a duration such as 250ms");
+                 "turn: in: 'soon' is not valid; expected a duration such as 250ms");
   expect_refused(daemon, {"turn"}, "turn: nothing to do; expected NAME=VALUE");
   EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}), "feeder.A.encoder 0\n");
 }

@@ -110,7 +110,7 @@ TEST(HostWithNearlyTheSpeed, IsHeardAsTheLineChooses) {
     const Finished refused = understudy({"serve", "--model", "simple2-r3", "--baud-tolerance", wrong});
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_EQ(refused.errors, "understudy: --baud-tolerance: '" + std::string(wrong) +
-                                  "' is not possible; expected 0% to 10%, as in 2%\n");
+                                  "' is not valid; expected 0% to 10%, as in 2%\n");
   }
 }
 

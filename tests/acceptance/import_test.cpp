@@ -230,11 +230,11 @@ TEST(ImportCommand, RefusesWhatCannotBeOne) {
   EXPECT_EQ(diagnostic({"import", list, "--columns", "adress=A"}),
             "understudy: --columns: 'adress' is not a column; the nearest is 'address'\n");
   EXPECT_EQ(diagnostic({"import", list, "--addresses", "modbus"}),
-            "understudy: --addresses: 'modbus' is not possible; expected one of wire, from_one, modicon\n");
+            "understudy: --addresses: 'modbus' is not valid; expected one of wire, from_one, modicon\n");
   EXPECT_EQ(diagnostic({"import", list, "--table", "coils"}),
-            "understudy: --table: 'coils' is not possible; expected one of holding, input, coil, discrete\n");
+            "understudy: --table: 'coils' is not valid; expected one of holding, input, coil, discrete\n");
   EXPECT_EQ(diagnostic({"import", list, "--encoding", "ebcdic"}),
-            "understudy: --encoding: 'ebcdic' is not possible; expected one of utf-8, utf-16, latin-1, big5, "
+            "understudy: --encoding: 'ebcdic' is not valid; expected one of utf-8, utf-16, latin-1, big5, "
             "gbk\n");
   EXPECT_EQ(diagnostic({"import", list, "-o", "p.txt"}),
             "understudy: --output: 'p.txt' does not end in .yaml; expected a model file\n");

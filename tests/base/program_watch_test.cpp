@@ -12,7 +12,7 @@ namespace program_watch_test {
 class Notes final : public ProgramWatch {
  public:
   Notes(std::string& text, char name) : text_(text), name_(name) {}
-  void look(std::uint64_t mark) override { note("look " + std::to_string(mark)); }
+  void program_loaded(std::uint64_t mark) override { note("look " + std::to_string(mark)); }
   void runs(int part, int line, std::int64_t times) override {
     note("runs " + std::to_string(part) + " " + std::to_string(line) + " " + std::to_string(times));
   }
@@ -36,7 +36,7 @@ TEST(ProgramWatches, TellEachOfThemEverythingInOrder) {
   watches.add(first);
   watches.add(second);
   ProgramWatch* const told = watches.watch();
-  told->look(7);
+  told->program_loaded(7);
   told->runs(1, 2, 3);
   told->decides(4, 5, true, 6);
   EXPECT_EQ(

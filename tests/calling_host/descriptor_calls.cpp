@@ -62,32 +62,32 @@ void poll_some(Drawer& draw, const Descriptors& descriptors) {
 
 void select_some(Drawer& draw, const Descriptors& descriptors) {
   std::array<fd_set, 3> sets{};
-  int most = 0;
+  int max = 0;
   for (fd_set& set : sets) {
     for (int i = draw.below(4); i > 0; --i) {
       const int descriptor = descriptors.any(draw);
       if (descriptor < 0 || descriptor >= FD_SETSIZE || (descriptor == 99 && !draw.one_in(4))) continue;
       FD_SET(descriptor, &set);
-      most = std::max(most, descriptor + 1);
+      max = std::max(max, descriptor + 1);
     }
   }
   const bool is_endless = draw.one_in(4);
   if (is_endless) {
     FD_SET(descriptors.ready(), sets.data());
-    most = std::max(most, descriptors.ready() + 1);
+    max = std::max(max, descriptors.ready() + 1);
   }
-  if (draw.one_in(6)) most = is_endless ? FD_SETSIZE : draw.one_of({-1, INT_MIN, 0, 1, FD_SETSIZE});
+  if (draw.one_in(6)) max = is_endless ? FD_SETSIZE : draw.one_of({-1, INT_MIN, 0, 1, FD_SETSIZE});
   fd_set* reads = is_endless || !draw.one_in(3) ? sets.data() : nullptr;
   fd_set* writes = draw.one_in(2) ? &sets[1] : nullptr;
   fd_set* excepts = draw.one_in(2) ? &sets[2] : nullptr;
-  std::string call = "(" + std::to_string(most);
+  std::string call = "(" + std::to_string(max);
   for (const fd_set& set : sets) call += ", " + text_of(set);
   if (draw.one_in(2)) {
     timeval length = draw.short_length();
     call = "select" + call + ", " +
            (is_endless ? "none" : std::to_string(length.tv_sec) + "." + std::to_string(length.tv_usec)) + ")";
     const long result =
-        result_of([&] { return select(most, reads, writes, excepts, is_endless ? nullptr : &length); });
+        result_of([&] { return select(max, reads, writes, excepts, is_endless ? nullptr : &length); });
     tell(call, result);
     if (!is_endless && result == 0)
       tell("  rest " + std::to_string(length.tv_sec) + "." + std::to_string(length.tv_usec));
@@ -95,7 +95,7 @@ void select_some(Drawer& draw, const Descriptors& descriptors) {
     const timespec length = draw.length();
     call = "pselect" + call + ", " + (is_endless ? "none" : calling_host::text_of(length)) + ")";
     tell(call, result_of([&] {
-           return pselect(most, reads, writes, excepts, is_endless ? nullptr : &length, nullptr);
+           return pselect(max, reads, writes, excepts, is_endless ? nullptr : &length, nullptr);
          }));
   }
   for (const fd_set& set : sets) tell("  " + text_of(set));

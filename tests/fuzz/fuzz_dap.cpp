@@ -139,7 +139,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     replies = 0;
     session.handle(line);
     require(replies <= 1, "a request gets one reply");
-    if (session.has_bench()) session.look();
+    if (session.has_bench()) session.poll();
   }
   session.handle(R"({"seq":1,"type":"request","command":"disconnect"})");
   require(session.is_over(), "and a session can always be ended");

@@ -10,7 +10,7 @@
 
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
-#include "emulator/hunt/stage.h"
+#include "emulator/hunt/course_player.h"
 #include "emulator/models/models.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "tests/fuzz/fuzzing.h"
@@ -38,10 +38,11 @@ hunt:
     - advance: { between: [ 1ms, 50ms ] }
 )";
 
-hunt::Stage& stage() {
-  static hunt::Stage one(std::make_shared<const play::Scenario>(
-                             play::parse_scenarios(models::all_models(), kScenario, "scenario.yaml").at(0)),
-                         models::all_models(), {});
+hunt::CoursePlayer& course_player() {
+  static hunt::CoursePlayer one(
+      std::make_shared<const play::Scenario>(
+          play::parse_scenarios(models::all_models(), kScenario, "scenario.yaml").at(0)),
+      models::all_models(), {});
   return one;
 }
 
@@ -59,11 +60,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(again && again->course == course, "a course reads as it was written");
     const bool fits =
         std::all_of(course.disturbances.begin(), course.disturbances.end(), [](const auto& one) {
-          return hunt::is_possible(one, {.plan = stage().plan(), .undisturbed = stage().undisturbed()});
+          return hunt::is_possible(
+              one, {.plan = course_player().plan(), .undisturbed = course_player().undisturbed()});
         });
     if (!fits || ++played > 4) continue;
     hunt::arrange(course.disturbances);
-    stage().play(course);
+    course_player().play(course);
   }
   return 0;
 }

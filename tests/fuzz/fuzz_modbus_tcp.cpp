@@ -57,9 +57,9 @@ void answer(ModbusTcp& gateway, const Bytes& frame, unsigned how) {
   Bytes reply{frame[0], static_cast<std::uint8_t>(frame[1] | 0x80), 2};
   pty::append_rtu_crc(reply);
   switch (how % 4) {
-    case 0: gateway.hear_line(reply); break;
-    case 1: gateway.hear_line(std::span(reply).first(3)); break;
-    case 2: gateway.hear_line(frame); break;
+    case 0: gateway.receive_line(reply); break;
+    case 1: gateway.receive_line(std::span(reply).first(3)); break;
+    case 2: gateway.receive_line(frame); break;
     default: break;
   }
   gateway.give_up();
@@ -92,10 +92,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bool is_refused = false;
     for (std::size_t at = 0; at < said.size() && !is_refused; at += piece) {
       require(gateway.has_room(), "what is served makes room");
-      is_refused = !gateway.hear_client(said.subspan(at, std::min(piece, said.size() - at)));
+      is_refused = !gateway.receive_from_client(said.subspan(at, std::min(piece, said.size() - at)));
       serve(gateway, frames, data[0] >> 4);
     }
-    if (is_refused) require(!gateway.hear_client(said), "what was refused stays so");
+    if (is_refused) require(!gateway.receive_from_client(said), "what was refused stays so");
     require(is_refused == expected.is_refused, "a length is refused that no message has");
     gateway.client_gone();
     serve(gateway, frames, data[0] >> 4);

@@ -45,13 +45,13 @@ pty::LineSettings settings_of(const Rfc2217& port) {
 }
 
 void serve_line(Rfc2217& port, std::size_t room, Outcome& outcome) {
-  for (bool goes_on = true; goes_on;) {
+  for (bool continues = true; continues;) {
     const Bytes taken = port.take_for_line(room);
     require(taken.size() <= room, "no more is taken than there is room for");
     for (const std::uint8_t byte : taken) outcome.line.emplace_back(byte, settings_of(port));
     const bool takes_back = port.takes_back();
     const bool throws_away = port.throws_away();
-    goes_on = !taken.empty() || takes_back || throws_away;
+    continues = !taken.empty() || takes_back || throws_away;
   }
   const Bytes answers = port.take_for_client();
   require(answers.size() <= kMaxAnswers, "answers are bounded");
@@ -63,7 +63,8 @@ Outcome outcome_of(std::span<const std::uint8_t> said, std::size_t piece, std::s
   Outcome outcome;
   for (std::size_t at = 0; at < said.size(); at += piece) {
     require(port.has_room(), "what is served makes room");
-    require(port.hear_client(said.subspan(at, std::min(piece, said.size() - at))), "nobody is let go");
+    require(port.receive_from_client(said.subspan(at, std::min(piece, said.size() - at))),
+            "nobody is let go");
     serve_line(port, room, outcome);
   }
   return outcome;

@@ -123,16 +123,16 @@ std::uint32_t value_of(const lang::Parameter& parameter, std::uint8_t byte) {
     case lang::Kind::comparison: return lang::kComparisons[n % std::size(lang::kComparisons)].codes[0];
     case lang::Kind::speed: return n * n * 64;
     case lang::Kind::number:
-    case lang::Kind::as_it_comes:
+    case lang::Kind::any_value:
     case lang::Kind::operand:
     case lang::Kind::isr_if_used:
     case lang::Kind::point_if_used: break;
   }
-  const std::int64_t span = parameter.most - parameter.least;
-  if (span < 1000) return static_cast<std::uint32_t>(parameter.least + byte % (span + 2));
+  const std::int64_t span = parameter.max - parameter.min;
+  if (span < 1000) return static_cast<std::uint32_t>(parameter.min + byte % (span + 2));
   constexpr std::uint8_t kMax = 0x7F, kMin = 0x80, kVariable = 0x81;
-  if (byte == kMax) return static_cast<std::uint32_t>(parameter.most);
-  if (byte == kMin) return static_cast<std::uint32_t>(parameter.least);
+  if (byte == kMax) return static_cast<std::uint32_t>(parameter.max);
+  if (byte == kMin) return static_cast<std::uint32_t>(parameter.min);
   if (byte == kVariable) return static_cast<std::uint32_t>(lang::kVariable0) + 1;
   const auto small = static_cast<std::int8_t>(byte);
   return static_cast<std::uint32_t>(small * (small < 0 ? -small : small) / 16);
@@ -168,7 +168,7 @@ class Box {
 
   world::World& world() { return world_; }
 
-  void begin_anew() {
+  void restart() {
     make_anew_();
     ticks_ = 0;
     edges_ = {};
@@ -178,7 +178,7 @@ class Box {
     world_.take_output(0, world_.line(0).line.output().size());
   }
 
-  void obey(const Act& act) {
+  void execute(const Act& act) {
     switch (act.kind()) {
       case 0: send(act.bytes, std::nullopt); break;
       case 1: ask(act.bytes); break;

@@ -120,7 +120,7 @@ class Listener {
   emulator::world::World& world() { return world_; }
 
   /// Everything is as it was at the start.
-  void begin_anew() {
+  void restart() {
     make_anew_();
     world_.take_output(0, line().output().size());
     said_.clear();
@@ -276,17 +276,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Options options = options_of(settings.bits, settings.mix);
   const std::string_view input(reinterpret_cast<const char*>(data) + 2, size - 2);
   Listener& listener = chains.listener(settings);
-  listener.begin_anew();
+  listener.restart();
   play(listener, input, kMaxTicks);
   if (!fuzzing::is_checked_wholly({data, size}, 32)) return 0;
 
   Listener& stepped = chains.stepped(settings);
-  stepped.begin_anew();
+  stepped.restart();
   play(stepped, input, kMaxTicks);
   require(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
   fuzzing::require_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
-  stepped.begin_anew();
+  stepped.restart();
   emulator::world::restore(stepped.world(), emulator::world::save(listener.world()));
   fuzzing::require_same_state(stepped.device(), listener.device(), "what is saved is taken back");
 

@@ -85,7 +85,7 @@ class Listener {
   }
 
   /// Everything is as it was at the start.
-  void begin_anew() {
+  void restart() {
     make_anew_();
     world_.take_output(0, line().output().size());
     said_.clear();
@@ -193,7 +193,7 @@ struct Crowd {
 };
 
 void play(Listener& listener, const Input& input) {
-  listener.begin_anew();
+  listener.restart();
   for (const Lump& lump : input.lumps) listener.hear(lump);
   listener.finish();
 }
@@ -228,7 +228,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_replies(other, input.other_switch);
   if (other.counters().requests == 0) {
     Listener& untouched = crowd.untouched;
-    untouched.begin_anew();
+    untouched.restart();
     untouched.advance(other.now());
     fuzzing::require_same_state(other.device(), untouched.device(), "frames for others change nothing");
     require(other.said().empty(), "frames for others are not answered");

@@ -113,7 +113,7 @@ class Listener {
 
   world::World& world() { return world_; }
 
-  void begin_anew() {
+  void restart() {
     make_anew_();
     ticks_ = 0;
     wheel_ = 0;
@@ -123,7 +123,7 @@ class Listener {
     }
   }
 
-  void obey(const Act& act) {
+  void execute(const Act& act) {
     switch (act.kind()) {
       case 0: send(act.port(), act.bytes, std::nullopt); break;
       case 1: ask(act.port(), act.bytes); break;

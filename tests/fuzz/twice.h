@@ -26,8 +26,8 @@ inline void require_no_difference(emulator::world::World& world, const emulator:
 /// A stage can restart, apply acts and run for ticks, and it has a world.
 template <class Executor, class Act>
 void play(Executor& stage, std::span<const Act> acts, Tick ticks_after) {
-  stage.begin_anew();
-  for (const Act& act : acts) stage.obey(act);
+  stage.restart();
+  for (const Act& act : acts) stage.execute(act);
   stage.run(ticks_after);
 }
 
@@ -36,14 +36,14 @@ template <class Executor, class Act>
 void require_same_by_single_ticks(Executor& stepped, Executor& in_bulk, std::span<const Act> acts,
                                   Tick ticks_after) {
   namespace world = emulator::world;
-  stepped.begin_anew();
+  stepped.restart();
   const std::size_t half = acts.size() / 2;
-  for (const Act& act : acts.first(half)) stepped.obey(act);
+  for (const Act& act : acts.first(half)) stepped.execute(act);
   const world::WorldState midst = world::save(stepped.world());
   world::restore(stepped.world(), midst);
   require_no_difference(stepped.world(), midst, world::save(stepped.world()),
                         "a state that is restored is the one that was saved");
-  for (const Act& act : acts.subspan(half)) stepped.obey(act);
+  for (const Act& act : acts.subspan(half)) stepped.execute(act);
   stepped.run(ticks_after);
   if (world::hash(stepped.world()) == world::hash(in_bulk.world())) return;
   require_no_difference(stepped.world(), world::save(stepped.world()), world::save(in_bulk.world()),

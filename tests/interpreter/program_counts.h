@@ -27,7 +27,7 @@ using LineTally = std::map<std::pair<int, int>, LineCount>;
 
 class ProgramCounts final : public ProgramWatch {
  public:
-  void look(std::uint64_t /*mark*/) override {}
+  void program_loaded(std::uint64_t /*mark*/) override {}
   void runs(int part, int line, std::int64_t times) override { lines[{part, line}].runs += times; }
   void decides(int part, int line, bool outcome, std::int64_t times) override {
     LineCount& count = lines[{part, line}];

@@ -98,13 +98,13 @@ TEST(AxisEquivalence, WithinItsWindowNothingDependsOnThePlace) {
               << scenario.code() << " " << course.now << " " << place;
         }
         // A soft limit is reached on the way out.
-        const auto& most = axis.settings.soft_limit_plus;
-        const auto& least = axis.settings.soft_limit_minus;
+        const auto& max = axis.settings.soft_limit_plus;
+        const auto& min = axis.settings.soft_limit_minus;
         const bool matters = axis.settings.at_soft_limit != Reaction::ignore;
         const std::int64_t way = matters ? axis.drive.direction : 0;
-        ASSERT_FALSE(way > 0 && most && axis.travel_pulses <= *most && place > *most)
+        ASSERT_FALSE(way > 0 && max && axis.travel_pulses <= *max && place > *max)
             << scenario.code() << " " << course.now;
-        ASSERT_FALSE(way < 0 && least && axis.travel_pulses >= *least && place < *least)
+        ASSERT_FALSE(way < 0 && min && axis.travel_pulses >= *min && place < *min)
             << scenario.code() << " " << course.now;
       }
     }

@@ -85,10 +85,10 @@ Long faded(const Sample& now, const SpeedLaw& law) {
 }
 
 /// Limits of a change from `now`, in which speeds should stay within [least, most].
-Fault change_beyond_limits(const Profile& profile, const Sample& now, const SpeedLaw& law, Long least,
-                           Long most) {
+Fault change_beyond_limits(const Profile& profile, const Sample& now, const SpeedLaw& law, Long min,
+                           Long max) {
   const Blur blur = blur_of(profile);
-  const Long top = std::max<Long>(most, law.top_speed_u_s);
+  const Long top = std::max<Long>(max, law.top_speed_u_s);
   const Long blur_speed = kLimitTolerance * top + 4 * blur.speed;
   const Long acceleration =
       std::max({limits_of(law.up, top).acceleration, limits_of(law.down, top).acceleration,
@@ -100,7 +100,7 @@ Fault change_beyond_limits(const Profile& profile, const Sample& now, const Spee
     const State begin = begin_of(segment);
     const State end = std::isinf(duration_s) ? begin : advance(begin, segment.jerk_u_s3, duration_s);
     for (const State& state : {begin, end}) {
-      if (state.speed > most + blur_speed || state.speed < least - blur_speed) {
+      if (state.speed > max + blur_speed || state.speed < min - blur_speed) {
         return "speed is " + text(state.speed);
       }
       if (!has_jerk(law.up) || !has_jerk(law.down)) continue;
@@ -188,11 +188,11 @@ TEST_P(ChangeProperty, AnotherSpeedIsReachedWithoutAGapAndKept) {
     if (profile.end_speed_u_s != speed || profile.sample(1e7).speed_u_s != speed)
       return "another speed" + what;
     const double start = law.start_speed_u_s;
-    const Long most = std::max<Long>({Long{speed}, Long{start}, faded(moment.now, law)});
+    const Long max = std::max<Long>({Long{speed}, Long{start}, faded(moment.now, law)});
     Fault fault = begins_elsewhere(profile, moment.now, law);
     // From the start speed down it is a jump, to the commanded speed.
     if (!fault && speed >= start) fault = gap_in(profile, farthest(profile), law.top_speed_u_s);
-    if (!fault && speed >= start) fault = change_beyond_limits(profile, moment.now, law, start, most);
+    if (!fault && speed >= start) fault = change_beyond_limits(profile, moment.now, law, start, max);
     return fault ? *fault + what : fault;
   });
 }
@@ -285,9 +285,9 @@ Fault wrong_way_to(double target, const OnTheWay& moment, const SpeedLaw& law) {
   fault = gap_in(profile, scale_u);
   if (!fault) fault = differs_from_integral(profile, target, scale_u);
   if (!fault) {
-    const Long most =
+    const Long max =
         std::max<Long>({Long{law.top_speed_u_s}, Long{moment.now.speed_u_s}, faded(moment.now, law)});
-    fault = change_beyond_limits(profile, moment.now, law, -law.top_speed_u_s, most);
+    fault = change_beyond_limits(profile, moment.now, law, -law.top_speed_u_s, max);
   }
   return fault;
 }

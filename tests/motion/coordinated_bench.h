@@ -47,8 +47,8 @@ struct Bench {
     for (; count > 0; --count) step();
   }
   /// Returns the tick in which the group released it; -1 if it did not.
-  Tick to_the_end(Tick most = 1'000'000) {
-    for (const Tick last = tick + most; tick < last;) {
+  Tick to_the_end(Tick max = 1'000'000) {
+    for (const Tick last = tick + max; tick < last;) {
       step();
       if (!group.engaged) return tick;
     }

@@ -91,8 +91,8 @@ TEST(CoordinatedOracle, AtAnySpeedEveryPlaceIsWithinHalfAPulseOfTheLine) {
     while (bench.group.engaged && bench.tick < 20'000) {
       bench.step();
       // Some fraction of the path is within half a pulse of every axis at once.
-      double least = 0;
-      double most = 1;
+      double min = 0;
+      double max = 1;
       for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto place = static_cast<double>(bench.axes[axis].travel_pulses);
         const auto whole = static_cast<double>(way[axis]);
@@ -100,10 +100,10 @@ TEST(CoordinatedOracle, AtAnySpeedEveryPlaceIsWithinHalfAPulseOfTheLine) {
           ASSERT_EQ(place, 0) << code(way);
           continue;
         }
-        least = std::max(least, std::min((place - 0.5) / whole, (place + 0.5) / whole));
-        most = std::min(most, std::max((place - 0.5) / whole, (place + 0.5) / whole));
+        min = std::max(min, std::min((place - 0.5) / whole, (place + 0.5) / whole));
+        max = std::min(max, std::max((place - 0.5) / whole, (place + 0.5) / whole));
       }
-      ASSERT_LE(least, most + 1e-12) << code(way) << " tick " << bench.tick;
+      ASSERT_LE(min, max + 1e-12) << code(way) << " tick " << bench.tick;
     }
     ASSERT_EQ(bench.travels(), way);
   }

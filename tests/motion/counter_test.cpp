@@ -18,8 +18,8 @@ constexpr std::array<std::int64_t, 9> kTravels{
 struct RangeCase {
   Range range;
   std::int64_t ring_top;
-  std::int64_t least;
-  std::int64_t greatest;
+  std::int64_t min;
+  std::int64_t max;
 };
 
 constexpr std::array<RangeCase, 7> kRanges{{
@@ -44,30 +44,30 @@ std::int64_t counted(std::int64_t ring_top, std::int64_t steps) {
 
 /// In 128 bits, where nothing is lost.
 std::int64_t wrapped(const RangeCase& c, Wide value) {
-  const Wide size = Wide{c.greatest} - c.least + 1;
-  const Wide rest = (value - c.least) % size;
-  return static_cast<std::int64_t>((rest < 0 ? rest + size : rest) + c.least);
+  const Wide size = Wide{c.max} - c.min + 1;
+  const Wide rest = (value - c.min) % size;
+  return static_cast<std::int64_t>((rest < 0 ? rest + size : rest) + c.min);
 }
 
 TEST(Counter, KnowsItsEnds) {
   for (const RangeCase& c : kRanges) {
-    EXPECT_EQ(of(c).least(), c.least);
-    EXPECT_EQ(of(c).greatest(), c.greatest);
+    EXPECT_EQ(of(c).min(), c.min);
+    EXPECT_EQ(of(c).max(), c.max);
   }
-  EXPECT_EQ(Counter{}.least(), std::nullopt);
-  EXPECT_EQ(Counter{}.greatest(), std::nullopt);
+  EXPECT_EQ(Counter{}.min(), std::nullopt);
+  EXPECT_EQ(Counter{}.max(), std::nullopt);
 }
 
 TEST(Counter, ComesRoundAtEitherEnd) {
   for (const RangeCase& c : kRanges) {
     for (const std::int64_t travel : kTravels) {
       Counter counter = of(c);
-      counter.set(c.greatest, travel);
-      EXPECT_EQ(counter.at(travel), c.greatest) << travel;
-      EXPECT_EQ(counter.at(travel + 1), c.least) << travel;
-      counter.set(c.least, travel);
-      EXPECT_EQ(counter.at(travel), c.least) << travel;
-      EXPECT_EQ(counter.at(travel - 1), c.greatest) << travel;
+      counter.set(c.max, travel);
+      EXPECT_EQ(counter.at(travel), c.max) << travel;
+      EXPECT_EQ(counter.at(travel + 1), c.min) << travel;
+      counter.set(c.min, travel);
+      EXPECT_EQ(counter.at(travel), c.min) << travel;
+      EXPECT_EQ(counter.at(travel - 1), c.max) << travel;
     }
   }
 }
@@ -127,7 +127,7 @@ TEST(Counter, IsExactHoweverFarTheTravelIsFromWhereItWasSet) {
     counter.set(value, from);
     ASSERT_EQ(counter.at(from), wrapped(c, value)) << "seed " << seed();
     ASSERT_EQ(counter.at(to), wrapped(c, Wide{value} + to - from))
-        << "seed " << seed() << ": top " << c.greatest << ", " << value << " set at " << from << ", asked at "
+        << "seed " << seed() << ": top " << c.max << ", " << value << " set at " << from << ", asked at "
         << to;
   }
 }

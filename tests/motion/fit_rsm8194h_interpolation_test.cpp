@@ -202,16 +202,16 @@ TEST(FitRsm8194hInterpolation, AStreamIsTakenAsRoomComesAndNeverStopsOnTheWay) {
   };
   send();
   bench.begin();
-  double least = 1e9;
+  double min = 1e9;
   while (bench.group.engaged && bench.tick < 60'000) {
     bench.step();
     if (bench.tick % 3 == 0) send();
     const double x = static_cast<double>(bench.axes[0].travel_pulses);
     if (x > 600 && x < kSegments * 40 - 600) {
-      least = std::min(least, bench.group.run.sample(bench.tick).speed_u_s);
+      min = std::min(min, bench.group.run.sample(bench.tick).speed_u_s);
     }
   }
-  EXPECT_NEAR(least, 10'000, 1e-6);  // stops in 495, of the queue's 1280 minus three ticks' 30
+  EXPECT_NEAR(min, 10'000, 1e-6);  // stops in 495, of the queue's 1280 minus three ticks' 30
   EXPECT_NEAR(static_cast<double>(bench.tick - 1) / 1000, t.closed_s(kSegments * 40), 0.0011);
   EXPECT_EQ(bench.travels(), (Travels{kSegments * 40, 0, 0, 0}));
 }

@@ -172,11 +172,11 @@ TEST(Following, ItsSpeedChangesByNoMoreThanTheSlope) {
   for (const bool catches_up : {false, true}) {
     for (const std::int64_t slope_pps : {1, 999, 1000, 2'500, 40'000}) {
       Follower follower{.period_ticks = 5, .slope_pps = slope_pps, .catches_up = catches_up};
-      const std::int64_t most = std::max<std::int64_t>(1, slope_pps * 5 / 1000);
+      const std::int64_t max = std::max<std::int64_t>(1, slope_pps * 5 / 1000);
       std::int64_t before = 0;
       for (int i = 0; i < 2'000; ++i) {
         const std::int64_t now = period(follower, random.between(-500, 500) * random.between(0, 1));
-        ASSERT_LE(std::abs(now - before), most) << slope_pps << " in period " << i;
+        ASSERT_LE(std::abs(now - before), max) << slope_pps << " in period " << i;
         before = now;
       }
     }
@@ -189,12 +189,12 @@ TEST(Following, CatchesUpAlongTheSlopeWithoutGoingTooFar) {
       for (const std::int64_t counts : {1, 7, 100, 1'000, 123'457, -5'000}) {
         Follower follower{
             .period_ticks = 5, .top_speed_pps = top_pps, .slope_pps = slope_pps, .catches_up = true};
-        const std::int64_t most = slope_pps * 5 / 1000;
+        const std::int64_t max = slope_pps * 5 / 1000;
         std::int64_t sent = period(follower, counts);
         std::int64_t before = sent;
         for (int i = 0; i < 20'000 && !follower.quiet(); ++i) {
           const std::int64_t now = period(follower, 0);
-          ASSERT_LE(std::abs(now - before), most) << counts << " in period " << i;
+          ASSERT_LE(std::abs(now - before), max) << counts << " in period " << i;
           ASSERT_GE(now * (counts < 0 ? -1 : 1), 0) << counts << " turns back in period " << i;
           sent += now;
           before = now;

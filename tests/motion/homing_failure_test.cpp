@@ -23,7 +23,7 @@ std::vector<Journey> journeys() {
   const SpeedLaw home = slope_law(5000, kSlope);
   all.push_back(
       {"RS-M8194H",
-       rsm8194h_homing({.ways = {+1, +1, -1, +1}, .drive = drive, .home = home, .offset_pulses = 3500}),
+       rsm8194h_homing({.directions = {+1, +1, -1, +1}, .drive = drive, .home = home, .offset_pulses = 3500}),
        30'000});
   all.push_back({"Simple2-R3", simple2_homing({.direction = +1, .speed = drive}), 70'000});
   all.push_back({"SLIM", slim_homing({.direction = +1, .jog = drive}), 0});
@@ -299,7 +299,7 @@ TEST(HomingFailure, IsRefusedAsAnyMotionIsAndThenChangesNothing) {
     const Axis before = bench.axis;
     EXPECT_EQ(bench.home(super40nc_homing(super40nc_factory(6))), row.refused);
     EXPECT_EQ(bench.axis, before);
-    EXPECT_EQ(bench.home(rsm8194h_homing({.ways = {+1, 0, 0, 0},
+    EXPECT_EQ(bench.home(rsm8194h_homing({.directions = {+1, 0, 0, 0},
                                           .drive = slope_law(kFastPps, kSlope),
                                           .home = slope_law(kFastPps, kSlope)})),
               row.refused);

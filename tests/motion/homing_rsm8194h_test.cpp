@@ -13,15 +13,15 @@ constexpr double kDrivePps = 20'000;
 constexpr double kHomePps = 2000;
 constexpr double kSlope = 200'000;
 
-Rsm8194hHoming steps(std::array<int, 4> ways, std::int64_t offset = 0) {
-  return {.ways = ways,
+Rsm8194hHoming steps(std::array<int, 4> directions, std::int64_t offset = 0) {
+  return {.directions = directions,
           .drive = slope_law(kDrivePps, kSlope),
           .home = slope_law(kHomePps, kSlope),
           .offset_pulses = offset};
 }
 
 Rsm8194hHoming mirrored(Rsm8194hHoming how) {
-  for (int& direction : how.ways) direction = -direction;
+  for (int& direction : how.directions) direction = -direction;
   return how;
 }
 
@@ -67,8 +67,8 @@ void expect(const Case& wanted, const Environment& environment) {
   }
 }
 
-Rsm8194hHoming by_limit(std::array<int, 4> ways) {
-  Rsm8194hHoming how = steps(ways);
+Rsm8194hHoming by_limit(std::array<int, 4> directions) {
+  Rsm8194hHoming how = steps(directions);
   how.limit_is_home = true;
   return how;
 }

@@ -87,7 +87,7 @@ TEST(HomingValue, BacklashTakesItsTimeWithinTheTick) {
 TEST(HomingValue, BacklashThatTakesNoTimeLeavesTheMotionAsItIs) {
   // Reverses at edges, within ticks, at 20 pulses per tick from the start: a lost tick would show.
   const SpeedLaw law = slope_law(20'000, kSlope, 20'000);
-  const HomingProgram program = rsm8194h_homing({.ways = {0, +1, -1, 0}, .drive = law, .home = law});
+  const HomingProgram program = rsm8194h_homing({.directions = {0, +1, -1, 0}, .drive = law, .home = law});
   Environment environment = super40nc_machine();
   move_zone(environment, kDogZone, 50'013, 60'000);
   environment.index_at = 7;
@@ -226,7 +226,7 @@ HomingProgram random_program(std::mt19937_64& random) {
                                .leave_pulses = between(0, 99),
                                .offset_pulses = between(-300, 300)});
     case 1:
-      return rsm8194h_homing({.ways = {between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)},
+      return rsm8194h_homing({.directions = {between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)},
                               .drive = fast,
                               .home = slow,
                               .offset_pulses = between(0, 300),

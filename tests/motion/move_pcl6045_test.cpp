@@ -86,12 +86,12 @@ TEST(MovePcl6045, ShortMovesHaveTheSpeedOfItsFhCorrection) {
   }
   // With sections: if the move is longer than that; below it there is no straight part.
   const double us = 300;
-  const double least = (us + fl) * us * rates * 8 / unit;
-  EXPECT_NEAR(least, 333.25, 0.01);
-  for (const double mv : {least * (1 + 1e-9), 334.0, 350.0, 400.0, 600.0}) {
+  const double min = (us + fl) * us * rates * 8 / unit;
+  EXPECT_NEAR(min, 333.25, 0.01);
+  for (const double mv : {min * (1 + 1e-9), 334.0, 350.0, 400.0, 600.0}) {
     rows.push_back({us, mv, -us + std::sqrt((us - fl) * (us - fl) + k(mv))});
   }
-  for (const double mv : {least, 333.0, 100.0, 1.0}) rows.push_back({us, mv, std::sqrt(k(mv) / 2 + fl * fl)});
+  for (const double mv : {min, 333.0, 100.0, 1.0}) rows.push_back({us, mv, std::sqrt(k(mv) / 2 + fl * fl)});
   for (const auto& [sections, mv, fh] : rows) {
     const Registers chip{.fl = fl, .fh = 2000, .ur = 1364, .dr = 1364, .mg = 299, .us = sections, .mv = mv};
     const Profile profile = chip.plan();

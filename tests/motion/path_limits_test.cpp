@@ -13,11 +13,11 @@ const double kQuarter = std::acos(0.0);
 
 /// The oracle: the path sampled densely.
 Point sampled(const Path& path) {
-  Point greatest = Point::Zero();
+  Point max = Point::Zero();
   for (int i = 0; i <= 20000; ++i) {
-    greatest = greatest.cwiseMax(path.direction_at(path.length_u * i / 20000).cwiseAbs());
+    max = max.cwiseMax(path.direction_at(path.length_u * i / 20000).cwiseAbs());
   }
-  return greatest;
+  return max;
 }
 
 TEST(PathLimits, TheGreatestPartsOfADirectionAreThoseOfDenseSamples) {

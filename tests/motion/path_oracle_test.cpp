@@ -187,8 +187,8 @@ double measured(const Path& path, const Point& way) {
 double short_way_u(const Path& path) {
   if (path.kind == Path::Kind::line) return path.length_u / 2;
   const double end_radius = path.begin_radius_u + path.radius_slope_u_rad * std::abs(path.sweep_rad);
-  const double least_radius = std::min(path.begin_radius_u, std::max(0.0, end_radius));
-  return std::min(path.length_u / 2, 2.5e-4 * std::max(least_radius, std::abs(path.radius_slope_u_rad)));
+  const double min_radius = std::min(path.begin_radius_u, std::max(0.0, end_radius));
+  return std::min(path.length_u / 2, 2.5e-4 * std::max(min_radius, std::abs(path.radius_slope_u_rad)));
 }
 
 testing::AssertionResult runs_at_speed_one(const Path& path, double along) {

@@ -150,15 +150,15 @@ class RandomPaths {
   }
 
  private:
-  double sweep(double least, double most) {
+  double sweep(double min, double max) {
     const double sign = between(0, 1) == 0 ? 1 : -1;
     const std::int64_t kind = between(0, 3);
-    if (kind == 0) return sign * of_any_size(least, most);
+    if (kind == 0) return sign * of_any_size(min, max);
     if (kind == 1) {
-      const auto quarters = static_cast<std::int64_t>(std::min(most / (kPi / 2), 4000.0));
+      const auto quarters = static_cast<std::int64_t>(std::min(max / (kPi / 2), 4000.0));
       return sign * static_cast<double>(between(1, quarters)) * (kPi / 2);
     }
-    return sign * within(0.01, std::min(most, 20.0));
+    return sign * within(0.01, std::min(max, 20.0));
   }
   Point on_ray(const ArcCase& arc, double radius, double angle) const {
     Point point = arc.centre;

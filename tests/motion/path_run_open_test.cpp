@@ -120,9 +120,9 @@ TEST(PathRunOpen, TheLastPathSlowsDownOverThoseBefore) {
     }
     EXPECT_FALSE(run.ran_dry());
     EXPECT_EQ(run.step(tick + 1), place_of(2000 + last, 0));
-    const double least = std::sqrt(std::max(1'000.0 * 1'000, 1e8 - 2 * 1e5 * room));
-    EXPECT_LE(speed, least + 1e5 * 0.001 + 1e-6) << last;  // within the last tick
-    EXPECT_GE(speed, least - 1e-6) << last;
+    const double min = std::sqrt(std::max(1'000.0 * 1'000, 1e8 - 2 * 1e5 * room));
+    EXPECT_LE(speed, min + 1e5 * 0.001 + 1e-6) << last;  // within the last tick
+    EXPECT_GE(speed, min - 1e-6) << last;
   }
 }
 

@@ -90,14 +90,14 @@ std::pair<Tick, double> two_lines(const Late& late) {
   const Path second = line(place_of(100, 0), place_of(200, 0));
   run.append(first, kStop, 0);
   run.start(0);
-  double least = 100;
+  double min = 100;
   for (Tick tick = 1;; ++tick) {
     const Point place = run.step(tick);
     if (tick == late.appended_at) run.append(second, late.joint, tick);
-    if (place[0] > 10 && place[0] < 190) least = std::min(least, run.sample(tick).speed_u_s);
+    if (place[0] > 10 && place[0] < 190) min = std::min(min, run.sample(tick).speed_u_s);
     if (run.queued() == 0 && tick >= late.appended_at) {
       EXPECT_EQ(place, second.end);
-      return {tick - 1, least};
+      return {tick - 1, min};
     }
     if (tick > 5000) return {-1, 0};
   }
@@ -106,9 +106,9 @@ std::pair<Tick, double> two_lines(const Late& late) {
 TEST(PathRunStream, AnEarlyJointLengthensTheChainWithoutADipInSpeed) {
   for (const auto how : {PathRun::LateJoint::speed_up_again, PathRun::LateJoint::from_rest}) {
     for (const Tick at : {1, 50, 100, 500, 1000}) {
-      const auto [ms, least] = two_lines({at, how, kJoin});
+      const auto [ms, min] = two_lines({at, how, kJoin});
       EXPECT_EQ(ms, 2100) << at;
-      EXPECT_NEAR(least, 100, 1e-6) << at;
+      EXPECT_NEAR(min, 100, 1e-6) << at;
     }
   }
 }
@@ -116,14 +116,14 @@ TEST(PathRunStream, AnEarlyJointLengthensTheChainWithoutADipInSpeed) {
 TEST(PathRunStream, ALateJointSpeedsUpAgainOrBeginsFromRest) {
   // Deceleration starts 1000 ms after the beginning; t ms later the speed is 100 - t.
   for (const Tick t : {1, 2, 50, 99}) {
-    const auto [ms, least] = two_lines({1001 + t, PathRun::LateJoint::speed_up_again, kJoin});
+    const auto [ms, min] = two_lines({1001 + t, PathRun::LateJoint::speed_up_again, kJoin});
     const double low = 100 - static_cast<double>(t);
-    EXPECT_NEAR(least, low, 1e-6) << t;
+    EXPECT_NEAR(min, low, 1e-6) << t;
     // A dip from 100 to `low` and back costs (100 - low)^2 / a, of the speed 100.
     EXPECT_NEAR(static_cast<double>(ms), 2100 + (100 - low) * (100 - low) / 1000 / 100 * 1000, 1) << t;
-    const auto [ms_from_rest, least_from_rest] = two_lines({1001 + t, PathRun::LateJoint::from_rest, kJoin});
+    const auto [ms_from_rest, min_from_rest] = two_lines({1001 + t, PathRun::LateJoint::from_rest, kJoin});
     EXPECT_EQ(ms_from_rest, 2200) << t;
-    EXPECT_LT(least_from_rest, 1.1) << t;
+    EXPECT_LT(min_from_rest, 1.1) << t;
   }
 }
 
@@ -134,7 +134,7 @@ TEST(PathRunStream, AStopAtTheJointAlwaysTakesTwoWholeMoves) {
 }
 
 TEST(PathRunStream, WhatIsAppendedAfterTheEndBeginsInTheNextTick) {
-  const auto [ms, least] = two_lines({1500, PathRun::LateJoint::speed_up_again, kJoin});
+  const auto [ms, min] = two_lines({1500, PathRun::LateJoint::speed_up_again, kJoin});
   EXPECT_EQ(ms, 1500 + 1100);
   PathRun run;
   run.set_speed(by_slope(100, 1000), 0);

@@ -124,9 +124,9 @@ inline SpeedLaw by_slope(double top_u_s, double slope_u_s2) {
       .top_speed_u_s = top_u_s, .up = RampLaw::by_slope(slope_u_s2), .down = RampLaw::by_slope(slope_u_s2)};
 }
 
-/// Steps until nothing is left. Returns the last tick, or -1 if that takes more than `most` ticks.
-inline Tick finish(PathRun& run, Tick after, Tick most = 1'000'000) {
-  for (Tick tick = after + 1; tick <= after + most; ++tick) {
+/// Steps until nothing is left. Returns the last tick, or -1 if that takes more than `max` ticks.
+inline Tick finish(PathRun& run, Tick after, Tick max = 1'000'000) {
+  for (Tick tick = after + 1; tick <= after + max; ++tick) {
     run.step(tick);
     if (run.queued() == 0) return tick;
   }

@@ -245,7 +245,7 @@ TEST(PulseDrive, AnotherProfileNeitherLosesNorRepeatsAPulse) {
       ASSERT_LE(std::abs(sent - sent_plain), 1) << "seed " << seed() << ": " << code(speed) << " tick " << t;
       if (laws.below(3) == 0) {
         const Instant at{.tick = t, .after_s = laws.below(2) == 0 ? 0 : laws.between(0, 0.000'999)};
-        changed.go_on(cruise(changed.sample(at).position_u, speed), at);
+        changed.continue_with(cruise(changed.sample(at).position_u, speed), at);
       }
     }
     ASSERT_EQ(sent, changed.sent_pulses);

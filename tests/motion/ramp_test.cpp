@@ -131,7 +131,7 @@ TEST(RampChange, LawsWithoutJerkDropTheirAccelerationAtOnce) {
           {"by time", RampLaw::by_time(4), 20, 50, 120, 4, 280, 120},
           {"sections of nothing", RampLaw::by_sections(50, 0), 20, -50, 120, 2, 140, 20},
       },
-      {.least_u_s = 0, .most_u_s = 200});
+      {.min_u_s = 0, .max_u_s = 200});
 }
 
 TEST(RampChange, AJerkLawGoesOnWithTheAccelerationItHas) {
@@ -145,7 +145,7 @@ TEST(RampChange, AJerkLawGoesOnWithTheAccelerationItHas) {
           {"past its new speed and back", law, 50, 100, 50, 1 + std::sqrt(2.0),
            100 - 50.0 / 3 + 75 * std::sqrt(2.0), 100},
       },
-      {.least_u_s = 0, .most_u_s = 200});
+      {.min_u_s = 0, .max_u_s = 200});
 }
 
 TEST(RampChange, ABoundThatWasLoweredIsGoneBackToFirst) {
@@ -154,7 +154,7 @@ TEST(RampChange, ABoundThatWasLoweredIsGoneBackToFirst) {
   const double before_u = 0.5 * 100 * 0.25 - 100 * 0.125 / 6;
   const double after_u = 87.5 * 0.5 + 25 * 0.25 - 100 * 0.125 / 6;
   expect_changes({{"up", RampLaw::by_jerk(100, 50), 50, 100, 150, 2, 100 + before_u + 62.5 + after_u, 150}},
-                 {.least_u_s = 0, .most_u_s = 200});
+                 {.min_u_s = 0, .max_u_s = 200});
 }
 
 TEST(RampChange, MoreAccelerationThanTheLawCanHaveDropsAtOnce) {
@@ -162,7 +162,7 @@ TEST(RampChange, MoreAccelerationThanTheLawCanHaveDropsAtOnce) {
   // too.
   const RampLaw law = RampLaw::by_jerk(100);
   expect_changes({{"up", law, 2, 1e9, 3, 0.4, 0.4 + 20 * 0.02 - 100 * 0.008 / 6 + 0.7, 4}},
-                 {.least_u_s = 0, .most_u_s = 200});
+                 {.min_u_s = 0, .max_u_s = 200});
 }
 
 TEST(RampChange, SlowingDownNeverPassesTheLeastSpeed) {
@@ -174,18 +174,18 @@ TEST(RampChange, SlowingDownNeverPassesTheLeastSpeed) {
           {"at the least already", RampLaw::by_jerk(1), 20, -100, 21, 2, 41, 20},
           {"by sections", RampLaw::by_sections(100, 5000), 70, -100, 20, 1, 20 + 100.0 / 6, 20},
       },
-      {.least_u_s = 20, .most_u_s = 200});
+      {.min_u_s = 20, .max_u_s = 200});
 }
 
 TEST(RampChange, ASectionLawGoingUpNeverPassesTheGreatestSpeed) {
   // Sections of 50 at 100 u/s^2 have jerk 100; from 80 with 100 u/s^2 there are 20 u/s left: jerk 250.
   expect_changes({{"to the greatest", RampLaw::by_sections(100, 50), 80, 100, 100, 0.4,
                    100 * 0.4 - 250 * 0.064 / 6, 100}},
-                 {.least_u_s = 0, .most_u_s = 100});
+                 {.min_u_s = 0, .max_u_s = 100});
 }
 
 TEST(RampChange, TheSpeedWithoutAccelerationIsWhereItFadesAtOnce) {
-  const SpeedRange range{.least_u_s = 20, .most_u_s = 100};
+  const SpeedRange range{.min_u_s = 20, .max_u_s = 100};
   const RampLaw jerk = RampLaw::by_jerk(100);
   const RampLaw soft = RampLaw::by_jerk(1);
   const RampLaw slope = RampLaw::by_slope(100);

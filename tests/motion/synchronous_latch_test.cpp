@@ -30,9 +30,9 @@ struct LatchBench final : EdgeOwner {
   void at_edge(SharedTick& now, std::size_t axis, Events events) override {
     if (act(table, axis, events, now).fired != 0) has_fired[axis] = true;
   }
-  /// Steps until the trigger fires; false if it does not within `most` ticks.
-  bool fires(std::size_t trigger, Tick most) {
-    for (const Tick last = tick + most; tick < last;) {
+  /// Steps until the trigger fires; false if it does not within `max` ticks.
+  bool fires(std::size_t trigger, Tick max) {
+    for (const Tick last = tick + max; tick < last;) {
       ++tick;
       has_fired = {};
       std::array<std::int64_t, 3> pulses{};

@@ -46,8 +46,8 @@ struct EventBench {
                                   : axis().travel_pulses - base});
     }
   }
-  void run(Tick most, bool with_care = false) {
-    for (const Tick last = now + most; now < last && axis().moving();) {
+  void run(Tick max, bool with_care = false) {
+    for (const Tick last = now + max; now < last && axis().moving();) {
       ASSERT_NO_FATAL_FAILURE(step(with_care));
     }
   }

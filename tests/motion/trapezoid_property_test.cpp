@@ -35,12 +35,12 @@ testing::AssertionResult ends_when_and_where_it_must(const RegisterMove& move, c
 testing::AssertionResult is_where_it_must_be(const RegisterMove& move, const Profile& profile, Tick t) {
   const std::int64_t pulses = pulses_at(profile, t);
   const Ratio exact = t >= move.total_ms().ceil() ? Ratio{move.distance_pulses, 1} : move.position(t);
-  const std::int64_t least = exact.floor();
-  const std::int64_t most = std::min(
+  const std::int64_t min = exact.floor();
+  const std::int64_t max = std::min(
       exact.plus_billionths(pulse_slack_billionths(move.distance_pulses)).floor(), move.distance_pulses);
-  if (pulses < least || pulses > most) {
+  if (pulses < min || pulses > max) {
     return bad(move, "pulses_at(" + std::to_string(t) + ") is " + std::to_string(pulses) + ", not " +
-                         std::to_string(least));
+                         std::to_string(min));
   }
   if (pulses_at(profile, t + 1) < pulses) return bad(move, "goes back after tick " + std::to_string(t));
   const double speed = profile.sample(static_cast<double>(t) / 1000.0).speed_u_s;
@@ -79,12 +79,12 @@ TEST(TrapezoidProperty, ShortMovesNeverReverseNorExceedTheLimitPerTick) {
   for (int i = 0; i < 400; ++i) {
     const RegisterMove move = random.next(20'000);
     const Profile profile = move.plan();
-    const std::int64_t most_per_tick = move.limit().ceil() + 1;  // a partial pulse before, one after
+    const std::int64_t max_per_tick = move.limit().ceil() + 1;  // a partial pulse before, one after
     std::int64_t before = 0;
     for (Tick t = 1; t <= end_tick(profile); ++t) {
       const std::int64_t pulses = pulses_at(profile, t);
       ASSERT_GE(pulses, before) << "seed " << seed() + 1 << ": " << move.code() << " tick " << t;
-      ASSERT_LE(pulses - before, most_per_tick)
+      ASSERT_LE(pulses - before, max_per_tick)
           << "seed " << seed() + 1 << ": " << move.code() << " tick " << t;
       before = pulses;
     }

@@ -24,7 +24,7 @@ class CaptureFileTest : public testing::Test {
     return file;
   }
   CapturedPacket packet(int number) const {
-    return {.line = 0, .way = Way::from_host, .time = SimTime{number}, .bytes = kRequest};
+    return {.line = 0, .direction = Direction::from_host, .time = SimTime{number}, .bytes = kRequest};
   }
   std::string refusal(const std::string& path) {
     try {

@@ -35,7 +35,7 @@ struct CaptureRig : LineRig {
         slave(1, kReply, framing),
         capture(0, framing, [this](const CapturedPacket& packet) {
           times.push_back(packet.time);
-          total += packet.way == Way::from_host ? packet.bytes.size() : 0;
+          total += packet.direction == Direction::from_host ? packet.bytes.size() : 0;
           std::string text;
           append_text_packet(text, std::vector<CapturedLine>{{"L", 19200}}, packet, 0);
           lines.push_back(text.substr(text.find(' ') + 1, text.size() - text.find(' ') - 2));

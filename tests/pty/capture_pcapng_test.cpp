@@ -12,8 +12,8 @@ const std::vector<CapturedLine> kLines = {{"rs485", 19200}, {"rs232", 115200}};
 const Bytes kRequest = hex("01 03 00 01 00 01 D5 CA");
 const Bytes kReply = hex("01 03 02 C0 01 29 84");
 
-CapturedPacket packet(const Bytes& bytes, Way way, Remark remark = Remark::none) {
-  return {.line = 0, .way = way, .time = SimTime{5}, .bytes = bytes, .remark = remark};
+CapturedPacket packet(const Bytes& bytes, Direction direction, Remark remark = Remark::none) {
+  return {.line = 0, .direction = direction, .time = SimTime{5}, .bytes = bytes, .remark = remark};
 }
 
 PcapngPacket written_and_read(const CapturedPacket& packet, std::uint64_t lost_before = 0) {
@@ -40,13 +40,13 @@ TEST(Pcapng, EachLineIsAnInterfaceWithNanoseconds) {
 }
 
 TEST(Pcapng, ARequestComesInAndAReplyGoesOut) {
-  const PcapngPacket in = written_and_read(packet(kRequest, Way::from_host));
+  const PcapngPacket in = written_and_read(packet(kRequest, Direction::from_host));
   EXPECT_EQ(in.bytes, kRequest);
   EXPECT_EQ(in.flags, 1U);
   EXPECT_EQ(in.dissector, "mbrtu");
   EXPECT_EQ(in.destination_port, kPcapngStationPort);
   EXPECT_EQ(in.comment, "");
-  const PcapngPacket out = written_and_read(packet(kReply, Way::to_host));
+  const PcapngPacket out = written_and_read(packet(kReply, Direction::to_host));
   EXPECT_EQ(out.bytes, kReply);
   EXPECT_EQ(out.flags, 2U);
   EXPECT_EQ(out.source_port, kPcapngStationPort);
@@ -54,9 +54,9 @@ TEST(Pcapng, ARequestComesInAndAReplyGoesOut) {
 }
 
 TEST(Pcapng, LinesAreToldApartByInterfaceAndByTheHostsPort) {
-  CapturedPacket second = packet(kRequest, Way::from_host);
+  CapturedPacket second = packet(kRequest, Direction::from_host);
   second.line = 1;
-  const PcapngPacket on_first = written_and_read(packet(kRequest, Way::from_host));
+  const PcapngPacket on_first = written_and_read(packet(kRequest, Direction::from_host));
   const PcapngPacket on_second = written_and_read(second);
   EXPECT_EQ(on_first.interface, 0U);
   EXPECT_EQ(on_second.interface, 1U);
@@ -64,32 +64,33 @@ TEST(Pcapng, LinesAreToldApartByInterfaceAndByTheHostsPort) {
 }
 
 TEST(Pcapng, TimesBeyond32BitsAreExact) {
-  CapturedPacket late = packet(kRequest, Way::from_host);
+  CapturedPacket late = packet(kRequest, Direction::from_host);
   late.time = std::chrono::hours(24 * 365 * 100) + SimTime{1};
   EXPECT_EQ(written_and_read(late).time, static_cast<std::uint64_t>(late.time.count()));
 }
 
 TEST(Pcapng, RemarksAreCommentsAndErrorsAreFlags) {
-  const PcapngPacket wrong = written_and_read(packet(kRequest, Way::from_host, Remark::wrong_checksum));
+  const PcapngPacket wrong = written_and_read(packet(kRequest, Direction::from_host, Remark::wrong_checksum));
   EXPECT_EQ(wrong.comment, "dropped: bad CRC");
   EXPECT_EQ(wrong.flags, 1U | 1U << 24);
   EXPECT_EQ(wrong.dissector, "mbrtu");
-  const PcapngPacket cut = written_and_read(packet(hex("01 03 00"), Way::from_host, Remark::incomplete));
+  const PcapngPacket cut =
+      written_and_read(packet(hex("01 03 00"), Direction::from_host, Remark::incomplete));
   EXPECT_EQ(cut.comment, "dropped: incomplete");
   EXPECT_EQ(cut.flags, 1U | 1U << 26);
   EXPECT_EQ(cut.dissector, "data");
-  EXPECT_EQ(written_and_read(packet(kReply, Way::to_host, Remark::collided)).flags, 2U);
+  EXPECT_EQ(written_and_read(packet(kReply, Direction::to_host, Remark::collided)).flags, 2U);
 }
 
 TEST(Pcapng, LostPacketsAreCounted) {
-  EXPECT_EQ(written_and_read(packet(kRequest, Way::from_host)).drop_count, 0U);
-  EXPECT_EQ(written_and_read(packet(kRequest, Way::from_host), 17).drop_count, 17U);
+  EXPECT_EQ(written_and_read(packet(kRequest, Direction::from_host)).drop_count, 0U);
+  EXPECT_EQ(written_and_read(packet(kRequest, Direction::from_host), 17).drop_count, 17U);
 }
 
 TEST(Pcapng, EverySizeOfAFrameIsPaddedRight) {
   for (std::size_t size = 1; size <= 256; ++size) {
     const Bytes bytes(size, 0xA5);
-    EXPECT_EQ(written_and_read(packet(bytes, Way::to_host)).bytes, bytes) << size;
+    EXPECT_EQ(written_and_read(packet(bytes, Direction::to_host)).bytes, bytes) << size;
   }
 }
 

@@ -17,16 +17,17 @@ std::string line_of(const CapturedPacket& packet, std::uint64_t lost_before = 0)
 
 TEST(CaptureText, HasTimeWayLineAndBytes) {
   const Bytes request = hex("01 03 00 01 00 01 D5 CA");
-  EXPECT_EQ(line_of({.line = 0, .way = Way::from_host, .time = SimTime{0}, .bytes = request}),
+  EXPECT_EQ(line_of({.line = 0, .direction = Direction::from_host, .time = SimTime{0}, .bytes = request}),
             "0.000000000 in  rs485 01 03 00 01 00 01 D5 CA\n");
   const Bytes reply = hex("01 03 02 C0 01 29 84");
-  EXPECT_EQ(line_of({.line = 1, .way = Way::to_host, .time = SimTime{12'005'333'333}, .bytes = reply}),
-            "12.005333333 out rs232 01 03 02 C0 01 29 84\n");
+  EXPECT_EQ(
+      line_of({.line = 1, .direction = Direction::to_host, .time = SimTime{12'005'333'333}, .bytes = reply}),
+      "12.005333333 out rs232 01 03 02 C0 01 29 84\n");
 }
 
 TEST(CaptureText, HasRemarksAndGaps) {
   const Bytes noise = hex("FF 00");
-  CapturedPacket packet{.line = 0, .way = Way::from_host, .time = SimTime{1}, .bytes = noise};
+  CapturedPacket packet{.line = 0, .direction = Direction::from_host, .time = SimTime{1}, .bytes = noise};
   EXPECT_EQ(line_of(packet, 3), "0.000000001 in  rs485 FF 00  # 3 packets are missing before this one\n");
   packet.remark = Remark::not_a_frame;
   EXPECT_EQ(line_of(packet), "0.000000001 in  rs485 FF 00  # dropped: not a frame\n");
@@ -36,7 +37,7 @@ TEST(CaptureText, HasRemarksAndGaps) {
 
 TEST(CaptureText, HasWhatFaultsDid) {
   const Bytes reply = hex("01 03 02");
-  CapturedPacket packet{.line = 0, .way = Way::to_host, .time = SimTime{1}, .bytes = reply};
+  CapturedPacket packet{.line = 0, .direction = Direction::to_host, .time = SimTime{1}, .bytes = reply};
   packet.faults = "fault 1 truncate: cut";
   EXPECT_EQ(line_of(packet), "0.000000001 out rs485 01 03 02  # fault 1 truncate: cut\n");
   packet.remark = Remark::to_nobody;
@@ -45,8 +46,9 @@ TEST(CaptureText, HasWhatFaultsDid) {
             "3 packets are missing before this one\n");
   const std::vector<Strike> strikes{{1, "drop", "not sent"}, {12, "delay", "sent late"}};
   const std::string told = text_of(strikes);
-  EXPECT_EQ(line_of({.line = 0, .way = Way::to_host, .time = SimTime{1}, .bytes = {}, .faults = told}),
-            "0.000000001 out rs485  # fault 1 drop: not sent; fault 12 delay: sent late\n");
+  EXPECT_EQ(
+      line_of({.line = 0, .direction = Direction::to_host, .time = SimTime{1}, .bytes = {}, .faults = told}),
+      "0.000000001 out rs485  # fault 1 drop: not sent; fault 12 delay: sent late\n");
 }
 
 }  // namespace capture_text_test

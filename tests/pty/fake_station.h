@@ -22,12 +22,12 @@ class FakeSlave : public Station {
       : framer_(framing), address_(address), reply_(std::move(reply)) {}
 
   LineSettings settings() const override { return listens_to; }
-  void hear_start_bit(SimTime at) override { framer_.start_bit(at); }
-  void hear(const TimedByte& byte) override {
+  void on_start_bit(SimTime at) override { framer_.start_bit(at); }
+  void receive(const TimedByte& byte) override {
     heard.push_back(byte);
     framer_.push(byte);
   }
-  void hear_other_station() override {
+  void on_other_station() override {
     ++others;
     framer_.reset();
   }
@@ -57,8 +57,8 @@ class FakeSlave : public Station {
 class FakeTalker : public Station {
  public:
   LineSettings settings() const override { return {}; }
-  void hear(const TimedByte& byte) override { heard.push_back(byte.value); }
-  void hear_other_station() override { ++others; }
+  void receive(const TimedByte& byte) override { heard.push_back(byte.value); }
+  void on_other_station() override { ++others; }
   std::optional<SimTime> due() const override {
     return says.empty() ? std::nullopt : std::optional(says.begin()->first);
   }

@@ -94,7 +94,7 @@ class StartBits final : public LineObserver {
   void on_start_bit(SimTime) override { ++count; }
   void on_character(const TimedByte&, bool) override {}
   void on_nothing_more() override {}
-  void on_speech(const Speech&) override {}
+  void on_transmission(const Transmission&) override {}
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
 };
@@ -290,7 +290,7 @@ class Taker final : public LineObserver {
   void on_start_bit(SimTime) override {}
   void on_character(const TimedByte&, bool) override {}
   void on_nothing_more() override {}
-  void on_speech(const Speech&) override {}
+  void on_transmission(const Transmission&) override {}
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
 

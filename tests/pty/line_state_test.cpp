@@ -21,9 +21,9 @@ class Echo final : public Station {
       : framer({.strict = strict, .silence = 750us, .patience = 10ms}), address_(address) {}
 
   LineSettings settings() const override { return {}; }
-  void hear_start_bit(SimTime at) override { framer.start_bit(at); }
-  void hear(const TimedByte& byte) override { framer.push(byte); }
-  void hear_other_station() override { framer.reset(); }
+  void on_start_bit(SimTime at) override { framer.start_bit(at); }
+  void receive(const TimedByte& byte) override { framer.push(byte); }
+  void on_other_station() override { framer.reset(); }
   void on_idle() override { framer.give_up_waiting(); }
   std::optional<SimTime> due() const override { return framer.due(); }
   void run(SimTime now, Transmitter& out) override {
@@ -216,9 +216,9 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
     EXPECT_EQ(rig.wire.line.save().input.size(), 5u);
   };
   refused("its stations are different", [](Line::State& s) { s.members.pop_back(); });
-  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.baud = 0; });
-  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.stop_bits = 3; });
-  refused("its settings are not possible for a line", [](Line::State& s) { s.settings.data_bits = 9; });
+  refused("its settings are not valid for a line", [](Line::State& s) { s.settings.baud = 0; });
+  refused("its settings are not valid for a line", [](Line::State& s) { s.settings.stop_bits = 3; });
+  refused("its settings are not valid for a line", [](Line::State& s) { s.settings.data_bits = 9; });
   refused("more bytes are waiting than it can hold",
           [](Line::State& s) { s.input.resize(Line::kInputCapacity + 1); });
   refused("more bytes are waiting than it can hold",

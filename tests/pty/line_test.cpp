@@ -31,8 +31,8 @@ TEST(LineSettings, AreWrittenAsEngineersWriteThem) {
 class AlwaysDue final : public Station {
  public:
   LineSettings settings() const override { return {}; }
-  void hear(const TimedByte&) override {}
-  void hear_other_station() override {}
+  void receive(const TimedByte&) override {}
+  void on_other_station() override {}
   std::optional<SimTime> due() const override { return 1s; }
   void run(SimTime, Transmitter&) override {}
 };
@@ -270,7 +270,7 @@ TEST(Line, AtEqualTimesCharactersPrecedeStationsInOrder) {
   struct Watcher : FakeTalker {
     std::vector<int>* log = nullptr;
     int id = 0;
-    void hear(const TimedByte&) override { log->push_back(id); }
+    void receive(const TimedByte&) override { log->push_back(id); }
     void run(SimTime now, Transmitter& out) override {
       log->push_back(10 + id);
       FakeTalker::run(now, out);

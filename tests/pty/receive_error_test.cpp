@@ -72,7 +72,7 @@ std::vector<Lump> lumps() {
   const Bytes several = with_crc({0x01, 0x10, 0x00, 0x01, 0x00, 0x02, 0x04, 1, 2, 3, 4});
   const Bytes ones(300, 0x01);
   const Bytes noise(300, 0xFF);
-  const Bytes most_noise(700, 0xFF);
+  const Bytes max_noise(700, 0xFF);
   return {
       {"a good frame", {kGood}, "frame ", "frame "},
       {"a wrong checksum", {wrong}, "bad_checksum ", "bad_checksum "},
@@ -85,10 +85,10 @@ std::vector<Lump> lumps() {
       {"an unknown function", {{0x01, 0x64, 0x00, 0x00, 0x00}}, "bad_checksum ", "bad_checksum "},
       {"a byte count that lies", {{0x01, 0x10, 0, 0, 0, 1, 0xFF, 0, 1, 2}}, "bad_checksum ", "bad_checksum "},
       {"noise longer than a frame", {noise}, "overlong ", "overlong "},
-      {"noise much longer", {most_noise}, "overlong ", "overlong "},
+      {"noise much longer", {max_noise}, "overlong ", "overlong "},
       {"what might be a frame, too long", {ones}, "overlong ", "overlong "},
       {"twice too long", {noise, noise}, "overlong overlong ", "overlong overlong "},
-      {"too long, then cut off", {most_noise, {0x01, 0x03}}, "overlong cut_off ", "overlong cut_off "},
+      {"too long, then cut off", {max_noise, {0x01, 0x03}}, "overlong cut_off ", "overlong cut_off "},
       {"a frame with noise behind it", {joined(kGood, {0xFF, 0xFF})}, "bad_checksum ", "frame cut_off "},
       {"noise, then a frame", {joined({0xFF, 0xFF}, kGood)}, "bad_checksum ", "cut_off frame "},
   };

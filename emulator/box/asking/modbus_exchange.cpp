@@ -8,7 +8,7 @@
 
 #include "emulator/box/asking/asked.h"
 #include "emulator/box/wire/wire.h"
-#include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/executors/modbus_host.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "pty/rtu_crc.h"
 

@@ -4,7 +4,7 @@
 
 #include "emulator/box/wire/wire.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/executors/modbus_host.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::box {

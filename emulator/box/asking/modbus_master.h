@@ -7,7 +7,7 @@
 #include "emulator/box/asking/modbus_exchange.h"
 #include "emulator/box/wire/wire.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/play/stages/executor.h"
+#include "emulator/play/executors/executor.h"
 
 namespace understudy::emulator::box {
 

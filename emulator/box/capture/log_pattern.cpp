@@ -160,18 +160,18 @@ LogPattern::LogPattern(std::string_view text, bool needs_bytes) {
 bool LogPattern::match_from(std::size_t token, std::string_view text, LogLine& line) const {
   if (token == tokens_.size()) return text.empty();
   const Token& now = tokens_[token];
-  const auto goes_on = [&](std::size_t taken) {
+  const auto continues = [&](std::size_t taken) {
     return taken != 0 && match_from(token + 1, text.substr(taken), line);
   };
   switch (now.field) {
-    case Field::literal: return text.starts_with(now.literal) && goes_on(now.literal.size());
-    case Field::space: return goes_on(take_spaces(text));
+    case Field::literal: return text.starts_with(now.literal) && continues(now.literal.size());
+    case Field::space: return continues(take_spaces(text));
     case Field::time: {
       const auto time = take_log_time(text);
       if (!time) return false;
       line.at = time->at;
       line.is_time_of_day = time->is_of_day;
-      return goes_on(time->size);
+      return continues(time->size);
     }
     case Field::us: {
       constexpr double kLatest = 9e15;
@@ -179,22 +179,22 @@ bool LogPattern::match_from(std::size_t token, std::string_view text, LogLine& l
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), us);
       if (error != std::errc() || !(us >= 0 && us < kLatest)) return false;
       line.at = SimTime{std::llround(us * 1000)};
-      return goes_on(static_cast<std::size_t>(end - text.data()));
+      return continues(static_cast<std::size_t>(end - text.data()));
     }
     case Field::sample: {
       std::uint64_t number = 0;
       const std::size_t taken = take_number(text, number);
       line.sample = number;
-      return goes_on(taken);
+      return continues(taken);
     }
-    case Field::dir: return goes_on(take_direction(text, line.side));
+    case Field::dir: return continues(take_direction(text, line.side));
     case Field::hex: {
       line.bytes.clear();
-      return goes_on(take_hex(text, line.bytes));
+      return continues(take_hex(text, line.bytes));
     }
     case Field::bytes: {
       line.bytes.clear();
-      return goes_on(take_bracketed(text, line));
+      return continues(take_bracketed(text, line));
     }
     case Field::name:
     case Field::any: {

@@ -81,7 +81,7 @@ Log log_of(const LogRow& row) {
 std::optional<Log> recognized(std::string_view head) {
   constexpr std::size_t kLinesToTell = 200;
   std::optional<Log> best;
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (const LogRow& row : kLogs) {
     Log log = log_of(row);
     std::size_t count = 0;
@@ -90,8 +90,8 @@ std::optional<Log> recognized(std::string_view head) {
       if (++seen > kLinesToTell) break;
       if (log.match(line.text)) ++count;
     }
-    if (count > most) {
-      most = count;
+    if (count > max) {
+      max = count;
       best = std::move(log);
     }
   }

@@ -36,14 +36,14 @@ class Cursor {
     ++at_;
     return true;
   }
-  std::string_view take_digits(std::size_t most) {
+  std::string_view take_digits(std::size_t max) {
     const std::size_t begin = at_;
-    while (is_at_digit() && at_ - begin < most) ++at_;
+    while (is_at_digit() && at_ - begin < max) ++at_;
     return text_.substr(begin, at_ - begin);
   }
-  std::optional<int> take_number(std::size_t least, std::size_t most) {
-    const std::string_view digits = take_digits(most);
-    if (digits.size() < least || is_at_digit()) return {};
+  std::optional<int> take_number(std::size_t min, std::size_t max) {
+    const std::string_view digits = take_digits(max);
+    if (digits.size() < min || is_at_digit()) return {};
     int number = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return number;
@@ -112,13 +112,13 @@ std::optional<SimTime> take_date(Cursor& text) {
 }  // namespace
 
 std::optional<SimTime> parse_log_seconds(std::string_view text) {
-  constexpr std::size_t kMostWholeSeconds = 10;
+  constexpr std::size_t kMaxWholeSeconds = 10;
   const std::size_t point = text.find('.');
   const std::string_view whole = text.substr(0, point);
   const std::string_view fraction = point == std::string_view::npos ? "" : text.substr(point + 1);
   std::int64_t seconds = 0;
   const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
-  if (whole.empty() || whole.size() > kMostWholeSeconds || error != std::errc() ||
+  if (whole.empty() || whole.size() > kMaxWholeSeconds || error != std::errc() ||
       end != whole.data() + whole.size() || seconds < 0 || seconds > 9'000'000'000 ||
       fraction.find_first_not_of("0123456789") != std::string_view::npos)
     return {};

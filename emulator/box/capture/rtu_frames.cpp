@@ -48,9 +48,9 @@ FrameLength known(std::size_t size) {
   return size > kLongest ? none() : FrameLength{.state = FrameLength::State::known, .size = size};
 }
 
-FrameLength length_of(std::span<const std::uint8_t> bytes, std::size_t least, std::size_t count_at) {
-  if (count_at == 0) return known(least);
-  return bytes.size() <= count_at ? more() : known(least + bytes[count_at]);
+FrameLength length_of(std::span<const std::uint8_t> bytes, std::size_t min, std::size_t count_at) {
+  if (count_at == 0) return known(min);
+  return bytes.size() <= count_at ? more() : known(min + bytes[count_at]);
 }
 
 const FunctionLengths* function_of(std::uint8_t code) {

@@ -23,9 +23,9 @@ namespace {
 using ByteSpan = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kTcp = 6;
-constexpr std::size_t kMostConnections = 256;
+constexpr std::size_t kMaxConnections = 256;
 /// Segments that wait for a lost one. When there are more, it is not in the file.
-constexpr std::size_t kMostAhead = 32;
+constexpr std::size_t kMaxAhead = 32;
 constexpr std::uint32_t kModbusPort = 502;
 constexpr std::uint8_t kSyn = 2;
 constexpr std::uint8_t kAck = 16;
@@ -118,7 +118,7 @@ TcpStreams::Connection& TcpStreams::connection_of(const std::string& key, const 
   const auto [found, is_new] = connections_.try_emplace(key);
   if (!is_new) return found->second;
   order_.push_back(key);
-  if (order_.size() > kMostConnections) {
+  if (order_.size() > kMaxConnections) {
     connections_.erase(order_.front());
     order_.pop_front();
   }
@@ -161,7 +161,7 @@ void TcpStreams::take_segment(Connection& connection, std::size_t from, Segment 
     const auto first = std::ranges::min_element(
         stream.ahead, {}, [&](const Segment& one) { return distance(*stream.next, one.sequence); });
     const std::int32_t gap = distance(*stream.next, first->sequence);
-    if (gap > 0 && stream.ahead.size() <= kMostAhead) return;
+    if (gap > 0 && stream.ahead.size() <= kMaxAhead) return;
     Segment now = std::move(*first);
     stream.ahead.erase(first);
     if (gap > 0) {

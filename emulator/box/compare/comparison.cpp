@@ -11,7 +11,7 @@
 #include "base/simulated_time.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/judge.h"
-#include "emulator/box/compare/stand.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/view/world_view.h"
 #include "pty/rtu_crc.h"
@@ -60,7 +60,7 @@ void judge_times(Comparison& comparison, const std::vector<bool>& has_time, SimT
 
 Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
                    Extent extent) {
-  Stand stand(bench, settings.line);
+  ReplayBench replay(bench, settings.line);
   Judge judge(settings.from_power_up);
   Comparison comparison;
   Fingerprint fingerprint;
@@ -75,16 +75,16 @@ Comparison compare(const world::Bench& bench, const Capture& capture, const Comp
   std::vector<InputChange> inputs = settings.inputs;
   for (InputChange& change : inputs)
     change.at = std::max(SimTime{0}, on_bench(change.at - capture.notes.first_at));
-  stand.set_inputs(std::move(inputs));
+  replay.set_inputs(std::move(inputs));
   for (std::size_t i = 0; i < capture.exchanges.size(); ++i) {
     const Exchange& exchange = capture.exchanges[i];
     const bool is_end = i + 1 == capture.exchanges.size();
     const bool is_last = is_end && !capture.is_cut;
     const SimTime at = on_bench(exchange.at);
     const SimTime next = is_end ? at + kLongestWait : on_bench(capture.exchanges[i + 1].at);
-    const StandReply reply =
-        stand.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
-    Judgement judgement{.verdict = judge.judge(exchange, reply, stand.bank_of(exchange.request), is_last)};
+    const BenchReply reply =
+        replay.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
+    Judgement judgement{.verdict = judge.judge(exchange, reply, replay.bank_of(exchange.request), is_last)};
     fingerprint.add(reply.bytes);
     has_time.push_back(exchange.replied_at.has_value() && reply.at.has_value());
     if (has_time.back()) judgement.later = on_bench(*exchange.replied_at) - *reply.at;
@@ -96,7 +96,7 @@ Comparison compare(const world::Bench& bench, const Capture& capture, const Comp
       if (is_text) comparison.agreeing_bytes = static_cast<std::size_t>(differs.in1 - exchange.reply.begin());
     }
     if (extent == Extent::whole) {
-      const world::WorldLine& line = stand.line();
+      const world::WorldLine& line = replay.line();
       const auto told = [&](const Frame& bytes) {
         return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
       };

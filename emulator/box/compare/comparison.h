@@ -11,7 +11,7 @@
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/input_log.h"
 #include "emulator/box/compare/judge.h"
-#include "emulator/box/compare/stand.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::box {

@@ -13,7 +13,7 @@
 
 #include "base/text/parse_real.h"
 #include "emulator/box/capture/capture.h"
-#include "emulator/box/compare/stand.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
@@ -102,14 +102,14 @@ Verdict Judge::judge_cell(const Cell& cell) {
   return verdict;
 }
 
-Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
+Verdict Judge::judge_words(const Addressed& asked, const Exchange& exchange, const BenchReply& bench_reply,
                            const RegisterBank& bank) {
   const auto box = words_in(asked, exchange.request, exchange.reply);
-  const auto bench = words_in(asked, exchange.request, stand.bytes);
+  const auto bench = words_in(asked, exchange.request, bench_reply.bytes);
   if (box.empty() || bench.empty())  // one of them refuses, or both are damaged
-    return std::ranges::equal(exchange.reply, stand.bytes) ? Verdict::same : Verdict::different;
-  const auto& before = stand.before.size() == box.size() ? stand.before : bench;
-  const auto& after = stand.after.size() == box.size() ? stand.after : bench;
+    return std::ranges::equal(exchange.reply, bench_reply.bytes) ? Verdict::same : Verdict::different;
+  const auto& before = bench_reply.before.size() == box.size() ? bench_reply.before : bench;
+  const auto& after = bench_reply.after.size() == box.size() ? bench_reply.after : bench;
   Verdict verdict = Verdict::same;
   for (std::size_t i = 0; i < box.size(); ++i) {
     const auto address = static_cast<std::uint16_t>(asked.first + i);
@@ -143,18 +143,19 @@ void Judge::note_write(const Addressed& asked) {
         {.is_written = true};
 }
 
-Verdict Judge::judge_number(const std::string& query, double box, double bench, const StandReply& stand) {
-  if (stand.number_before && stand.number_after &&
-      is_between(box, *stand.number_before, bench, *stand.number_after))
+Verdict Judge::judge_number(const std::string& query, double box, double bench,
+                            const BenchReply& bench_reply) {
+  if (bench_reply.number_before && bench_reply.number_after &&
+      is_between(box, *bench_reply.number_before, bench, *bench_reply.number_after))
     return Verdict::within;
   return judge_unseen(queries_, query, box, bench, true);
 }
 
 /// What depends on a request that is lost, or on a reply that is, is neither agreement nor difference. Nor is
 /// a refusal while a motion goes on that began before the capture.
-Verdict Judge::judge(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+Verdict Judge::judge(const Exchange& exchange, const BenchReply& bench_reply, const RegisterBank* bank,
                      bool is_last) {
-  const Verdict verdict = judge_whole(exchange, stand, bank, is_last);
+  const Verdict verdict = judge_whole(exchange, bench_reply, bank, is_last);
   const bool is_clear = verdict == Verdict::same || verdict == Verdict::within;
   const auto asked = addressed_by(exchange.request);
   const bool is_read = asked && !asked->is_write;
@@ -163,27 +164,28 @@ Verdict Judge::judge(const Exchange& exchange, const StandReply& stand, const Re
   return is_clear || is_told ? verdict : Verdict::undecidable;
 }
 
-Verdict Judge::judge_whole(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+Verdict Judge::judge_whole(const Exchange& exchange, const BenchReply& bench_reply, const RegisterBank* bank,
                            bool is_last) {
-  if (exchange.reply.empty() && is_last) return stand.bytes.empty() ? Verdict::same : Verdict::undecidable;
+  if (exchange.reply.empty() && is_last)
+    return bench_reply.bytes.empty() ? Verdict::same : Verdict::undecidable;
   const auto asked = addressed_by(exchange.request);
-  if (asked && !asked->is_write && bank != nullptr && !exchange.reply.empty() && !stand.bytes.empty() &&
+  if (asked && !asked->is_write && bank != nullptr && !exchange.reply.empty() && !bench_reply.bytes.empty() &&
       exchange.reply[1] < kException)
-    return judge_words(*asked, exchange, stand, *bank);
-  const bool is_same = std::ranges::equal(exchange.reply, stand.bytes);
+    return judge_words(*asked, exchange, bench_reply, *bank);
+  const bool is_same = std::ranges::equal(exchange.reply, bench_reply.bytes);
   if (asked) {
     if (asked->is_write && is_same) note_write(*asked);
     return is_same ? Verdict::same : Verdict::different;
   }
   const std::string query = text_in(exchange.request);
   const auto box = parse_real(text_in(exchange.reply));
-  const auto own = parse_real(text_in(stand.bytes));
+  const auto own = parse_real(text_in(bench_reply.bytes));
   if (is_same || !query.starts_with('?') || !box || !own) {
     if (is_same && query.starts_with('?') && own)
       queries_.try_emplace(query, Seen{.bench = *own, .box = *own});
     return is_same ? Verdict::same : Verdict::different;
   }
-  return judge_number(query, *box, *own, stand);
+  return judge_number(query, *box, *own, bench_reply);
 }
 
 }  // namespace understudy::emulator::box

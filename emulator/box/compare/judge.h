@@ -20,7 +20,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/box/capture/capture.h"
-#include "emulator/box/compare/stand.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 
@@ -49,7 +49,8 @@ class Judge {
 
   /// `bank` has the registers of the station that the request is for, or is null. `is_last`: the capture may
   /// end before the reply.
-  Verdict judge(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank, bool is_last);
+  Verdict judge(const Exchange& exchange, const BenchReply& bench_reply, const RegisterBank* bank,
+                bool is_last);
 
  private:
   struct Cell {
@@ -66,12 +67,12 @@ class Judge {
     double box = 0;
     bool is_written = false;  // by the host, so its value is known
   };
-  Verdict judge_whole(const Exchange& exchange, const StandReply& stand, const RegisterBank* bank,
+  Verdict judge_whole(const Exchange& exchange, const BenchReply& bench_reply, const RegisterBank* bank,
                       bool is_last);
-  Verdict judge_words(const Addressed& asked, const Exchange& exchange, const StandReply& stand,
+  Verdict judge_words(const Addressed& asked, const Exchange& exchange, const BenchReply& bench_reply,
                       const RegisterBank& bank);
   Verdict judge_cell(const Cell& cell);
-  Verdict judge_number(const std::string& query, double box, double bench, const StandReply& stand);
+  Verdict judge_number(const std::string& query, double box, double bench, const BenchReply& bench_reply);
   template <typename Key>
   Verdict judge_unseen(std::map<Key, Seen>& seen, const Key& key, double box, double bench, bool counts);
   void note_write(const Addressed& asked);

@@ -55,7 +55,7 @@ Latencies latencies_of(const Photograph& photo) {
     if (!asked.reply.empty()) all.push_back(asked.latency);
   if (all.empty()) return {};
   std::ranges::sort(all);
-  return {.least = all.front(), .median = all[all.size() / 2], .most = all.back()};
+  return {.min = all.front(), .median = all[all.size() / 2], .max = all.back()};
 }
 
 std::string photo_json(const Photograph& photo) {
@@ -68,9 +68,9 @@ std::string photo_json(const Photograph& photo) {
   if (photo.station >= 0) json["station"] = photo.station;
   json["echo"] = photo.is_echoing;
   const Latencies latencies = latencies_of(photo);
-  json["latency_us"] = {{"least", in_microseconds(latencies.least)},
+  json["latency_us"] = {{"least", in_microseconds(latencies.min)},
                         {"median", in_microseconds(latencies.median)},
-                        {"most", in_microseconds(latencies.most)}};
+                        {"most", in_microseconds(latencies.max)}};
   json["values"] = OrderedJson::array();
   for (const PhotoValue& value : photo.values) {
     OrderedJson row{{"name", value.name}};

@@ -11,9 +11,9 @@ std::string photo_json(const Photograph& photo);
 
 /// The least, the median and the greatest of all latencies.
 struct Latencies {
-  WallTime least{0};
+  WallTime min{0};
   WallTime median{0};
-  WallTime most{0};
+  WallTime max{0};
 };
 Latencies latencies_of(const Photograph& photo);
 

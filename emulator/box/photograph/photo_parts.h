@@ -25,7 +25,7 @@ struct PhotoWork {
 
   void note(Asked asked);
   /// Reports the next question.
-  void tell(std::string_view next) const {
+  void report(std::string_view next) const {
     if (progress) progress(photo.exchanges.size(), next);
   }
   /// Adds a value that the controller did not give.

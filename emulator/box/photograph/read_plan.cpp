@@ -19,10 +19,10 @@ namespace {
 int most_at_once(const RtuRules& rules, Table table) {
   const world::FunctionRow* const row = world::function_for(table, world::FunctionRow::Kind::read);
   if (row == nullptr || std::ranges::find(rules.functions, row->code) == rules.functions.end()) return 0;
-  int most = row->most;
+  int max = row->max;
   for (const FunctionLimit& limit : rules.limits)
-    if (limit.code == row->code) most = std::min(most, limit.most);
-  return most;
+    if (limit.code == row->code) max = std::min(max, limit.max);
+  return max;
 }
 
 std::vector<ReadCell> cells_of(const Model& model, Table table) {
@@ -46,12 +46,12 @@ std::vector<ReadBlock> read_plan(const Model& model) {
   std::vector<ReadBlock> blocks;
   if (!model.rtu) return blocks;
   for (const Table table : {Table::coil, Table::discrete, Table::holding, Table::input}) {
-    const int most = most_at_once(*model.rtu, table);
-    if (most == 0) continue;
+    const int max = most_at_once(*model.rtu, table);
+    if (max == 0) continue;
     int end = -1;
     for (const ReadCell& cell : cells_of(model, table)) {
-      const bool goes_on = cell.address == end && cell.address + cell.size - blocks.back().first() <= most;
-      if (!goes_on) blocks.push_back({.table = table, .cells = {}});
+      const bool continues = cell.address == end && cell.address + cell.size - blocks.back().first() <= max;
+      if (!continues) blocks.push_back({.table = table, .cells = {}});
       blocks.back().cells.push_back(cell);
       end = cell.address + cell.size;
     }

@@ -22,8 +22,8 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/free_executor.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/free_executor.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::box {
@@ -87,7 +87,7 @@ class RegisterPhoto {
     for (const pty::LineSettings& line : tried) {
       work_.wire.set_line(line);
       master_.emplace(master_at(line));
-      work_.tell(work_.port.has_settings() ? "the speed: " + pty::to_string(line) : "the station");
+      work_.report(work_.port.has_settings() ? "the speed: " + pty::to_string(line) : "the station");
       for (int i = 0; i < 2; ++i) {
         ReadReply read = master_->read(plan_.front().table, first.address, first.size);
         const Kind kind = read.reply.kind;
@@ -120,7 +120,7 @@ class RegisterPhoto {
   play::HostReply ask(Table table, std::uint16_t first, int count, const std::string& name) {
     play::HostReply reply;
     for (int i = 0; i < kTries; ++i) {
-      work_.tell(name);
+      work_.report(name);
       ReadReply read = master_->read(table, first, count);
       reply = std::move(read.reply);
       work_.note(std::move(read.asked));

@@ -66,7 +66,7 @@ class TextPhoto {
     for (const pty::LineSettings& line : tried) {
       work_.wire.set_line(line);
       asker_.emplace(work_.wire, work_.settings.timeout + line.duration_of(100));
-      work_.tell(work_.port.has_settings() ? "the speed: " + pty::to_string(line) : "the chain");
+      work_.report(work_.port.has_settings() ? "the speed: " + pty::to_string(line) : "the chain");
       for (int i = 0; i < 2; ++i) {
         TextReply reply = asker_->ask("?VER", kPause);
         is_noisy = is_noisy || !reply.asked.reply.empty();
@@ -89,7 +89,7 @@ class TextPhoto {
 
   /// Returns the answer, if the controller gave one.
   std::optional<std::string> ask(const std::string& name) {
-    work_.tell(name);
+    work_.report(name);
     TextReply reply;
     for (int i = 0; i < 3 && reply.lines.empty(); ++i) {
       reply = asker_->ask("?" + name, kPause);
@@ -163,7 +163,7 @@ class TextPhoto {
 
   /// ULP lists the program, and changes nothing.
   void take_program() {
-    work_.tell("the program");
+    work_.report("the program");
     TextReply reply = asker_->ask("ULP", kPauseInList);
     work_.note(reply.asked);
     if (reply.lines.empty() || reply.lines.front().starts_with(kRefused)) {

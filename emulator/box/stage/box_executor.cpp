@@ -22,12 +22,12 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/modbus_host.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/serve/loop/event_loop.h"
-#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::box {

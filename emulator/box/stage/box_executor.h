@@ -15,10 +15,10 @@
 
 #include "emulator/box/stage/box_lines.h"
 #include "emulator/box/stage/permission.h"
+#include "emulator/play/executors/box_stage.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/free_executor.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/box_stage.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/free_executor.h"
 
 namespace understudy::emulator::box {
 

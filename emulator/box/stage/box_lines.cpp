@@ -19,10 +19,10 @@
 #include "emulator/box/photograph/read_plan.h"
 #include "emulator/box/wire/wire.h"
 #include "emulator/device/model.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/free_executor.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/free_executor.h"
 #include "emulator/serve/loop/event_loop.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/protocol/received_lines.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::box {
@@ -139,7 +139,7 @@ std::vector<std::string> LineHost::exchange_text(const std::optional<std::string
     return world::lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
   };
   const WallTime deadline = serve::wall_now() + within + (wanted.lines.empty() ? WallTime{0} : timeout_);
-  world::LinesHeard heard = heard_now();
+  world::ReceivedLines heard = heard_now();
   while (!world::has_come(wanted, heard) && serve::wall_now() < deadline) {
     receive_until(unread_, deadline);
     heard = heard_now();

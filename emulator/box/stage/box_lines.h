@@ -14,7 +14,7 @@
 #include "emulator/box/wire/port_name.h"
 #include "emulator/box/wire/wire.h"
 #include "emulator/device/model.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/protocol/received_lines.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::box {

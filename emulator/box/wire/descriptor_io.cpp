@@ -24,7 +24,7 @@ namespace understudy::emulator::box {
 
 namespace {
 
-[[noreturn]] void say_lost(const std::string& place, const std::string& why) {
+[[noreturn]] void report_lost(const std::string& place, const std::string& why) {
   throw WireError(one_line(place) + ": is lost: " + why + "; expected a port that stays open");
 }
 
@@ -48,8 +48,8 @@ void write_all(const Descriptor& to, std::span<const std::uint8_t> bytes, const 
       bytes = bytes.subspan(static_cast<std::size_t>(size));
       continue;
     }
-    if (size < 0 && !is_only_waiting(errno)) say_lost(place, std::strerror(errno));
-    if (serve::wall_now() >= deadline) say_lost(place, "accepts no more bytes");
+    if (size < 0 && !is_only_waiting(errno)) report_lost(place, std::strerror(errno));
+    if (serve::wall_now() >= deadline) report_lost(place, "accepts no more bytes");
     wait_for(to.get(), POLLOUT, std::min(deadline, serve::wall_now() + std::chrono::milliseconds(100)));
   }
 }
@@ -59,8 +59,8 @@ bool read_some(const Descriptor& from, Bytes& bytes, WallTime until, const std::
   std::array<std::uint8_t, 512> part;
   const ssize_t size = ::read(from.get(), part.data(), part.size());
   if (size < 0 && is_only_waiting(errno)) return false;
-  if (size < 0) say_lost(place, std::strerror(errno));
-  if (size == 0) say_lost(place, "the other end has hung up");
+  if (size < 0) report_lost(place, std::strerror(errno));
+  if (size == 0) report_lost(place, "the other end has hung up");
   bytes.insert(bytes.end(), part.begin(), part.begin() + size);
   return true;
 }

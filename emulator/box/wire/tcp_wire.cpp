@@ -100,7 +100,7 @@ void TcpWire::offer() {
   write_all(socket_, offers, place_);
   Bytes none;
   const WallTime deadline = serve::wall_now() + kNegotiationTime;
-  while (!has_com_port_ && !refuses_com_port_ && serve::wall_now() < deadline) hear(none, deadline);
+  while (!has_com_port_ && !refuses_com_port_ && serve::wall_now() < deadline) read_raw(none, deadline);
   if (!has_com_port_)
     throw WireError(one_line(place_) + ": does not speak RFC 2217; expected an adapter that does, or rtu://");
 }
@@ -125,12 +125,12 @@ void TcpWire::answer(const telnet::Command& command) {
   }
 }
 
-void TcpWire::hear(Bytes& data, WallTime until) {
+void TcpWire::read_raw(Bytes& data, WallTime until) {
   Bytes raw;
   read_some(socket_, raw, until, place_);
-  reader_.hear(raw);
+  reader_.append(raw);
   while (true) {
-    reader_.take_data(data, telnet::Reader::kMaxHeard, true);
+    reader_.take_data(data, telnet::Reader::kMaxReceived, true);
     const auto command = reader_.take_command();
     if (!command) break;
     answer(*command);
@@ -155,7 +155,7 @@ void TcpWire::set_line(const pty::LineSettings& settings) {
   write_all(socket_, sent, place_);
   Bytes none;
   const WallTime deadline = serve::wall_now() + kNegotiationTime;
-  while (settings_told_ == before && serve::wall_now() < deadline) hear(none, deadline);
+  while (settings_told_ == before && serve::wall_now() < deadline) read_raw(none, deadline);
 }
 
 void TcpWire::send(std::span<const std::uint8_t> bytes) {
@@ -168,7 +168,7 @@ void TcpWire::send(std::span<const std::uint8_t> bytes) {
 bool TcpWire::receive(Bytes& bytes, WallTime until) {
   if (!is_telnet_) return read_some(socket_, bytes, until, place_);
   const std::size_t before = bytes.size();
-  hear(bytes, until);
+  read_raw(bytes, until);
   return bytes.size() > before;
 }
 

@@ -23,7 +23,7 @@ class TcpWire final : public Wire {
  private:
   void offer();
   void answer(const serve::telnet::Command& command);
-  void hear(Bytes& data, WallTime until);
+  void read_raw(Bytes& data, WallTime until);
 
   std::string place_;
   bool is_telnet_;

@@ -192,7 +192,7 @@ Sheet parameters(const Model& model, SheetFormat format) {
   for (const NamedParameterRow& row : model.named_parameters) {
     sheet.rows.push_back({std::string(row.number), std::string(row.name), "", std::to_string(row.width),
                           row.persistent ? "1" : "0"});
-    for (const std::string_view cell : {std::string_view(row.least), std::string_view(row.most), row.unit,
+    for (const std::string_view cell : {std::string_view(row.min), std::string_view(row.max), row.unit,
                                         std::string_view(row.factory), row.meaning, row.not_implemented}) {
       sheet.rows.back().emplace_back(cell);
     }
@@ -336,7 +336,7 @@ Sheet blocks(const Model& model) {
   const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
   if (kept == nullptr) return sheet;
   for (const BlockKind& kind : kept->kinds()) {
-    sheet.rows.push_back({std::string(kind.name), std::to_string(kind.most), std::to_string(kind.longest)});
+    sheet.rows.push_back({std::string(kind.name), std::to_string(kind.max), std::to_string(kind.longest)});
   }
   return sheet;
 }

@@ -14,8 +14,8 @@ struct NvEntryError : NvError {
   enum class List { firmware, registers, reals, blocks };
 
   NvEntryError(List list_of_it, std::string kind_of_it, std::string name_of_it, std::string what_is_wrong,
-               const std::string& told, std::size_t line_of_it = 0)
-      : NvError(told, line_of_it),
+               const std::string& message, std::size_t line_of_it = 0)
+      : NvError(message, line_of_it),
         list(list_of_it),
         kind(std::move(kind_of_it)),
         name(std::move(name_of_it)),

@@ -82,7 +82,7 @@ void check_restored_registers(const RegisterBank& bank, std::span<const std::uin
       // Without power the image is blank except for later writes, and a worn-out register may be 0.
       const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
                           (!is_kept || can_hold(policy, row, kept[slot]));
-      if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds a value that is not possible");
+      if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds a value that is not valid");
     }
   }
 }

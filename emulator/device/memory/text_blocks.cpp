@@ -67,8 +67,8 @@ std::string TextBlocks::put(std::string_view kind, const std::string& name, Shar
   if (before != nullptr && *before == text) return "";
   if (std::string why = why_not(*of, name, text); !why.empty()) return why;
   const auto there = all_.find(kind);
-  if (before == nullptr && (there == all_.end() ? 0 : there->second.size()) >= of->most) {
-    return "there is no room; expected at most " + std::to_string(of->most);
+  if (before == nullptr && (there == all_.end() ? 0 : there->second.size()) >= of->max) {
+    return "there is no room; expected at most " + std::to_string(of->max);
   }
   all_[std::string(kind)][name] = std::move(text);
   changed();
@@ -100,10 +100,10 @@ void TextBlocks::check(const NamedBlocks& blocks, const BlockLines& lines) const
       for (const BlockKind& one : kinds_) known.emplace_back(one.name);
       refuse(kind_name, {}, "", quoted(kind_name) + " is not a kind of block" + suggestion(kind_name, known));
     }
-    if (entries.size() > of->most) {
+    if (entries.size() > of->max) {
       refuse(
           kind_name, {}, kind_name + ": ",
-          "has " + std::to_string(entries.size()) + " entries; expected at most " + std::to_string(of->most));
+          "has " + std::to_string(entries.size()) + " entries; expected at most " + std::to_string(of->max));
     }
     for (const auto& [name, text] : entries) {
       const std::string why = why_not(*of, name, text);
@@ -139,7 +139,7 @@ void TextBlocks::check_restored(const TextBlocks& earlier) {
   }
   for (const auto& [name, entries] : all_) {
     require_state(!entries.empty(), "a kind of block is empty");
-    require_state(entries.size() <= kind(name)->most, "a kind of block has too many entries");
+    require_state(entries.size() <= kind(name)->max, "a kind of block has too many entries");
   }
 }
 

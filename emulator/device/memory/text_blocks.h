@@ -18,7 +18,7 @@ namespace understudy::emulator {
 /// A kind of block: a row of the model's table.
 struct BlockKind {
   std::string_view name;    // "files": a key of the image
-  std::size_t most = 0;     // entries
+  std::size_t max = 0;      // entries
   std::size_t longest = 0;  // bytes per entry
   /// Returns why an entry cannot have that name, or an empty text if it can. Null: any name is allowed.
   std::string (*why_not_called)(const std::string& name) = nullptr;

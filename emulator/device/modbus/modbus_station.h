@@ -15,7 +15,7 @@ namespace understudy::emulator {
 inline constexpr Protocol kModbusRtu{"Modbus"};
 
 /// A station's reaction to the address of a frame.
-enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
+enum class Addressing : std::uint8_t { ignore, execute_silently, execute_and_reply };
 
 class ModbusStation {
  public:

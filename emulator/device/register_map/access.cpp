@@ -174,16 +174,16 @@ Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
 /// Passes on a whole message, or refuses it. All its words must be in the window.
 Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
   const RegisterRow& row = *window.row;
-  const auto most = static_cast<std::size_t>(row.count - window.index);
+  const auto max = static_cast<std::size_t>(row.count - window.index);
   const bool is_part = window.index != 0;
   if (is_part && !bank.takes_parts()) {
     return objection(Refusal::no_register, Cause::cut_message, request.first);
   }
-  if (request.count > most) {
-    return objection(Refusal::no_register, Cause::cut_message, request.first + most);
+  if (request.count > max) {
+    return objection(Refusal::no_register, Cause::cut_message, request.first + max);
   }
   if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
-  if (!is_part && request.count < static_cast<std::size_t>(row.least_words)) {
+  if (!is_part && request.count < static_cast<std::size_t>(row.min_words)) {
     return objection(Refusal::bad_value, Cause::bad_message, request.first);
   }
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
@@ -246,10 +246,10 @@ std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, V
   const Place& place = named.place;
   const bool half = place.part != Place::Part::whole;
   if (named.bit >= 0) {
-    const Value most = (Value{1} << named.width) - 1;
-    if (value < 0 || value > most) return std::nullopt;
+    const Value max = (Value{1} << named.width) - 1;
+    if (value < 0 || value > max) return std::nullopt;
     const Value whole = read_value(bank, place);
-    value = (whole & ~(most << named.bit)) | value << named.bit;
+    value = (whole & ~(max << named.bit)) | value << named.bit;
     // A write may set the sign bit like any other.
     if (!half) value = value_of(static_cast<std::uint32_t>(value), place.row->type);
   }

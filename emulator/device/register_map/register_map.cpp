@@ -128,9 +128,9 @@ void RegisterMap::find_bit_sources(TableIndex& table) const {
                                 : first_slots_[entry.row_number - 1U] + entry.index_and_part / 2;
       if (address + 1 == table.bits.size()) continue;
       const BitSource& next = table.bits[address + 1];
-      const bool goes_on =
+      const bool continues =
           next.how == source.how && next.slot == source.slot + (is_constant ? 0 : 1) && next.run < UINT16_MAX;
-      if (goes_on) source.run = static_cast<std::uint16_t>(next.run + 1);
+      if (continues) source.run = static_cast<std::uint16_t>(next.run + 1);
     }
   }
 }
@@ -358,8 +358,8 @@ std::string range_text(const NamedPlace& named, Value value) {
   const RegisterRow& row = *named.place.row;
   const bool is_half = named.place.part != Place::Part::whole;
   if (named.bit < 0 && !is_half) return range_text(row);
-  const Value most = named.bit < 0 ? limits_of(Type::u16).highest : (Value{1} << named.width) - 1;
-  if (value < 0 || value > most) return (most == 1 ? "0 or " : "0 to ") + std::to_string(most);
+  const Value max = named.bit < 0 ? limits_of(Type::u16).highest : (Value{1} << named.width) - 1;
+  if (value < 0 || value > max) return (max == 1 ? "0 or " : "0 to ") + std::to_string(max);
   return RegisterMap::name_of(row, named.place.index) + " within " + range_text(row);
 }
 

@@ -204,7 +204,7 @@ struct RegisterRow {
   bool is_view = false;  // shows other state, or `factory` without a reader: no slot, not persistent
   std::span<const BitField> fields{};
   Message message = nullptr;            // of a window: takes what one request writes from its first word on,
-  int least_words = 1;                  // if it is at least this many words
+  int min_words = 1;                    // if it is at least this many words
   bool acts_on_zero = true;             // false: a trigger, for which a written 0 has no effect
   std::string_view not_implemented;     // if the register only stores and reads back: what is missing
   Hazards hazards = Hazards::unmarked;  // of a write; see hazards_of()
@@ -405,11 +405,11 @@ constexpr RegisterRow marked(RegisterRow row, Hazards hazards) {
 
 /// Declares words that one request writes as one message. "{}" in the name stands for the word's number.
 template <auto function>
-constexpr RegisterRow window(std::uint16_t address, std::string_view name, int words, int least = 1) {
+constexpr RegisterRow window(std::uint16_t address, std::string_view name, int words, int min = 1) {
   RegisterRow row = reg(address, name, Type::u16, Access::write);
   row.is_view = true;
   row.message = Handler<function>::call;
-  row.least_words = least;
+  row.min_words = min;
   return row.times(words, 1, 0);
 }
 

@@ -87,8 +87,8 @@ void validate_acts(const RegisterRow& row, const Require& require) {
   require(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
           "is a view that can be written, but nothing handles the write");
   if (row.message == nullptr) return;
-  require(row.table == Table::holding && row.type == Type::u16 && row.stride == 1 && row.least_words >= 1 &&
-              row.least_words <= row.count,
+  require(row.table == Table::holding && row.type == Type::u16 && row.stride == 1 && row.min_words >= 1 &&
+              row.min_words <= row.count,
           "is not a window of words");
   require(row.access == Access::write && row.is_view && row.effect == nullptr && row.fields.empty(),
           "is a window, which only takes messages");

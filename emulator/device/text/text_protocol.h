@@ -30,11 +30,11 @@ class TextProtocol {
   // --- input, while it has power ---------------------------------------------------------------
   /// Receives a line without its line end. It may be empty, and may contain any byte except CR, LF and flow
   /// control. The reply is taken right afterwards; text that the device produces later is unsolicited.
-  virtual void hear_line(std::string_view line) = 0;
+  virtual void receive_line(std::string_view line) = 0;
   /// Receives a line that was too long.
-  virtual void hear_overlong() = 0;
+  virtual void receive_overlong() = 0;
   /// Receives ESC without a line end. The unfinished line is discarded.
-  virtual void hear_escape() {}
+  virtual void receive_escape() {}
 
   /// Takes a command that bypasses the line, and returns its answer without sending anything. The answer is
   /// busy if the device would not take a line as a command at this moment.
@@ -47,10 +47,10 @@ class TextProtocol {
   // --- output ------------------------------------------------------------------------------------
   /// Returns true if there is text to send. Asked after anything that may produce text: a line, a tick, an
   /// action from outside.
-  virtual bool has_speech() const = 0;
+  virtual bool has_text() const = 0;
   /// Returns all text to send, line ends included, and clears it. Sending starts when the text is taken, in
   /// the wire's time.
-  virtual std::string take_speech() = 0;
+  virtual std::string take_text() = 0;
 
  protected:
   ~TextProtocol() = default;

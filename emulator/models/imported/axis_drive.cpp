@@ -26,7 +26,7 @@ using enum Answer;
 
 /// The transition table of activities and commands. `forward` and `backward` are levels, which steer()
 /// handles.
-constexpr std::array<std::array<Answer, kDoings>, kCommands> kAnswers{{
+constexpr std::array<std::array<Answer, kActivities>, kCommands> kAnswers{{
     // rests    moves      runs       homes     stops
     {{nothing, halt, halt, halt, halt}},                    // stop_at_once
     {{nothing, slow_down, slow_down, slow_down, nothing}},  // stop
@@ -121,8 +121,8 @@ void go_home(AxisState& axis, const AxisBinding& binding, const AxisNumbers& num
 
 }  // namespace
 
-void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers,
-          Tick now) {
+void execute(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers,
+             Tick now) {
   const Answer answer = answer_to(command, activity_of(axis), binding.while_busy);
   const bool is_stop = command == Command::stop || command == Command::stop_at_once;
   if (is_stop) axis.direction_is_spent = true;

@@ -34,7 +34,7 @@ struct AxisState {
 };
 
 enum class Activity : std::uint8_t { rests, moves, runs, homes, stops };
-inline constexpr std::size_t kDoings = 5;
+inline constexpr std::size_t kActivities = 5;
 enum class Answer : std::uint8_t {
   nothing,
   begin,  // begins from standstill
@@ -71,8 +71,9 @@ class AxisNumbers {
 
 /// Executes a one-shot command. `now` is the last completed tick. Throws motion::BadMotion for numbers that
 /// no motion can have; then nothing changes.
-void obey(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers, Tick now);
-/// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as obey() does.
+void execute(AxisState& axis, const AxisBinding& binding, Command command, const AxisNumbers& numbers,
+             Tick now);
+/// Runs the axis in the direction that hosts request now: +1, -1 or 0. Throws as execute() does.
 void steer(AxisState& axis, int direction, const AxisNumbers& numbers, Tick now);
 /// Enables or disables the axis. An axis without that command is always enabled.
 void enable(AxisState& axis, const AxisBinding& binding, bool on);

@@ -43,8 +43,8 @@ struct ListedRegister {
   WordOrder order{};
   Access access = Access::read_write;
   bool ranged = false;
-  Value least = 0;
-  Value most = 0;
+  Value min = 0;
+  Value max = 0;
   std::string unit{};
   bool persistent = false;
   Value factory = 0;
@@ -188,7 +188,7 @@ struct Following {
   std::optional<Condition> as_long_as{};  // condition for following; none: always
   Quantity rest;                          // the value that it approaches otherwise
   double time_constant_s = 0;             // 0: at once, limited only by `most_per_s`
-  double most_per_s = 0;                  // counts per second; 0: no limit
+  double max_per_s = 0;                   // counts per second; 0: no limit
   Tick every = 100;                       // period of its updates
 };
 

@@ -213,7 +213,7 @@ void ImportedDevice::register_written(const RegisterRow& row, std::size_t slot) 
 
 void ImportedDevice::registers_written() {
   state_.touched = true;
-  look_at_commands();
+  check_commands();
   written_.clear();
 }
 
@@ -233,7 +233,7 @@ void ImportedDevice::attempt(std::size_t axis, Act act) {
   }
 }
 
-void ImportedDevice::look_at_commands() {
+void ImportedDevice::check_commands() {
   for (std::size_t i = 0; i < state_.axes.size(); ++i) {
     const AxisBinding& binding = description().axes[i];
     AxisState& axis = state_.axes[i];
@@ -248,7 +248,7 @@ void ImportedDevice::look_at_commands() {
       was_held = holds_now(*condition) ? 1 : 0;
       if (command == Command::enable) enable(axis, binding, was_held != 0);
       if (!given || is_stopped) continue;  // a stop in the same request wins
-      attempt(i, [&] { obey(axis, binding, command, numbers, now()); });
+      attempt(i, [&] { execute(axis, binding, command, numbers, now()); });
       is_stopped = command == Command::stop || command == Command::stop_at_once;
     }
   }
@@ -321,8 +321,9 @@ DeviceAnswer ImportedDevice::admits(const RegisterRequest& request, Checked chec
 // --- the line ------------------------------------------------------------
 
 Addressing ImportedDevice::addressing(std::uint8_t address) const {
-  if (address == station_number()) return Addressing::obey_and_reply;
-  return address == 0 && description().line.obeys_broadcasts ? Addressing::obey_silently : Addressing::ignore;
+  if (address == station_number()) return Addressing::execute_and_reply;
+  return address == 0 && description().line.obeys_broadcasts ? Addressing::execute_silently
+                                                             : Addressing::ignore;
 }
 
 pty::SimTime ImportedDevice::end_silence(pty::SimTime usual) const {

@@ -75,7 +75,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
 
@@ -115,7 +115,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
 
   bool holds_now(const Condition& condition) const { return condition.matches(value_at(condition.spot)); }
   bool is_given(const Condition& condition, bool was_held) const;
-  void look_at_commands();
+  void check_commands();
   void steer_axes(Tick done);
   template <typename Act>
   void attempt(std::size_t axis, Act act);

@@ -34,9 +34,9 @@ double lag_fraction(double time_s, double time_constant_s) {
   return share;
 }
 
-double approach(double value, double goal, double share, double most) {
+double approach(double value, double goal, double share, double max) {
   double step = share * (goal - value);
-  if (most > 0) step = std::clamp(step, -most, most);
+  if (max > 0) step = std::clamp(step, -max, max);
   const double next = value + step;
   return std::abs(goal - next) <= kRest * std::max(1.0, std::abs(goal)) ? goal : next;
 }

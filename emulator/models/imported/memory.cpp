@@ -76,7 +76,7 @@ State ImportedDevice::state_at_power_up() const {
 
 void ImportedDevice::power_up() {
   state_ = state_at_power_up();
-  look_at_commands();
+  check_commands();
 }
 
 void ImportedDevice::power_down() {

@@ -40,7 +40,7 @@ std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, c
   for (std::size_t i = 0; i < registers.size(); ++i) {
     const ListedRegister& listed = registers[i];
     RegisterRow row = reg(listed.table, listed.address, listed.name, listed.type, listed.access);
-    if (listed.ranged) row.range(listed.least, listed.most);
+    if (listed.ranged) row.range(listed.min, listed.max);
     row.in(listed.unit).from_factory(listed.factory);
     row.section = listed.printed;
     row.since_firmware(listed.since);

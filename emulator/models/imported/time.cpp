@@ -89,9 +89,9 @@ void ImportedDevice::renew_followed(Tick tick) {
   for (std::size_t i = 0; i < state_.followed.size(); ++i) {
     const Following& following = description().followings[i];
     if (tick % following.every != 0) continue;
-    const double most = following.most_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
+    const double limit = following.max_per_s * static_cast<double>(following.every) / motion::kTicksPerSecond;
     const double before = state_.followed[i];
-    state_.followed[i] = approach(before, goal_of(following), shares_[i], most);
+    state_.followed[i] = approach(before, goal_of(following), shares_[i], limit);
     // An axis may use the value as a speed.
     if (state_.followed[i] != before && !state_.axes.empty()) state_.touched = true;
   }
@@ -140,15 +140,14 @@ Tick ImportedDevice::next_active_tick(Tick done) const {
   return all_rest ? next_tick_of_values(done) : done + 1;
 }
 
-Tick ImportedDevice::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
+Tick ImportedDevice::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
   if (state_.touched || inputs_changed()) return done + 1;
-  Tick last = std::min(most, next_tick_of_values(done) - 1);
+  Tick last = std::min(limit, next_tick_of_values(done) - 1);
   for (std::size_t i = 0; i < state_.axes.size() && last > done; ++i) {
     const motion::Axis& motor = state_.axes[i].motor;
     const PulseRoom room = ahead.room(static_cast<int>(i));
-    last =
-        motor.quiet_until(done + 1, last, state_.axes[i].environment,
-                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+    last = motor.quiet_until(done + 1, last, state_.axes[i].environment,
+                             {.low = motor.travel_pulses + room.min, .high = motor.travel_pulses + room.max});
   }
   return last + 1;
 }

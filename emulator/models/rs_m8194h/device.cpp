@@ -45,9 +45,9 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
 Addressing RsM8194h::addressing(std::uint8_t address) const {
   if (module_.status.is_deaf()) return Addressing::ignore;
   if (address == 0) {
-    return chose(option("broadcast", "ignored")) ? Addressing::ignore : Addressing::obey_silently;
+    return chose(option("broadcast", "ignored")) ? Addressing::ignore : Addressing::execute_silently;
   }
-  return address == station_number() ? Addressing::obey_and_reply : Addressing::ignore;
+  return address == station_number() ? Addressing::execute_and_reply : Addressing::ignore;
 }
 
 pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {

@@ -51,7 +51,7 @@ Module::Module(const Ground& ground, State& state)
 // --- time ------------------------------------------------------------------------------------------------
 
 void Module::sample_inputs(Tick tick, bool inputs_changed) {
-  if (inputs_changed) frnet.look_at_inputs();
+  if (inputs_changed) frnet.check_inputs();
   if (inputs_changed || chip.holds_back()) {
     chip.pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {

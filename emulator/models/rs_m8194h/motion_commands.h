@@ -38,9 +38,9 @@ template <Speed kind>
 std::uint32_t within_range(const Module& it, std::uint32_t given, std::uint32_t max_v) {
   if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
   const SpeedRange range = speed_range(max_v, it.machine_options().speed);
-  const double least = kind == Speed::slope ? range.least_slope : kind == Speed::jerk ? range.least_jerk : 0;
-  const double most = kind == Speed::slope ? range.most_slope : kind == Speed::jerk ? kMaxJerk : range.max_v;
-  return static_cast<std::uint32_t>(std::clamp<double>(given, least, most));
+  const double min = kind == Speed::slope ? range.min_slope : kind == Speed::jerk ? range.min_jerk : 0;
+  const double max = kind == Speed::slope ? range.max_slope : kind == Speed::jerk ? kMaxJerk : range.max_v;
+  return static_cast<std::uint32_t>(std::clamp<double>(given, min, max));
 }
 
 /// Sets a number of the speed settings; it applies from the next drive on.
@@ -55,7 +55,7 @@ Took set_speed(Module& it, const Command& command) {
   return Took::done;
 }
 /// Gives homing the new speeds; it uses them from its next phase on.
-inline void tell_homing(Module& it, std::size_t axis) {
+inline void update_homing(Module& it, std::size_t axis) {
   motion::Homing& homing = it.chip.motor(axis).homing;
   if (!homing.active()) return;
   const AxisUnit& unit = it.chip.unit(axis);
@@ -68,7 +68,7 @@ inline Took set_drive_speed(Module& it, const Command& command) {
     AxisUnit& unit = it.chip.unit(a);
     unit.speed.drive_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
     it.drives.change_speed(a, {.tick = it.now()});
-    tell_homing(it, a);
+    update_homing(it, a);
   });
   return Took::done;
 }
@@ -84,7 +84,7 @@ inline Took home_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);
     unit.homing.home_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
-    tell_homing(it, a);
+    update_homing(it, a);
   });
   return Took::done;
 }
@@ -121,7 +121,7 @@ inline Took set_pulse(Module& it, const Command& command) {
     if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
     const bool counts = !is_against || it.chose(option("set_pulse_sign", "counts_all_the_same"));
     motor.change_distance(counts ? std::abs(given) : 0, true, it.now());
-    it.drives.take_off(a, WayOut::other_drive);  // the rest belongs to this command now
+    it.drives.take_off(a, DiscardEvent::other_drive);  // the rest belongs to this command now
   });
   return Took::done;
 }

@@ -162,10 +162,10 @@ bool is_moving(const AxisState& axis);
 /// Returns the first tick after `done` at which the axis may change without a command.
 Tick next_active_tick(const AxisState& axis, Tick done);
 
-// --- many ticks in one step: axis_crossing.cpp ------------------------------------------------------
+// --- many ticks in one step: axis_fast_forward.cpp ------------------------------------------------------
 
 /// The conditions for fast-forwarding an axis.
-struct Crossing {
+struct SkipContext {
   Tick done = 0;  // the last completed tick
   DriveSettings settings;
   bool reversed = false;          // DIR_Polarity
@@ -174,10 +174,10 @@ struct Crossing {
   const ClearTravel* ahead = nullptr;
 };
 
-/// Returns the last tick, up to `most`, through which the axis merely continues, or crossing.done if the next
-/// tick is not quiet.
-Tick quiet_until(const AxisState& axis, const Crossing& crossing, Tick most);
+/// Returns the last tick, up to `limit`, through which the axis merely continues, or skip_context.done if the
+/// next tick is not quiet.
+Tick quiet_until(const AxisState& axis, const SkipContext& skip_context, Tick limit);
 /// Brings the axis to `tick`. Returns the pulses, in the commanded direction.
-std::int64_t cross(AxisState& axis, const Crossing& crossing, Tick tick);
+std::int64_t fast_forward(AxisState& axis, const SkipContext& skip_context, Tick tick);
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -35,9 +35,9 @@ Outcome AxisView::reaction(Event event) const {
   const bool is_held = needs_servo && lacks_servo();
   const Transition* row =
       reaction_row(activity(state()), is_held ? Phase::servo_off : phase_of(state(), now()), event);
-  if (row == nullptr) return Outcome::goes_on;
+  if (row == nullptr) return Outcome::continues;
   for (const OtherOutcome& other : {row->other, row->another}) {
-    if (other.is_there && chose(other.chosen)) return other.outcome;
+    if (other.exists && chose(other.chosen)) return other.outcome;
   }
   return row->outcome;
 }
@@ -51,11 +51,11 @@ Event AxisView::event_by_direction(int direction, Event towards, Event away) con
 motion::SpeedLaw AxisView::law_of(std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                                   std::uint32_t deceleration_10ms) const {
   // Times of 0 count as 1 (appendix A), which is 10 ms unless a choice makes it shorter.
-  const double least_s = chose(option("least_ramp", "1ms"))     ? 0.001
-                         : chose(option("least_ramp", "500us")) ? 0.0005
-                                                                : 0.01;
+  const double min_s = chose(option("least_ramp", "1ms"))     ? 0.001
+                       : chose(option("least_ramp", "500us")) ? 0.0005
+                                                              : 0.01;
   const auto by_time = [&](std::uint32_t time_10ms) {
-    return motion::RampLaw::by_time(time_10ms == 0 ? least_s : time_10ms / 100.0);
+    return motion::RampLaw::by_time(time_10ms == 0 ? min_s : time_10ms / 100.0);
   };
   const double speed_pps = static_cast<double>(speed_rpm) * resolution() / 60.0;
   return {.top_speed_u_s = std::min(speed_pps, static_cast<double>(kMaxPulseRate_pps)),
@@ -96,7 +96,7 @@ motion::Follower AxisView::sync_follower() const {
   return follower_by(sync);
 }
 
-Crossing AxisView::crossing(Tick done, const ClearTravel& ahead) const {
+SkipContext AxisView::skip_context(Tick done, const ClearTravel& ahead) const {
   return {.done = done,
           .settings = drive_settings(),
           .reversed = reversed(),

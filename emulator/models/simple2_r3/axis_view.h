@@ -41,7 +41,7 @@ class AxisView {
   std::int32_t coordinate_after(std::int64_t commanded) const;
 
   DriveSettings drive_settings() const;
-  Crossing crossing(Tick done, const ClearTravel& ahead) const;
+  SkipContext skip_context(Tick done, const ClearTravel& ahead) const;
 
  protected:
   int number() const { return number_; }

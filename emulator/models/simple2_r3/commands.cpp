@@ -32,7 +32,7 @@ bool AxisCommands::may_begin(Outcome outcome, const KeptCommand& what) {
       if (what.command != Command::none) axis().cut_short = false;
       return false;
     case Outcome::ends: stop_drive(axis()); return false;
-    case Outcome::goes_on:
+    case Outcome::continues:
     case Outcome::stops:
     case Outcome::leaves:
     case Outcome::waits:
@@ -144,7 +144,7 @@ void AxisCommands::run_velocity(std::int64_t milli_rpm) {
     case Outcome::waits:
     case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
     case Outcome::slows: take_off(axis, outcome); break;
-    case Outcome::goes_on:
+    case Outcome::continues:
     case Outcome::stops:
     case Outcome::leaves:
     case Outcome::turns:

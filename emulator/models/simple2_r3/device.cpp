@@ -49,11 +49,11 @@ Addressing Simple2R3::addressing(std::uint8_t address) const {
   if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
   const int rotary_switch = *station_number();
   if (rotary_switch == 0) {
-    return address == 0 && chose(option("switch_0_broadcast", "silent")) ? Addressing::obey_silently
-                                                                         : Addressing::obey_and_reply;
+    return address == 0 && chose(option("switch_0_broadcast", "silent")) ? Addressing::execute_silently
+                                                                         : Addressing::execute_and_reply;
   }
-  if (address == rotary_switch) return Addressing::obey_and_reply;
-  if (address == 0 && !chose(option("station_0_request", "ignored"))) return Addressing::obey_silently;
+  if (address == rotary_switch) return Addressing::execute_and_reply;
+  if (address == 0 && !chose(option("station_0_request", "ignored"))) return Addressing::execute_silently;
   return Addressing::ignore;
 }
 
@@ -123,10 +123,10 @@ Tick Simple2R3::next_active_tick(Tick done) const {
   return next > done + 1 && inputs_changed() && signals().have_changed() ? done + 1 : next;
 }
 
-Tick Simple2R3::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
-  Tick last = std::min(most, next_tick_without_axes(done) - 1);
+Tick Simple2R3::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
+  Tick last = std::min(limit, next_tick_without_axes(done) - 1);
   for (int number = 0; number < 2 && last > done; ++number) {
-    last = quiet_until(axis(number).state(), axis(number).crossing(done, ahead), last);
+    last = quiet_until(axis(number).state(), axis(number).skip_context(done, ahead), last);
   }
   return last > done && inputs_changed() && signals().have_changed() ? done + 1 : last + 1;
 }
@@ -136,7 +136,7 @@ void Simple2R3::fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
   for (int number = 0; number < 2; ++number) {
     const AxisView view(state_, setup_, number);
     AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
-    const std::int64_t commanded = cross(axis, view.crossing(done, ahead), tick);
+    const std::int64_t commanded = fast_forward(axis, view.skip_context(done, ahead), tick);
     axis.coordinate_pulses = view.coordinate_after(commanded);
     pulses[static_cast<std::size_t>(number)] += view.sent(commanded);
   }

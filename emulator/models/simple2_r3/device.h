@@ -82,7 +82,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
   void prefetch(Tick tick) const override;

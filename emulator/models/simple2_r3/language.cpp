@@ -84,10 +84,10 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   CellForm cell_form() const override {
     return {.row = "CMD DATA1 DATA2 JMP",
             .fewest = lang::kCellsPerLine,
-            .most = lang::kCellsPerLine,
+            .max = lang::kCellsPerLine,
             .lowest = 0,
             .highest = 255,
-            .most_rows = lang::kLineCount};
+            .max_rows = lang::kLineCount};
   }
   /// Lists the cells as a master writes them from 0x4000 on; zero lines at the end are left out.
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings&) const override {

@@ -46,30 +46,30 @@ const std::vector<NamedPlace>& parameter_places() {
 }  // namespace
 
 template <class Seen, class StateSeen, class Bank>
-bool ProgramSight<Seen, StateSeen, Bank>::input(int din) const {
+bool ProgramStateView<Seen, StateSeen, Bank>::input(int din) const {
   return Signals(state_, setup_).input(din);
 }
 
 template <class Seen, class StateSeen, class Bank>
-bool ProgramSight<Seen, StateSeen, Bank>::status_bit(int bit) const {
+bool ProgramStateView<Seen, StateSeen, Bank>::status_bit(int bit) const {
   return ((Signals(state_, setup_).status() >> bit) & 1) != 0;
 }
 
 template <class Seen, class StateSeen, class Bank>
-std::int32_t ProgramSight<Seen, StateSeen, Bank>::parameter(int number) const {
+std::int32_t ProgramStateView<Seen, StateSeen, Bank>::parameter(int number) const {
   const NamedPlace& place = parameter_places()[static_cast<std::size_t>(number)];
   if (!place.place) return 0;
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(read_value(bank_, place)));
 }
 
 template <class Seen, class StateSeen, class Bank>
-bool ProgramSight<Seen, StateSeen, Bank>::moving(Axis axis) const {
+bool ProgramStateView<Seen, StateSeen, Bank>::moving(Axis axis) const {
   const std::size_t number = number_of(axis);
   return state_.axes[number].command != Command::none || state_.kept[number].command != Command::none;
 }
 
 template <class Seen, class StateSeen, class Bank>
-bool ProgramSight<Seen, StateSeen, Bank>::moving_for_wait(Axis axis) const {
+bool ProgramStateView<Seen, StateSeen, Bank>::moving_for_wait(Axis axis) const {
   const std::size_t number = number_of(axis);
   const bool homes =
       state_.axes[number].command == Command::homing || state_.kept[number].command == Command::homing;
@@ -77,12 +77,12 @@ bool ProgramSight<Seen, StateSeen, Bank>::moving_for_wait(Axis axis) const {
 }
 
 template <class Seen, class StateSeen, class Bank>
-bool ProgramSight<Seen, StateSeen, Bank>::cut_short(Axis axis) const {
+bool ProgramStateView<Seen, StateSeen, Bank>::cut_short(Axis axis) const {
   return state_.axes[number_of(axis)].cut_short;
 }
 
-template class ProgramSight<interpreter::simple2::MachineView, const State, const RegisterBank>;
-template class ProgramSight<interpreter::simple2::Machine, State, RegisterBank>;
+template class ProgramStateView<interpreter::simple2::MachineView, const State, const RegisterBank>;
+template class ProgramStateView<interpreter::simple2::Machine, State, RegisterBank>;
 
 void ProgramMachine::set_outputs(std::uint8_t which, std::uint8_t levels) {
   write_outputs(state_, setup_, which, levels);

@@ -15,11 +15,11 @@ namespace understudy::emulator::models::simple2_r3 {
 
 /// The part of the machine that a program reads. `Seen` is the whole abstract machine, or its read-only part.
 template <class Seen, class StateSeen, class Bank>
-class ProgramSight : public Seen {
+class ProgramStateView : public Seen {
  public:
   using Axis = interpreter::simple2::Axis;
 
-  ProgramSight(StateSeen& state, const Setup& setup, Bank& bank)
+  ProgramStateView(StateSeen& state, const Setup& setup, Bank& bank)
       : state_(state), setup_(setup), bank_(bank) {}
 
   bool input(int din) const final;
@@ -37,14 +37,14 @@ class ProgramSight : public Seen {
   Bank& bank_;
 };
 
-extern template class ProgramSight<interpreter::simple2::MachineView, const State, const RegisterBank>;
-extern template class ProgramSight<interpreter::simple2::Machine, State, RegisterBank>;
+extern template class ProgramStateView<interpreter::simple2::MachineView, const State, const RegisterBank>;
+extern template class ProgramStateView<interpreter::simple2::Machine, State, RegisterBank>;
 
-using ProgramView = ProgramSight<interpreter::simple2::MachineView, const State, const RegisterBank>;
+using ProgramView = ProgramStateView<interpreter::simple2::MachineView, const State, const RegisterBank>;
 
-class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, State, RegisterBank> {
+class ProgramMachine final : public ProgramStateView<interpreter::simple2::Machine, State, RegisterBank> {
  public:
-  using ProgramSight::ProgramSight;
+  using ProgramStateView::ProgramStateView;
 
   void set_outputs(std::uint8_t which, std::uint8_t levels) override;
   void set_parameter(int number, std::int32_t value) override;

@@ -37,7 +37,7 @@ interpreter::simple2::FlagRules flag_rules_of(const Setup& setup) {
   if (setup.chose(option("same_flag_twice", "last_written"))) rules.several = Rules::Several::last_written;
   if (setup.chose(option("flags_after_end", "does_not_count")))
     rules.after_end = Rules::AfterEnd::do_not_count;
-  if (setup.chose(option("flags_found", "at_start"))) rules.found = Rules::Found::when_told;
+  if (setup.chose(option("flags_found", "at_start"))) rules.found = Rules::Found::on_request;
   return rules;
 }
 
@@ -49,7 +49,7 @@ void Programs::power_up() {
   reset_timers();
   state_.program = interpreter::simple2::Program({}, flag_rules_of(setup_));
   reload();
-  find_flags_if_told();
+  find_flags_if_requested();
 }
 
 void Programs::reload() {
@@ -81,9 +81,9 @@ void Programs::clear() {
   reload();
 }
 
-void Programs::find_flags_if_told() {
+void Programs::find_flags_if_requested() {
   using Found = interpreter::simple2::FlagRules::Found;
-  if (state_.program.flag_rules().found == Found::when_told) state_.program.find_flags();
+  if (state_.program.flag_rules().found == Found::on_request) state_.program.find_flags();
 }
 
 // --- its run ---------------------------------------------------------------------------------------
@@ -95,7 +95,7 @@ void Programs::start(std::uint8_t line) {
   interpreter::simple2::start(execution, line);
   if (setup_.chose(option("start_while_running", "jumps")))
     execution.loop = loop;  // it has no loop if the program was not running
-  find_flags_if_told();
+  find_flags_if_requested();
   if (!setup_.chose(option("program_start", "clears_them"))) return;
   for (Timer& timer : state_.timers) timer = {};
   constexpr std::array kValues{slot("CalcREG"), slot("Counter1_Value"), slot("Counter2_Value")};
@@ -114,7 +114,7 @@ void Programs::run(Tick tick, ProgramWatch* watch) {
   if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
   ProgramMachine machine(state_, setup_, bank_);
   if (watch != nullptr) {
-    watch->look(hash_of(std::as_bytes(std::span(state_.program.lines()))));
+    watch->program_loaded(hash_of(std::as_bytes(std::span(state_.program.lines()))));
     machine.set_watch(watch);
   }
   interpreter::simple2::step(state_.execution, tick, state_.program, setup_.dialect, machine);

@@ -36,7 +36,7 @@ class Programs {
 
  private:
   void has_ended();
-  void find_flags_if_told();
+  void find_flags_if_requested();
 
   State& state_;
   const Setup& setup_;

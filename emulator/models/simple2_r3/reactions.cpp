@@ -29,7 +29,7 @@ void meet_in_velocity(AxisState& axis, Outcome outcome) {
     case Outcome::slows: return take_off(axis, outcome);
     case Outcome::turns: halt_velocity(axis); return resume_velocity(axis);
     case Outcome::resumes: return resume_velocity(axis);
-    case Outcome::goes_on:
+    case Outcome::continues:
     case Outcome::leaves:
     case Outcome::slows_and_waits:
     case Outcome::blocked:
@@ -78,7 +78,7 @@ void AxisReactions::stop(Stopping how) {
 }
 
 void AxisReactions::servo_off() {
-  const bool stays = axis().mode == Mode::pwm && reaction(Event::servo_off) == Outcome::goes_on;
+  const bool stays = axis().mode == Mode::pwm && reaction(Event::servo_off) == Outcome::continues;
   if (!stays && servo_matters()) stop();
   axis().motor.switch_servo(false);
 }
@@ -140,7 +140,7 @@ void AxisReactions::handle_in_sync(Outcome outcome) {
     case Outcome::resumes:
       if (axis().motor.task != motion::Task::following) begin_following();
       return;
-    case Outcome::goes_on:
+    case Outcome::continues:
     case Outcome::stops:
     case Outcome::waits:
     case Outcome::turns:

@@ -27,8 +27,8 @@ void require_encoder_count(std::int64_t counts) {
 
 /// Limits the speed, because velocity mode multiplies it by the resolution.
 void require_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
-  const std::int64_t most = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
-  require_within(axis.speed_urpm, -most, most);
+  const std::int64_t max = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
+  require_within(axis.speed_urpm, -max, max);
 }
 
 }  // namespace

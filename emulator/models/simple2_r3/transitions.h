@@ -52,7 +52,7 @@ enum class Event : std::uint8_t {
 inline constexpr int kEvents = 17;
 
 enum class Outcome : std::uint8_t {
-  goes_on,          // continues as if nothing had happened
+  continues,        // continues as if nothing had happened
   stops,            // sends no pulses and no duty from now on; the target is dropped
   leaves,           // like stops, and returns to position mode
   waits,            // sends no pulses and no duty until the cause is gone
@@ -71,11 +71,11 @@ enum class Outcome : std::uint8_t {
 /// The outcome of a cell under another option.
 struct OtherOutcome {
   Option chosen{};
-  Outcome outcome = Outcome::goes_on;
-  bool is_there = false;
+  Outcome outcome = Outcome::continues;
+  bool exists = false;
 
   constexpr OtherOutcome() = default;
-  constexpr OtherOutcome(Option option, Outcome what) : chosen(option), outcome(what), is_there(true) {}
+  constexpr OtherOutcome(Option option, Outcome what) : chosen(option), outcome(what), exists(true) {}
 };
 
 /// A set of Activities, Phases or Events.
@@ -143,7 +143,7 @@ inline constexpr OtherOutcome kFromTheSpeed{option("move_in_other_mode", "goes_o
 // clang-format off
 inline constexpr Transition kRows[] = {
     // --- limits ---
-    {kPosition | kVelocity, kResting, set_of(E::limit_ahead), goes_on, "limit_reaction"},
+    {kPosition | kVelocity, kResting, set_of(E::limit_ahead), continues, "limit_reaction"},
     {kPosition, kGoing,           set_of(E::limit_ahead), stops, "limit_reaction"},
     {kHoming,   kRunning,         set_of(E::limit_ahead), turns, "homing_sequence"},
     {kHoming,   set_of(leaving),  set_of(E::limit_ahead), stops, "homing_sequence"},
@@ -151,41 +151,41 @@ inline constexpr Transition kRows[] = {
     {kVelocity, set_of(turning),  set_of(E::limit_ahead), turns, "limit_reaction"},
     {kSync,     kReady,           set_of(E::limit_ahead), blocked, "limit_reaction"},
 
-    {kPositioning, kFree,         set_of(E::limit_behind), goes_on, "limit_reaction"},
-    {kVelocity, set_of(standing, moving, slowing), set_of(E::limit_behind), goes_on, "limit_reaction"},
+    {kPositioning, kFree,         set_of(E::limit_behind), continues, "limit_reaction"},
+    {kVelocity, set_of(standing, moving, slowing), set_of(E::limit_behind), continues, "limit_reaction"},
     {kVelocity, set_of(turning),  set_of(E::limit_behind), slows, "after_limit", {kLimitResumes, slows_and_waits}},
-    {kSync,     kFree,            set_of(E::limit_behind), goes_on, "limit_reaction"},
+    {kSync,     kFree,            set_of(E::limit_behind), continues, "limit_reaction"},
 
-    {kPwm,      kPowered,         set_of(E::limit_ahead), goes_on, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
-    {kPwm,      kFree,            set_of(E::limit_behind), goes_on, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
-    {kAny & ~kPwm, set_of(in_alarm), set_of(E::limit_ahead), goes_on, "limit_reaction"},
-    {kAny,      set_of(in_alarm), set_of(E::limit_gone), goes_on, "limit_reaction"},
+    {kPwm,      kPowered,         set_of(E::limit_ahead), continues, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
+    {kPwm,      kFree,            set_of(E::limit_behind), continues, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
+    {kAny & ~kPwm, set_of(in_alarm), set_of(E::limit_ahead), continues, "limit_reaction"},
+    {kAny,      set_of(in_alarm), set_of(E::limit_gone), continues, "limit_reaction"},
 
-    {kPositioning | kPwm, kOnLimit, set_of(E::limit_gone), goes_on, "limit_reaction"},
-    {kVelocity, set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
-    {kVelocity, set_of(at_limit), set_of(E::limit_gone), goes_on, "after_limit", {kLimitResumes, resumes}},
-    {kSync,     set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
+    {kPositioning | kPwm, kOnLimit, set_of(E::limit_gone), continues, "limit_reaction"},
+    {kVelocity, set_of(leaving),  set_of(E::limit_gone), continues, "limit_reaction"},
+    {kVelocity, set_of(at_limit), set_of(E::limit_gone), continues, "after_limit", {kLimitResumes, resumes}},
+    {kSync,     set_of(leaving),  set_of(E::limit_gone), continues, "limit_reaction"},
     {kSync,     set_of(at_limit), set_of(E::limit_gone), resumes, "系統參數相關: 0xF024, left by STOP alone"},
 
     // --- alarm ---
-    {kPosition | kVelocity, kResting, set_of(E::alarm), goes_on, "alarm_reaction"},
+    {kPosition | kVelocity, kResting, set_of(E::alarm), continues, "alarm_reaction"},
     {kPositioning, kGoing,        set_of(E::alarm), stops, "alarm_reaction"},
     {kVelocity, kGoing,           set_of(E::alarm), stops, "after_alarm", {kAlarmResumes, waits}},
-    {kPwm, set_of(standing),      set_of(E::alarm), goes_on, "alarm_reaction"},
+    {kPwm, set_of(standing),      set_of(E::alarm), continues, "alarm_reaction"},
     {kPwm, set_of(moving, at_limit), set_of(E::alarm), stops, "after_alarm", {kAlarmResumes, waits}},
     {kSync, kReady,               set_of(E::alarm), waits, "sync_after_alarm", {option("sync_after_alarm", "mode_left"), leaves}},
 
-    {kPosition, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "alarm_reaction"},
-    {kVelocity | kPwm, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "after_alarm", {kAlarmResumes, resumes}},
+    {kPosition, set_of(in_alarm), set_of(E::alarm_gone), continues, "alarm_reaction"},
+    {kVelocity | kPwm, set_of(in_alarm), set_of(E::alarm_gone), continues, "after_alarm", {kAlarmResumes, resumes}},
     {kSync, set_of(in_alarm),     set_of(E::alarm_gone), resumes, "sync_after_alarm"},
 
     // --- STOP, SVOFF ---
-    {kPosition, kResting | set_of(in_alarm), set_of(E::stop, E::servo_off), goes_on, "運動相關: 0x100D, 0x1013"},
+    {kPosition, kResting | set_of(in_alarm), set_of(E::stop, E::servo_off), continues, "運動相關: 0x100D, 0x1013"},
     {kPositioning, kGoing, set_of(E::stop), stops, "stop", {option("stop", "slows_down"), slows}},
     {kPositioning, kGoing, set_of(E::servo_off), stops, "程式指令列表: 0x2B, SVOFF"},
     {kVelocity, kPowered, set_of(E::stop, E::servo_off), leaves, "mode_after_stop", {kModeStays, stops}},
     {kPwm, kPowered, set_of(E::stop), leaves, "mode_after_stop", {kModeStays, stops}},
-    {kPwm, kPowered, set_of(E::servo_off), leaves, "pwm_servo", {kPwmNeedsNoServo, goes_on}, {kModeStays, stops}},
+    {kPwm, kPowered, set_of(E::servo_off), leaves, "pwm_servo", {kPwmNeedsNoServo, continues}, {kModeStays, stops}},
     {kSync, kPowered, set_of(E::stop), leaves, "系統參數相關: 0xF024"},
     {kSync, kPowered, set_of(E::servo_off), leaves, "程式指令列表: 0x2B, SVOFF"},
 

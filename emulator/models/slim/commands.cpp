@@ -10,13 +10,13 @@
 #include "emulator/models/slim/motor/jobs.h"
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/output.h"
 #include "emulator/models/slim/parameters_set.h"
 #include "emulator/models/slim/power.h"
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/rules/options.h"
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/models/slim/setup.h"
-#include "emulator/models/slim/speech.h"
 #include "emulator/models/slim/state.h"
 #include "emulator/models/slim/variables.h"
 #include "interpreter/slim/command.h"
@@ -76,18 +76,18 @@ constexpr std::array kCommandVerbs = [] {
 lang::Outcome::Program program_after_stop(const Setup& setup, From from) {
   using Program = lang::Outcome::Program;
   if (setup.chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;
-  if (setup.chose(option("emergency_stop_program", "goes_on"))) return Program::goes_on;
-  switch (outcome_of(Doing::program_runs, Event::stop, from)) {
+  if (setup.chose(option("emergency_stop_program", "goes_on"))) return Program::continues;
+  switch (outcome_of(ActiveTask::program_runs, Event::stop, from)) {
     case Outcome::ends: return Program::ends;
     case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
     case Outcome::comes_to_a_stand:
     case Outcome::does_as_before:
     case Outcome::is_forgotten:
     case Outcome::stops_at_once:
-    case Outcome::goes_on:
+    case Outcome::continues:
     case Outcome::cannot_be: break;
   }
-  return Program::goes_on;
+  return Program::continues;
 }
 
 /// Evaluates DN, TpDN and XDN.
@@ -265,8 +265,8 @@ struct Actions {
   }
   /// A program is much faster than its line, so it waits until there is room.
   static Error print_from_program(Order& order) {
-    order.outcome.waits = !has_room_to_speak(order.state, order.setup);
-    if (!order.outcome.waits) say(order.state, order.setup, printed(order));
+    order.outcome.waits = !has_room_to_print(order.state, order.setup);
+    if (!order.outcome.waits) send_line(order.state, order.setup, printed(order));
     return Error::none;
   }
   static Error print_from_host(Order& order) {
@@ -275,7 +275,7 @@ struct Actions {
   }
   static Error list_from_program(Order& order) {
     for (const std::string& line : parameter_list(order.state, order.setup)) {
-      say(order.state, order.setup, line);
+      send_line(order.state, order.setup, line);
     }
     return Error::none;
   }

@@ -23,13 +23,13 @@
 #include "emulator/models/slim/error_log.h"
 #include "emulator/models/slim/error_words.h"
 #include "emulator/models/slim/model.h"
+#include "emulator/models/slim/output.h"
 #include "emulator/models/slim/parameters_set.h"
 #include "emulator/models/slim/power.h"
 #include "emulator/models/slim/program_text.h"
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/rules/options.h"
 #include "emulator/models/slim/setup.h"
-#include "emulator/models/slim/speech.h"
 #include "emulator/models/slim/state.h"
 #include "emulator/models/slim/variables.h"
 #include "interpreter/slim/command.h"
@@ -56,16 +56,16 @@ void Slim::wake() {
 
 TextRules Slim::text_rules() const { return slim::text_rules(setup_); }
 
-void Slim::hear_line(std::string_view line) {
+void Slim::receive_line(std::string_view line) {
   wake();
-  slim::hear_line(state_, setup_, *this, line);
+  slim::receive_line(state_, setup_, *this, line);
 }
 
 std::string_view Slim::meaning_of(std::string_view line) const { return meaning_of_reply(setup_, line); }
 
-void Slim::hear_overlong() {
+void Slim::receive_overlong() {
   wake();
-  slim::hear_overlong(state_, setup_);
+  slim::receive_overlong(state_, setup_);
 }
 
 DeviceAnswer Slim::take_command(std::string_view line) {
@@ -73,7 +73,7 @@ DeviceAnswer Slim::take_command(std::string_view line) {
   return slim::take_command(state_, setup_, *this, line);
 }
 
-void Slim::hear_escape() {
+void Slim::receive_escape() {
   wake();
   state_.editor = {};
 }
@@ -142,12 +142,12 @@ void Slim::sample_inputs(Tick tick) { slim::sample_inputs(state_, setup_, tick);
 void Slim::run_interpreters(Tick tick) {
   if (program_is_held(state_, setup_)) return;
   failed_module_ = 0;
-  if (watch() != nullptr) watch()->look(mark_of(state_.program));
+  if (watch() != nullptr) watch()->program_loaded(mark_of(state_.program));
   const Error error = step(state_.execution, tick, state_.program, setup_.flow, *this);
   if (error == Error::none) return;
   // A program that fails repeatedly is faster than its line: errors without room on the line are only stored.
   const bool is_said =
-      chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_speak(state_, setup_);
+      chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_print(state_, setup_);
   const int module = is_said ? fail(state_, setup_, failed_module_, error)
                              : remember_error(state_, setup_, failed_module_, error);
   // A host that asks T0 why its program has ended gets the error, even if it belonged to another motor.
@@ -165,11 +165,11 @@ Tick Slim::next_active_tick(Tick done) const {
                   next_active_ms(state_.execution, done, state_.program, setup_.flow, *this));
 }
 
-Tick Slim::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
+Tick Slim::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
   // Values that a program and its events read change with motion.
   const bool is_looked_at = state_.execution.running || !setup_.flow.events_need_program;
   if (state_.touched || (is_looked_at && !program_is_held(state_, setup_))) return done + 1;
-  const Tick next = state_.chain.next_event_tick(done, most, ahead);
+  const Tick next = state_.chain.next_event_tick(done, limit, ahead);
   return next > done + 1 && sees_something_new(state_, setup_) ? done + 1 : next;
 }
 

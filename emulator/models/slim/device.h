@@ -49,13 +49,13 @@ class Slim final : public StatefulDevice<Slim, State>,
 
   // --- the dialogue ---
   TextRules text_rules() const override;
-  void hear_line(std::string_view line) override;
+  void receive_line(std::string_view line) override;
   std::string_view meaning_of(std::string_view line) const override;
-  void hear_overlong() override;
+  void receive_overlong() override;
   DeviceAnswer take_command(std::string_view line) override;
-  void hear_escape() override;
-  bool has_speech() const override { return !state_.speech.empty(); }
-  std::string take_speech() override { return std::exchange(state_.speech, {}); }
+  void receive_escape() override;
+  bool has_text() const override { return !state_.speech.empty(); }
+  std::string take_text() override { return std::exchange(state_.speech, {}); }
 
   // --- by name ---
   std::optional<double> value_named(std::string_view name) const override;
@@ -79,7 +79,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   void step_motion(Tick tick) override { state_.chain.step(tick); }
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
   State settled() const;

@@ -60,8 +60,8 @@ void Slim::check_restored(State& restored) const {
     require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
   }
   const auto check_integers = [&](const auto& integers) {
-    const int least = setup_.of_programs().dialect.integer_least;
-    for (const std::int16_t value : integers) require_within(value, least, lang::kIntegerMost);
+    const int min = setup_.of_programs().dialect.integer_min;
+    for (const std::int16_t value : integers) require_within(value, min, lang::kIntegerMax);
   };
   for (const Memory* const memory : {&restored.ram, &restored.kept}) {
     check_integers(memory->integers);

@@ -11,11 +11,11 @@
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/text/text_protocol.h"
 #include "emulator/models/slim/actions.h"
+#include "emulator/models/slim/output.h"
 #include "emulator/models/slim/queries.h"
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/rules/options.h"
 #include "emulator/models/slim/setup.h"
-#include "emulator/models/slim/speech.h"
 #include "emulator/models/slim/state.h"
 #include "interpreter/slim/availability.h"
 #include "interpreter/slim/command.h"
@@ -48,8 +48,8 @@ bool takes_for_number(const State& state, const Setup& setup, std::string_view l
 }
 
 /// Executes a typed command. `lines` receives its reply.
-Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang::Command& command,
-           std::vector<std::string>& lines) {
+Error execute(State& state, const Setup& setup, const lang::Machine& machine, lang::Command& command,
+              std::vector<std::string>& lines) {
   if (const Error error = resolve_indices(command, machine); error != Error::none) return error;
   const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
     return operand.kind == lang::Operand::Kind::quantity;
@@ -72,7 +72,7 @@ Error obey(State& state, const Setup& setup, const lang::Machine& machine, lang:
 }
 
 /// Executes a command, sends its result, and returns its error.
-Error hear_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
+Error receive_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {
     // A label belongs in a program.
@@ -93,13 +93,13 @@ Error hear_command(State& state, const Setup& setup, const lang::Machine& machin
     return Error::not_allowed;
   }
   std::vector<std::string> lines;
-  const Error error = obey(state, setup, machine, command, lines);
+  const Error error = execute(state, setup, machine, command, lines);
   if (setup.is_silence(error)) return Error::none;
   if (error != Error::none) {
     fail(state, setup, command.module < 0 ? 0 : command.module, error);
     return error;
   }
-  for (const std::string& text : lines) say(state, setup, text);
+  for (const std::string& text : lines) send_line(state, setup, text);
   if (lines.empty() && setup.device.powered()) acknowledge(state, setup);
   return Error::none;
 }
@@ -114,7 +114,7 @@ TextRules text_rules(const Setup& setup) {
           .echoed_end = setup.line_end()};
 }
 
-void hear_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
+void receive_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   if (is_editing(state.editor)) {
     const Error error = enter_line(state.editor, state.program, line, setup.of_programs());
     if (error != Error::none) {
@@ -126,7 +126,7 @@ void hear_line(State& state, const Setup& setup, const lang::Machine& machine, s
     const Error error = give_number(state.execution, state.program, line, setup.of_programs().dialect);
     if (error != Error::none) fail(state, setup, 0, error);
   } else {
-    hear_command(state, setup, machine, line);
+    receive_command(state, setup, machine, line);
   }
   conclude(state, setup);
 }
@@ -136,13 +136,13 @@ DeviceAnswer take_command(State& state, const Setup& setup, const lang::Machine&
   const bool is_number = takes_for_number(state, setup, line);
   if (is_editing(state.editor) || is_number) return Refusal::busy;
   std::string before = std::exchange(state.speech, {});
-  const Error error = hear_command(state, setup, machine, line);
+  const Error error = receive_command(state, setup, machine, line);
   state.speech = std::move(before);
   if (error == Error::none) return Refusal::none;
   return {error == Error::not_allowed ? Refusal::busy : Refusal::bad_value, static_cast<int>(error)};
 }
 
-void hear_overlong(State& state, const Setup& setup) {
+void receive_overlong(State& state, const Setup& setup) {
   fail(state, setup, 0, Error::syntax);
   conclude(state, setup);
 }

@@ -14,8 +14,8 @@ namespace understudy::emulator::models::slim {
 TextRules text_rules(const Setup& setup);
 /// Enters a line of a program, gives a number to GETI or GETR, or executes a command. The reply is in the
 /// state.
-void hear_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
-void hear_overlong(State& state, const Setup& setup);
+void receive_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line);
+void receive_overlong(State& state, const Setup& setup);
 /// Executes a command silently, without using the line.
 DeviceAnswer take_command(State& state, const Setup& setup, const lang::Machine& machine,
                           std::string_view line);

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-using interpreter::slim::kIntegerMost;
+using interpreter::slim::kIntegerMax;
 
 bool is_integer(const ParameterDefinition& row) { return row.type == ParameterDefinition::Type::integer; }
 
@@ -108,8 +108,8 @@ Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm&
                     if (!fits) throw does_not_fit(where, name, *given, row->lowest, row->highest);
                     value = static_cast<T>(*fits);
                   } else if (std::is_same_v<T, std::int16_t>) {
-                    if (*given < form.integer_least || *given > kIntegerMost) {
-                      throw does_not_fit(where, name, *given, form.integer_least, kIntegerMost);
+                    if (*given < form.integer_min || *given > kIntegerMax) {
+                      throw does_not_fit(where, name, *given, form.integer_min, kIntegerMax);
                     }
                     value = static_cast<T>(*given);
                   } else {

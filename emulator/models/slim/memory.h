@@ -30,7 +30,7 @@ Memory factory_memory(int modules);
 /// The names and ranges that the bench has chosen.
 struct MemoryForm {
   SpeedNames speed_names = SpeedNames::pn10_is_vm;
-  int integer_least = interpreter::slim::kIntegerLeast;
+  int integer_min = interpreter::slim::kIntegerMin;
 };
 
 /// Returns the name of a parameter row, "T1PR3"; parameters of the whole chain have no prefix, as in

@@ -110,8 +110,8 @@ std::vector<NamedParameterRow> parameter_rows() {
     rows.push_back({.number = row.name.starts_with('P') ? row.name : "",
                     .name = row.alias.empty() ? row.name : row.alias,
                     .width = is_real || row.highest > 65535 ? 32 : 16,
-                    .least = (row.above_lowest ? "> " : "") + text_of_real(row.lowest),
-                    .most = is_real ? text_of_real(row.highest) : text_of_integer(row.highest),
+                    .min = (row.above_lowest ? "> " : "") + text_of_real(row.lowest),
+                    .max = is_real ? text_of_real(row.highest) : text_of_integer(row.highest),
                     .unit = row.unit,
                     .factory = text_of_real(row.factory),
                     .meaning = row.meaning,
@@ -161,7 +161,7 @@ const Model& model() {
       .first_files = &kFirstFiles,
       .stop = kStop,
       .hazards_of_line = hazards_of_line,
-      .most_modules = kModules,
+      .max_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);
       },

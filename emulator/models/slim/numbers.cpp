@@ -54,7 +54,7 @@ std::string text_of_coordinate(double units) {
   const double size = std::abs(units);
   if (size >= 1e15 || units == std::trunc(units)) return text_of_integer(units);
   int decimals = 9;
-  for (double most = 1e6; size >= most && decimals > 0; most *= 10) --decimals;
+  for (double max = 1e6; size >= max && decimals > 0; max *= 10) --decimals;
   std::array<char, 64> digits{};
   const auto [end, error] =
       std::to_chars(digits.data(), digits.data() + digits.size(), units, std::chars_format::fixed, decimals);

@@ -33,7 +33,7 @@ lang::ProgramOptions program_options(const ChainOptions& chosen) {
   dialect.longest_line = static_cast<std::size_t>(chosen.number(numbers("longest_line")));
   if (chosen.chose(option("helix_variables", "four_variables"))) dialect.helix_constants = false;
   if (chosen.chose(option("functions", "what_queries_show_too"))) dialect.quantities = true;
-  if (chosen.chose(option("integer_range", "from_minus_32766"))) dialect.integer_least = -32766;
+  if (chosen.chose(option("integer_range", "from_minus_32766"))) dialect.integer_min = -32766;
   if (chosen.chose(option("while_program_runs", "external_column_only")))
     options.columns.external = lang::Columns::External::strict;
   if (chosen.chose(option("while_program_runs", "reset_too")))
@@ -72,7 +72,7 @@ lang::FlowOptions flow_options(const ChainOptions& chosen) {
   if (chosen.chose(option("failed_line", "is_passed_over")))
     options.failed_line = lang::FlowOptions::FailedLine::is_passed;
   if (chosen.chose(option("interrupted_wait", "have_gone_on")))
-    options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
+    options.interrupted_timer = lang::FlowOptions::InterruptedTimer::continues;
   if (chosen.chose(option("event_at_arming", "waits_for_a_change")))
     options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
   if (chosen.chose(option("held_event", "is_dropped")))
@@ -91,7 +91,7 @@ Setup::Setup(const Device& of)
 MemoryForm Setup::memory_form() const {
   return {.speed_names = chose(option("speed_parameters", "pn14_is_vm")) ? SpeedNames::pn14_is_vm
                                                                          : SpeedNames::pn10_is_vm,
-          .integer_least = of_programs().dialect.integer_least};
+          .integer_min = of_programs().dialect.integer_min};
 }
 
 Memory Setup::factory() const {

@@ -3,7 +3,7 @@
 //
 //   setup.h             choices, terminals, time
 //   error_log.h         ?ERR and ?ERC
-//   speech.h            what is sent, and how a failure is reported
+//   output.h            what is sent, and how a failure is reported
 //   parameters_set.h    parameters and axis letters; what is persistent
 //   variables.h         N#, R#, NS(), RS() and the clock
 //   power.h             power-up, power-down, inputs

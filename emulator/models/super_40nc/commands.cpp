@@ -62,13 +62,13 @@ void Commands::stop_by_emergency(language::Area area, bool is_new) {
   const bool pauses =
       area != language::Area::c && chose(option("emergency_of_axis_programs", "they_pause_at_their_line"));
   if (!pauses || (is_new && phase == language::Phase::held))
-    return programs_.tell(language::Event::emergency, area);
+    return programs_.handle(language::Event::emergency, area);
   if (!is_new) return;
-  programs_.tell(language::Event::limit_pauses, area);  // the motion of its line is over
-  programs_.tell(language::Event::hold, area);          // its wait, or its lines
+  programs_.handle(language::Event::limit_pauses, area);  // the motion of its line is over
+  programs_.handle(language::Event::hold, area);          // its wait, or its lines
 }
 
-void Commands::obey_emergency() {
+void Commands::apply_emergency() {
   const Code code = is_on(m8::kEmergencyStop) ? Code::emergency_stop : Code::emergency_input;
   const bool is_new = code == Code::emergency_stop ? rises(m8::kEmergencyStop) : !state_.emergency_obeyed;
   if (is_new) report(code);
@@ -85,36 +85,36 @@ void Commands::obey_emergency() {
   }
 }
 
-void Commands::obey_stops() {
+void Commands::apply_stops() {
   using language::Area;
   using language::Event;
   if (has_errors_for_a_scan()) {
     for (AxisState& each : axes_.axes) each.has_error = false;  // the scan has seen it
   }
-  if (keys_.is_stopped_by_emergency()) obey_emergency();
+  if (keys_.is_stopped_by_emergency()) apply_emergency();
   state_.emergency_obeyed = ground_.state().emergency;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_reset = is_on(of_axis(m8x::kReset, number));
     if (is_reset) take_off(axis(number), MarkEvent::reset);
-    if (is_reset) programs_.tell(Event::reset, language::area_of_axis(number));
+    if (is_reset) programs_.handle(Event::reset, language::area_of_axis(number));
     if (!keys_.is_pressed(KeyDoes::stop, number)) continue;
-    programs_.tell(Event::stop, language::area_of_axis(number));
+    programs_.handle(Event::stop, language::area_of_axis(number));
     ground_.set_contact(of_axis(m8x::kStart, number), false);  // also cancels a start in the same scan
   }
   if (keys_.is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) moves_.handle(number, ManualEvent::main_stop);
     hands_.give_up_orders();
-    programs_.tell(Event::stop, Area::c);
+    programs_.handle(Event::stop, Area::c);
     ground_.set_contact(m8::kStartOfC, false);
   }
   if (rises(m8::kPause)) {
-    programs_.tell(Event::hold, Area::c);
+    programs_.handle(Event::hold, Area::c);
     const bool ends = chose(option("manual_motion_events", "end_by_a_ramp"));
     for (int number = 0; number < kAxisCount && ends; ++number) hands_.slow_by_hand(number);
   }
   for (int number = 0; number < kAxisCount; ++number) {
     if (!keys_.is_pressed(KeyDoes::pause, number)) continue;
-    programs_.tell(Event::hold, language::area_of_axis(number));
+    programs_.handle(Event::hold, language::area_of_axis(number));
     const Activity holder = axis(number).holder;
     const bool is_manual = holder == Activity::jog || holder == Activity::home || holder == Activity::zero;
     if (is_manual && chose(option("pause_manual", "ends_it_by_a_ramp"))) hands_.slow_by_hand(number);
@@ -122,7 +122,7 @@ void Commands::obey_stops() {
 }
 
 /// Executes what the panel triggers when it turns its pages.
-void Commands::obey_pages() {
+void Commands::apply_pages() {
   if (rises(m85::kParameterPageLeft)) {
     const bool renews_all = chose(option("parameter_moment", "when_m8500_rises"));
     if (renews_all) {
@@ -139,15 +139,15 @@ void Commands::obey_pages() {
     programs_.plc_to_run();
 }
 
-void Commands::obey_contacts() {
-  obey_stops();
-  obey_pages();
+void Commands::apply_contacts() {
+  apply_stops();
+  apply_pages();
   const bool needs_rest = chose(option("m8008_running", "void"));
   if (rises(m8::kFactoryParameters) && !(needs_rest && programs_.are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(m8x::kZeroSet, number))) parts_.parameters.set_zero(number);
   }
-  hands_.obey_contacts();
+  hands_.apply_contacts();
   if (!chose(option("m8005_falls", "by_a_write_alone"))) ground_.set_contact(m8::kMCodeFinished, false);
   hold_while_inhibited();
   keys_.see_held();
@@ -181,10 +181,10 @@ void Commands::hold_while_inhibited() {
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
-  if (!is_paused(Mover::c)) paths_.go_on_path();
+  if (!is_paused(Mover::c)) paths_.resume_path();
   for (int number = 0; number < kAxisCount; ++number) {
     if (is_on_path(number) || is_paused(axis(number).mover)) continue;
-    if (const auto broken = moves_.go_on_axis(number)) programs_.broken(*broken);
+    if (const auto broken = moves_.resume_axis(number)) programs_.broken(*broken);
   }
 }
 
@@ -198,11 +198,11 @@ void Commands::see_contacts() {
   }
 }
 
-void Commands::look_at_contacts() {
+void Commands::check_contacts() {
   if (!ground_.state().touched) return;
   program_state_.shows_file_changed = program_state_.file_changed;
   keys_.read_keys();
-  obey_contacts();
+  apply_contacts();
   see_contacts();
   // M8023 is ON for one scan.
   ground_.state().touched = ground_.state().touched || program_state_.shows_file_changed;

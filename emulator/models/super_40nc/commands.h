@@ -38,16 +38,16 @@ class Commands : protected Chips {
         state_(state) {}
 
   /// Executes the scan's step of contacts, if anything was written since the last one.
-  void look_at_contacts();
+  void check_contacts();
   /// Returns true if axes have errors that, by choice, the next scan clears.
   bool has_errors_for_a_scan() const;
 
  private:
-  void obey_contacts();
-  void obey_stops();
-  void obey_emergency();
+  void apply_contacts();
+  void apply_stops();
+  void apply_emergency();
   void stop_by_emergency(Area area, bool is_new);
-  void obey_pages();
+  void apply_pages();
   void reset_parameters();
   void hold_while_inhibited();
   void drop_edges();

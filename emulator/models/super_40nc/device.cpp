@@ -37,7 +37,7 @@ Super40nc::Super40nc(const DeviceSettings& given)
 
 // ---- the tick
 
-void Super40nc::look_at_inputs() {
+void Super40nc::check_inputs() {
   parts_.axes.inputs.await_no_edges();
   for (int i = 0; i < kInputCount; ++i) {
     state_.image[kFirstX.slot + static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(input(i));
@@ -61,7 +61,7 @@ void Super40nc::sample_inputs(Tick tick) {
   if (state_.plc_quiet_scans > 0 && !parts_.programs.scans_in(tick)) parts_.programs.note_what_plc_sees();
   if (!take_inputs_changed()) return;
   const bool was_emergency = state_.emergency;
-  look_at_inputs();
+  check_inputs();
   // A contact that is ON before the first scan is not an edge, even if a listing came before the inputs did.
   parts_.programs.begin_first_scan();
   if (was_emergency != state_.emergency) state_.touched = true;
@@ -72,9 +72,9 @@ void Super40nc::run_interpreters(Tick tick) {
   Programs& programs = parts_.programs;
   if (!programs.scans_in(tick)) return;
   const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
-  if (contacts_first) parts_.commands.look_at_contacts();
+  if (contacts_first) parts_.commands.check_contacts();
   programs.run_plc();
-  if (!contacts_first) parts_.commands.look_at_contacts();
+  if (!contacts_first) parts_.commands.check_contacts();
   programs.run_steps();
   programs.leave_table();
 }

@@ -71,7 +71,7 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override;
+  Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const override;
   void fast_forward_to(Tick done, Tick tick, const ClearTravel& ahead,
                        std::span<std::int64_t> pulses) override;
 
@@ -99,7 +99,7 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
  private:
   void watch_program(ProgramWatch* watch) override { parts_.programs.set_watch(watch); }
   const Chips& chips() const { return parts_.axes.chips; }
-  void look_at_inputs();
+  void check_inputs();
   bool has_voltage_inputs() const;
   std::int32_t analog_counts(int number) const;
   void blank_state();

@@ -38,7 +38,7 @@ Tick Super40nc::next_active_tick(Tick done) const {
   return next_timed_tick(done);
 }
 
-Tick Super40nc::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
+Tick Super40nc::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
   if (state_.touched || inputs_changed() || parts_.programs.are_busy() ||
       parts_.commands.has_errors_for_a_scan() || state_.path.engaged ||
       input(kWheelTerminal) != state_.wheel_edges || parts_.axes.pins.has_chip_pins()) {
@@ -47,7 +47,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) 
   const Counters& counters = parts_.axes.counters;
   const bool moves = std::any_of(state_.chips.begin(), state_.chips.end(),
                                  [](const motion::Axis& chip) { return chip.moving(); });
-  Tick last = std::min(most, next_timed_tick(done) - 1);
+  Tick last = std::min(limit, next_timed_tick(done) - 1);
   if (const Tick scans = parts_.programs.quiet_scans(moves); scans < last - done) last = done + scans;
   for (int number = 0; number < kAxisCount && last > done; ++number) {
     const motion::Axis& motor = chips().chip(number);
@@ -58,10 +58,9 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) 
       return done + 1;
     }
     PulseRoom room = ahead.room(number);
-    if (motor.inverted) room = {.least = -room.most, .most = -room.least};
-    last =
-        motor.quiet_until(done + 1, last, chips().environment(number),
-                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+    if (motor.inverted) room = {.min = -room.max, .max = -room.min};
+    last = motor.quiet_until(done + 1, last, chips().environment(number),
+                             {.low = motor.travel_pulses + room.min, .high = motor.travel_pulses + room.max});
   }
   return last + 1;
 }

@@ -79,7 +79,7 @@ void Super40nc::power_up() {
   const bool has_c = state_.blocks.find(kPrograms, "C") != nullptr;
   state_.file_is_left_out =
       !has_c && parts_.programs.stored().is_too_long(kFiles, std::to_string(state_.file));
-  look_at_inputs();
+  check_inputs();
 }
 
 }  // namespace understudy::emulator::models::super_40nc

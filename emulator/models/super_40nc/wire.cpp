@@ -37,15 +37,16 @@ MapPolicy chosen_map_policy(const Device& device, MapPolicy policy) {
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
   // D9000 is the station number; 0 is also a number, and answers.
-  if (address == 0 && chose(option("station_rule", "0_is_never_answered"))) return Addressing::obey_silently;
+  if (address == 0 && chose(option("station_rule", "0_is_never_answered")))
+    return Addressing::execute_silently;
   const Kept kept = kept_d(d9::kStation);
   const Value number = chose(option("station_change", "at_the_next_power_up"))
                            ? std::clamp<Value>(state_.station, kept.min, kept.max)
                            : parts_.ground.registers().of(kept);
-  if (address == number) return Addressing::obey_and_reply;
+  if (address == number) return Addressing::execute_and_reply;
   if (address != 0) return Addressing::ignore;
   const bool answers = chose(option("station_rule", "0_answered_as_well"));
-  return answers ? Addressing::obey_and_reply : Addressing::obey_silently;
+  return answers ? Addressing::execute_and_reply : Addressing::execute_silently;
 }
 
 bool Super40nc::knows(std::uint8_t function) const {

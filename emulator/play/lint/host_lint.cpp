@@ -93,7 +93,7 @@ HostLint::HostLint(world::World& world, std::size_t line)
 
 HostLint::~HostLint() { world_.remove_observer(number_, *this); }
 
-void HostLint::begin_anew() {
+void HostLint::restart() {
   framer_.reset();
   waiting_.clear();
   under_way_.reset();
@@ -104,7 +104,7 @@ void HostLint::begin_anew() {
 
 void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_heard) begin_anew();  // a host that no device receives has other problems
+  if (!follows || !is_heard) restart();  // a host that no device receives has other problems
   last_number_ = character.number;
   under_way_.reset();
   if (!is_heard) return;
@@ -115,14 +115,14 @@ void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
   framer_.push(character);
 }
 
-void HostLint::on_speech(const pty::Speech& speech) {
+void HostLint::on_transmission(const pty::Transmission& transmission) {
   const auto next = waiting_.empty() ? under_way_ : std::optional(waiting_.front().start);
-  if (asked_ && next && *next < speech.start) find(LintRule::not_waited).add(*next, asked_->command);
-  const bool is_answer = asked_ && speech.bytes.size() > 1 && speech.bytes[0] == asked_->station;
-  if (is_answer && speech.bytes[1] == asked_->function) carried_out(*asked_);
+  if (asked_ && next && *next < transmission.start) find(LintRule::not_waited).add(*next, asked_->command);
+  const bool is_answer = asked_ && transmission.bytes.size() > 1 && transmission.bytes[0] == asked_->station;
+  if (is_answer && transmission.bytes[1] == asked_->function) carried_out(*asked_);
   asked_.reset();
-  SimTime end = speech.start;
-  if (has_time()) end += options_.settings.duration_of(static_cast<std::int64_t>(speech.bytes.size()));
+  SimTime end = transmission.start;
+  if (has_time()) end += options_.settings.duration_of(static_cast<std::int64_t>(transmission.bytes.size()));
   busy_until_ = std::max(end, busy_until_.value_or(end));
 }
 
@@ -172,7 +172,7 @@ void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, co
         device.modbus() == nullptr ? Addressing::ignore : device.modbus()->addressing(station);
     if (addressing == Addressing::ignore) continue;
     is_there = true;
-    will_be_answered = will_be_answered || addressing == Addressing::obey_and_reply;
+    will_be_answered = will_be_answered || addressing == Addressing::execute_and_reply;
     if (!write.values.empty() && device.powered()) judge_write(device, write, at);
   }
   if (!is_there) find(LintRule::absent, std::to_string(station)).add(at);

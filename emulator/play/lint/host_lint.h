@@ -20,7 +20,7 @@ class HostLint final : public pty::LineObserver {
   HostLint& operator=(const HostLint&) = delete;
 
   /// Forgets the traffic so far, after the line was put into another state.
-  void begin_anew();
+  void restart();
   const Findings& findings() const { return findings_; }
   /// Return the silences that the line must have before a request, and may have within one. Neither is
   /// checked if bytes take no time.
@@ -40,7 +40,7 @@ class HostLint final : public pty::LineObserver {
   }
   void on_character(const pty::TimedByte& character, bool is_heard) override;
   void on_nothing_more() override { framer_.give_up_waiting(); }
-  void on_speech(const pty::Speech& speech) override;
+  void on_transmission(const pty::Transmission& transmission) override;
   std::optional<SimTime> due() const override { return framer_.due(); }
   void run(SimTime now) override;
 

@@ -95,7 +95,7 @@ Lint::Lint(world::World& world) : world_(world) {
 }
 
 void Lint::world_restored(std::size_t) {
-  for (const auto& line : lines_) line->begin_anew();
+  for (const auto& line : lines_) line->restart();
 }
 
 std::vector<std::string> Lint::findings() const {

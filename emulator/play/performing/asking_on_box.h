@@ -15,13 +15,14 @@
 #include "emulator/play/scenario/requests.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/protocol/received_lines.h"
 
 namespace understudy::emulator::play {
 
 class Performance::OnBox::Asking {
  public:
-  Asking(OnBox& on_box, Via via) : on_box_(on_box), names_(on_box.performance_.eyes_->world), via_(via) {}
+  Asking(OnBox& on_box, Via via)
+      : on_box_(on_box), names_(on_box.performance_.world_observers_->world), via_(via) {}
 
   world::Expression parse(const std::string& text) const { return world::parse_expression(text, names_); }
 

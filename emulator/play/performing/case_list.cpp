@@ -167,7 +167,7 @@ std::optional<CaseId> Selection::next() {
         !matches(pattern_, reader_.name_of(which_case), identity_of(reader_.case_of(which_case)))) {
       continue;
     }
-    if (meant_++ % shard_.of == shard_.number - 1) return which_case;
+    if (selected_++ % shard_.of == shard_.number - 1) return which_case;
   }
   return std::nullopt;
 }

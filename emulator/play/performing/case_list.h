@@ -102,7 +102,7 @@ class Selection {
   Shard shard_;
   CaseReader reader_;
   CaseId at_;
-  std::uint64_t meant_ = 0;  // matches so far
+  std::uint64_t selected_ = 0;  // matches so far
 };
 
 }  // namespace understudy::emulator::play

@@ -14,12 +14,12 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
+#include "emulator/play/executors/box_stage.h"
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/performing/performance_on_box.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/box_stage.h"
-#include "emulator/play/stages/executor.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/tokens.h"
@@ -32,7 +32,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::size_t kFramesTold = 10;
+constexpr std::size_t kFramesReported = 10;
 
 /// Returns true if an expression needs a value that must be watched in every tick from the beginning.
 bool names_peaks(const Steps& steps);
@@ -89,7 +89,7 @@ void add_awaited(std::span<const Step> steps, std::vector<std::string>& conditio
 
 }  // namespace
 
-Performance::Eyes::Eyes(world::World& of, bool with_hash)
+Performance::WorldObservers::WorldObservers(world::World& of, bool with_hash)
     : world(of),
       peaks(of),
       probes(of, &peaks),
@@ -108,8 +108,9 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
   }
   keeps_peaks_ = names_peaks(scenario.steps);
   executor_->with_world([&](world::World& world) {
-    eyes_ = std::make_unique<Eyes>(world, with_hash);
-    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // must come before the watchers that need peaks
+    world_observers_ = std::make_unique<WorldObservers>(world, with_hash);
+    if (keeps_peaks_)
+      world.add_watcher(world_observers_->peaks);  // must come before the watchers that need peaks
   });
   if (BoxStage* const box = executor_->box()) on_box_ = std::make_unique<OnBox>(*this, *box);
 }
@@ -117,10 +118,10 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
 Performance::~Performance() {
   on_box_.reset();
   executor_->with_world([&](world::World& world) {
-    world.remove_watcher(eyes_->peaks);
-    world.remove_watcher(eyes_->spans);
-    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
-    eyes_.reset();
+    world.remove_watcher(world_observers_->peaks);
+    world.remove_watcher(world_observers_->spans);
+    for (auto& [condition, history] : world_observers_->histories) world.remove_watcher(history);
+    world_observers_.reset();
   });
 }
 
@@ -161,14 +162,15 @@ world::Number Performance::present_value(const std::string& expression) {
   if (on_box_) return on_box_->value_of(expression);
   world::Number value;
   executor_->with_world([&](world::World&) {
-    value = world::evaluate(world::parse_expression(expression, eyes_->probes), eyes_->probes);
+    value = world::evaluate(world::parse_expression(expression, world_observers_->probes),
+                            world_observers_->probes);
   });
   return value;
 }
 
 void Performance::throw_if_broken() {
   bool is_broken = false;
-  executor_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
+  executor_->with_world([&](world::World&) { is_broken = world_observers_->spans.violation().has_value(); });
   if (is_broken) throw StepError("");  // explain_failure() finds the reason
 }
 
@@ -176,9 +178,9 @@ Failure Performance::explain_failure(const StepError& error) {
   Failure failure{
       .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
   executor_->with_world([&](world::World& world) {
-    failure.frames = eyes_->frames.last(kFramesTold);
+    failure.frames = world_observers_->frames.last(kFramesReported);
     // A violated span comes first, because it was violated before anything else failed.
-    if (const auto& violation = eyes_->spans.violation()) {
+    if (const auto& violation = world_observers_->spans.violation()) {
       failure.at = violation->at;
       failure.what = violation->what + " did not hold at " + format_duration(violation->at);
       failure.expected = violation->what;
@@ -200,12 +202,12 @@ Performance::Checkpoint Performance::save() {
   checkpoint.quiet_since = executor_->quiet_since();
   executor_->with_world([&](world::World& world) {
     checkpoint.world = world::save(world);
-    checkpoint.spans = eyes_->spans.save();
-    checkpoint.peaks = eyes_->peaks.save();
-    for (const auto& [condition, history] : eyes_->histories) {
+    checkpoint.spans = world_observers_->spans.save();
+    checkpoint.peaks = world_observers_->peaks.save();
+    for (const auto& [condition, history] : world_observers_->histories) {
       checkpoint.histories[condition] = history.save();
     }
-    if (eyes_->hash) checkpoint.hash = eyes_->hash->value();
+    if (world_observers_->hash) checkpoint.hash = world_observers_->hash->value();
   });
   return checkpoint;
 }
@@ -215,17 +217,17 @@ void Performance::restore(const Checkpoint& checkpoint) {
   last_write_ = checkpoint.last_write;
   executor_->with_world([&](world::World& world) {
     world::restore(world, checkpoint.world);
-    world.remove_watcher(eyes_->spans);
-    if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
+    world.remove_watcher(world_observers_->spans);
+    if (!checkpoint.spans.empty()) world.add_watcher(world_observers_->spans);
     std::vector<SpanWatch::Span> spans = checkpoint.spans;
     for (SpanWatch::Span& span : spans) {
       // The condition is parsed again, because its handles belong to the probes of another performance.
-      span.condition = world::parse_expression(span.condition.text, eyes_->probes);
+      span.condition = world::parse_expression(span.condition.text, world_observers_->probes);
     }
-    eyes_->spans.restore(spans);
-    eyes_->peaks.restore(checkpoint.peaks);
-    eyes_->frames.begin_anew();
-    if (eyes_->hash) eyes_->hash->restore(checkpoint.hash);
+    world_observers_->spans.restore(spans);
+    world_observers_->peaks.restore(checkpoint.peaks);
+    world_observers_->frames.restart();
+    if (world_observers_->hash) world_observers_->hash->restore(checkpoint.hash);
   });
   executor_->set_quiet_since(checkpoint.quiet_since);
   end_histories();
@@ -235,7 +237,7 @@ void Performance::restore(const Checkpoint& checkpoint) {
 std::uint64_t Performance::outcome_hash() {
   std::uint64_t hash = 0;
   executor_->with_world([&](world::World&) {
-    if (eyes_->hash) hash = eyes_->hash->value();
+    if (world_observers_->hash) hash = world_observers_->hash->value();
   });
   return hash;
 }

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/performing/watches.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/outcome_hash.h"
 #include "emulator/world/probe/peaks.h"
@@ -82,8 +82,8 @@ class Performance {
   friend struct StepOnBox;
 
   /// The observers of the world.
-  struct Eyes {
-    Eyes(world::World& of, bool with_hash);
+  struct WorldObservers {
+    WorldObservers(world::World& of, bool with_hash);
     world::World& world;
     world::Peaks peaks;
     world::Probes probes;
@@ -158,7 +158,7 @@ class Performance {
   HostCommand* command_;
   const world::Bench& bench_;
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
-  std::unique_ptr<Eyes> eyes_;
+  std::unique_ptr<WorldObservers> world_observers_;
   bool keeps_peaks_ = false;
   const Step* step_ = nullptr;                               // the one that is being executed
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers

@@ -10,14 +10,14 @@
 #include "emulator/device/command_window.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/modbus_host.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/modbus_host.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
-#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {

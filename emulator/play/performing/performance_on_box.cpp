@@ -13,13 +13,13 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
+#include "emulator/play/executors/box_stage.h"
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/performing/asking_on_box.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/box_stage.h"
-#include "emulator/play/stages/executor.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/expression/tokens.h"
@@ -57,7 +57,7 @@ struct StepOnBox {
   void operator()(const ResetPeaksStep&) const {}
 
   void operator()(const InputStep& what) const {
-    const world::KnownDevices& known = on_box.performance_.eyes_->world.known();
+    const world::KnownDevices& known = on_box.performance_.world_observers_->world.known();
     for (const world::InputSetup& input : what.inputs) {
       const KnownTerminal terminal = terminal_of(known, input.device, input.terminal);
       on_box.act({"input", terminal.name, level_text(*terminal.row, input.level)});
@@ -116,7 +116,8 @@ struct StepOnBox {
     return std::to_string(level) + (is_in_millivolts(row.kind) ? "mV" : "");
   }
   std::vector<std::string> words_of_fault(const std::string& verb, const world::Fault& fault) const {
-    const world::FaultText text = world::fault_text(on_box.performance_.eyes_->world.known(), fault);
+    const world::FaultText text =
+        world::fault_text(on_box.performance_.world_observers_->world.known(), fault);
     std::vector<std::string> words{verb};
     if (verb != text.kind) words.push_back(text.kind);
     words.push_back(text.place);
@@ -317,14 +318,14 @@ void Performance::OnBox::wait(const WaitStep& step) {
     asking.ask(condition);
     const SimTime told = executor.now();
     if (world::is_true(condition, asking.names())) {
-      const SimTime least = is_first ? SimTime{0} : std::max(not_yet - write.latest, SimTime{0});
-      const SimTime most = told - write.earliest;
+      const SimTime min = is_first ? SimTime{0} : std::max(not_yet - write.latest, SimTime{0});
+      const SimTime max = told - write.earliest;
       due_ = is_first ? told : (not_yet + told) / 2;
       if (!step.takes) return;
-      const bool is_too_early = step.takes->low && world::Number(most.count()) < *step.takes->low;
-      const bool is_too_late = step.takes->high && world::Number(least.count()) > *step.takes->high;
+      const bool is_too_early = step.takes->low && world::Number(max.count()) < *step.takes->low;
+      const bool is_too_late = step.takes->high && world::Number(min.count()) > *step.takes->high;
       if (!is_too_early && !is_too_late) return;
-      const std::string took = "between " + format_duration(least) + " and " + format_duration(most);
+      const std::string took = "between " + format_duration(min) + " and " + format_duration(max);
       throw StepError("took " + took + "; expected " + step.takes->text,
                       "'" + world::on_one_line(step.until) + "' after " + step.takes->text,
                       "it became true after " + took);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/play/executors/box_stage.h"
 #include "emulator/play/performing/performance.h"
-#include "emulator/play/stages/box_stage.h"
 #include "emulator/world/expression/expression.h"
 
 namespace understudy::emulator::play {

@@ -4,7 +4,7 @@
 
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/protocol/received_lines.h"
 
 namespace understudy::emulator::play {
 
@@ -14,12 +14,12 @@ void Performance::perform(const TextStep& step) {
                                   .is_answer = step.text.has_value()};
   // Without an expected answer, the step is over when the device has received the line.
   if (!step.lines) return executor_->send_text(step.line, *step.text);
-  std::vector<std::string> heard = executor_->exchange_text(step.line, step.text, wanted, step.within);
-  if (heard == wanted.lines) return;
+  std::vector<std::string> lines = executor_->exchange_text(step.line, step.text, wanted, step.within);
+  if (lines == wanted.lines) return;
   // Showing one line too many is enough. On a busy machine, more may have arrived by now.
-  if (heard.size() > wanted.lines.size() + 1) heard.resize(wanted.lines.size() + 1);
+  if (lines.size() > wanted.lines.size() + 1) lines.resize(wanted.lines.size() + 1);
   const std::string expected = world::lines_text(wanted.lines);
-  const std::string came = world::lines_text(heard);
+  const std::string came = world::lines_text(lines);
   throw StepError((step.text ? "the reply is " : "received ") + came + "; expected " + expected, expected,
                   came);
 }

@@ -54,11 +54,12 @@ std::string place_of(const Step& step) { return step.file + ":" + std::to_string
 
 void Performance::pass_time(SimTime until) {
   bool has_spans = false;
-  executor_->with_world([&](world::World&) { has_spans = !eyes_->spans.is_empty(); });
+  executor_->with_world([&](world::World&) { has_spans = !world_observers_->spans.is_empty(); });
   if (has_spans) {
-    executor_->run_until({.is_there = [this](world::World&) { return eyes_->spans.violation().has_value(); },
-                          .next_look = [this](Tick done) { return eyes_->spans.next_look(done); }},
-                         until);
+    executor_->run_until(
+        {.is_met = [this](world::World&) { return world_observers_->spans.violation().has_value(); },
+         .next_poll = [this](Tick done) { return world_observers_->spans.next_poll(done); }},
+        until);
     throw_if_broken();
   } else if (until > executor_->now()) {
     executor_->advance(until - executor_->now());
@@ -86,8 +87,8 @@ Tick Performance::last_write() {
 /// after the write.
 void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
   executor_->with_world([&](world::World& world) {
-    const auto [history, is_new] = eyes_->histories.try_emplace(
-        condition, world::parse_expression(condition, eyes_->probes), eyes_->probes);
+    const auto [history, is_new] = world_observers_->histories.try_emplace(
+        condition, world::parse_expression(condition, world_observers_->probes), world_observers_->probes);
     if (!is_new) return;
     history->second.restore(past);
     world.add_watcher(history->second);
@@ -95,10 +96,10 @@ void Performance::begin_history(const std::string& condition, const ConditionHis
 }
 
 void Performance::end_histories() {
-  if (eyes_->histories.empty()) return;
+  if (world_observers_->histories.empty()) return;
   executor_->with_world([&](world::World& world) {
-    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
-    eyes_->histories.clear();
+    for (auto& [condition, history] : world_observers_->histories) world.remove_watcher(history);
+    world_observers_->histories.clear();
   });
 }
 
@@ -119,8 +120,9 @@ Tick Performance::wait_for(const WaitStep& step) {
   std::optional<Tick> came_true;
   world::Expression condition;
   executor_->with_world([&](world::World&) {
-    condition = world::parse_expression(step.until, eyes_->probes);
-    if (const auto history = eyes_->histories.find(step.until); history != eyes_->histories.end()) {
+    condition = world::parse_expression(step.until, world_observers_->probes);
+    if (const auto history = world_observers_->histories.find(step.until);
+        history != world_observers_->histories.end()) {
       came_true = history->second.first_from(earliest);
     }
   });
@@ -128,21 +130,23 @@ Tick Performance::wait_for(const WaitStep& step) {
   std::optional<std::string> no_result;
   const auto is_over = [&](world::World&) {
     try {
-      return eyes_->spans.violation() || world::is_true(condition, eyes_->probes);
+      return world_observers_->spans.violation() || world::is_true(condition, world_observers_->probes);
     } catch (const std::runtime_error& error) {
       no_result = error.what();
       return true;
     }
   };
-  const auto next_look = [&](Tick done) {
-    return std::min(eyes_->probes.next_change(condition, done), eyes_->spans.next_look(done));
+  const auto next_poll = [&](Tick done) {
+    return std::min(world_observers_->probes.next_change(condition, done),
+                    world_observers_->spans.next_poll(done));
   };
-  const bool is_there = executor_->run_until({.is_there = is_over, .next_look = next_look}, deadline);
+  const bool is_met = executor_->run_until({.is_met = is_over, .next_poll = next_poll}, deadline);
   throw_if_broken();
   if (no_result) throw StepError(*no_result);
-  if (is_there) return std::max(tick_at(executor_->now()), earliest);
+  if (is_met) return std::max(tick_at(executor_->now()), earliest);
   std::string explained;
-  executor_->with_world([&](world::World&) { explained = world::explain(condition, eyes_->probes); });
+  executor_->with_world(
+      [&](world::World&) { explained = world::explain(condition, world_observers_->probes); });
   const std::string text = world::to_text(condition);
   throw StepError("'" + text + "' did not become true within " + format_duration(step.within),
                   text + " within " + format_duration(step.within), explained);
@@ -180,10 +184,10 @@ void Performance::perform(const AssertStep& step) {
   std::vector<std::string> explained;
   executor_->with_world([&](world::World&) {
     for (const std::string& text : step.expressions) {
-      const world::Expression expression = world::parse_expression(text, eyes_->probes);
-      if (world::is_true(expression, eyes_->probes)) continue;
+      const world::Expression expression = world::parse_expression(text, world_observers_->probes);
+      if (world::is_true(expression, world_observers_->probes)) continue;
       untrue.push_back(world::to_text(expression));
-      explained.push_back(world::explain(expression, eyes_->probes));
+      explained.push_back(world::explain(expression, world_observers_->probes));
     }
   });
   if (untrue.empty()) return;
@@ -193,26 +197,26 @@ void Performance::perform(const AssertStep& step) {
 
 void Performance::perform(const SpanStep& step) {
   executor_->with_world([&](world::World& world) {
-    world::Expression condition = world::parse_expression(step.expression, eyes_->probes);
-    if (eyes_->spans.is_empty()) world.add_watcher(eyes_->spans);
-    eyes_->spans.open({.name = step.name.empty() ? world::to_text(condition) : step.name,
-                       .condition = std::move(condition),
-                       .is_never = step.never,
-                       .place = place_of(*step_)});
+    world::Expression condition = world::parse_expression(step.expression, world_observers_->probes);
+    if (world_observers_->spans.is_empty()) world.add_watcher(world_observers_->spans);
+    world_observers_->spans.open({.name = step.name.empty() ? world::to_text(condition) : step.name,
+                                  .condition = std::move(condition),
+                                  .is_never = step.never,
+                                  .place = place_of(*step_)});
   });
 }
 
 void Performance::perform(const EndSpanStep& step) {
   bool was_open = false;
   executor_->with_world([&](world::World& world) {
-    was_open = eyes_->spans.close(step.name);
-    if (eyes_->spans.is_empty()) world.remove_watcher(eyes_->spans);
+    was_open = world_observers_->spans.close(step.name);
+    if (world_observers_->spans.is_empty()) world.remove_watcher(world_observers_->spans);
   });
   if (!was_open) throw StepError("no span called '" + step.name + "' is open; expected one");
 }
 
 void Performance::perform(const ResetPeaksStep&) {
-  executor_->with_world([&](world::World&) { eyes_->peaks.reset(); });
+  executor_->with_world([&](world::World&) { world_observers_->peaks.reset(); });
 }
 
 void Performance::perform(const CommandEndStep& step) {
@@ -222,8 +226,10 @@ void Performance::perform(const CommandEndStep& step) {
   }
   if (step.stops) executor_->with_world([&](world::World&) { command_->stop(); });
   const SimTime deadline = moment_in(step.within);
-  const auto is_over = [&](world::World&) { return eyes_->spans.violation() || command_->exit_code(); };
-  const bool has_ended = executor_->run_until({.is_there = is_over}, deadline);
+  const auto is_over = [&](world::World&) {
+    return world_observers_->spans.violation() || command_->exit_code();
+  };
+  const bool has_ended = executor_->run_until({.is_met = is_over}, deadline);
   throw_if_broken();
   const std::string expected = "exit code " + std::to_string(step.exits);
   if (!has_ended) {

@@ -11,12 +11,12 @@
 #include <variant>
 #include <vector>
 
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/free_executor.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/free_executor.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
@@ -58,17 +58,17 @@ class Observers {
   Observers& operator=(const Observers&) = delete;
 
   void world_restored(std::size_t steps) {
-    tell([&](Observer& observer) { observer.world_restored(steps); });
+    notify([&](Observer& observer) { observer.world_restored(steps); });
   }
   void step_over() {
-    tell([](Observer& observer) { observer.step_over(); });
+    notify([](Observer& observer) { observer.step_over(); });
   }
   void finish(ScenarioResult& result) {
-    tell([&](Observer& observer) { observer.finish(result); });
+    notify([&](Observer& observer) { observer.finish(result); });
   }
 
  private:
-  void tell(const std::function<void(Observer&)>& what) {
+  void notify(const std::function<void(Observer&)>& what) {
     if (observers_.empty()) return;
     performance_.with_world([&](world::World&) {
       for (const auto& observer : observers_) what(*observer);

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
 
 namespace understudy::emulator::play {
 

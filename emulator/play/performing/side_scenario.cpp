@@ -12,14 +12,14 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/model.h"
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/host_time_executor.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/host_time_executor.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/host_time.h"
 #include "emulator/world/bench/bench.h"
@@ -97,11 +97,11 @@ SideScenario::SideScenario(const Scenario& scenario, serve::Daemon& daemon, std:
         turns_.finish();
         daemon.post(over);
       }) {
-  if (host_time_ != nullptr) host_time_->accompany(&turns_);
+  if (host_time_ != nullptr) host_time_->run_beside(&turns_);
 }
 
 SideScenario::~SideScenario() {
-  if (host_time_ != nullptr) host_time_->accompany(nullptr);
+  if (host_time_ != nullptr) host_time_->run_beside(nullptr);
   turns_.leave();
   thread_.join();
 }

@@ -11,11 +11,11 @@
 #include <thread>
 #include <vector>
 
+#include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/turns.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/play/stages/executor.h"
-#include "emulator/play/stages/turns.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/host_time.h"
 #include "emulator/world/bench/bench.h"

@@ -50,23 +50,23 @@ std::string registers_text(const Device& device) {
 
 /// Returns true if the register of an input still shows the earlier level, because the device reads its
 /// inputs only in a tick.
-bool is_read_later(const Device& device, const TerminalSight& sight, std::int64_t level) {
-  if (sight.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
+bool is_read_later(const Device& device, const TerminalView& view, std::int64_t level) {
+  if (view.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
   const RegisterBank* const bank = device.register_bank();
-  const auto place = bank != nullptr ? bank->find(sight.name) : std::nullopt;
+  const auto place = bank != nullptr ? bank->find(view.name) : std::nullopt;
   return place && read_value(*bank, *place) != level;
 }
 
 std::string terminals_text(const Device& device) {
   std::string text;
-  for (const TerminalSight& sight : terminal_sights(device)) {
-    const std::int64_t value = value_of(device, sight);
+  for (const TerminalView& view : terminal_views(device)) {
+    const std::int64_t value = value_of(device, view);
     if (value == 0) continue;
-    text += (text.empty() ? "" : ", ") + sight.name;
-    const bool is_level = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
-    const world::Unit unit = is_in_millivolts(sight.kind) ? world::Unit::millivolts : world::Unit::none;
+    text += (text.empty() ? "" : ", ") + view.name;
+    const bool is_level = view.what == TerminalView::What::level && has_two_levels(view.kind);
+    const world::Unit unit = is_in_millivolts(view.kind) ? world::Unit::millivolts : world::Unit::none;
     text += is_level ? " on" : " " + world::number_text(world::Number(value), unit);
-    if (is_level && is_read_later(device, sight, value)) text += " (read at the next tick)";
+    if (is_level && is_read_later(device, view, value)) text += " (read at the next tick)";
   }
   return text;
 }

@@ -24,9 +24,9 @@ namespace {
 constexpr std::size_t kAhead = 256;
 
 /// The state that the threads share.
-class Board {
+class CaseQueue {
  public:
-  explicit Board(const NextCase& next) : next_(next) {}
+  explicit CaseQueue(const NextCase& next) : next_(next) {}
 
   void work(const std::function<Play()>& make_play) {
     const Play play = make_play();
@@ -47,7 +47,7 @@ class Board {
   }
 
   /// Waits for the next case in order and reports it. Returns false after the last one.
-  bool tell_next(const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell) {
+  bool report_next(const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& report) {
     std::unique_lock lock(mutex_);
     is_first_over_.wait(lock, [&] { return entries_.empty() ? is_last_taken_ : entries_.front().is_over; });
     if (entries_.empty()) return false;
@@ -56,7 +56,7 @@ class Board {
     has_room_.notify_one();
     lock.unlock();
     if (entry.error) std::rethrow_exception(entry.error);
-    tell(entry.which_case, std::move(entry.results));
+    report(entry.which_case, std::move(entry.results));
     return true;
   }
 
@@ -109,14 +109,14 @@ class Board {
 }  // namespace
 
 void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
-               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell) {
-  Board board(next);
+               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& report) {
+  CaseQueue queue(next);
   std::vector<std::jthread> threads;
-  const auto stop_at_end = [&board](void*) { board.stop(); };
-  for (int i = 0; i < std::max(jobs, 1); ++i) threads.emplace_back([&] { board.work(make_play); });
+  const auto stop_at_end = [&queue](void*) { queue.stop(); };
+  for (int i = 0; i < std::max(jobs, 1); ++i) threads.emplace_back([&] { queue.work(make_play); });
   // If anything throws, the threads must stop too.
-  const std::unique_ptr<void, decltype(stop_at_end)> guard(&board, stop_at_end);
-  while (board.tell_next(tell)) {
+  const std::unique_ptr<void, decltype(stop_at_end)> guard(&queue, stop_at_end);
+  while (queue.report_next(report)) {
   }
 }
 

@@ -23,10 +23,10 @@ using NextCase = std::function<std::optional<CaseId>()>;
 /// Runs a case.
 using Play = std::function<std::vector<ScenarioResult>(const CaseId&)>;
 
-/// Runs all cases on `jobs` threads. Each thread makes its own Play. `tell` receives the results of each
+/// Runs all cases on `jobs` threads. Each thread makes its own Play. `report` receives the results of each
 /// case, in order, on the calling thread. An exception of a Play is thrown here, after the results of all
 /// cases before that one.
 void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
-               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& tell);
+               const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& report);
 
 }  // namespace understudy::emulator::play

@@ -31,7 +31,7 @@ void SpanWatch::on_tick(Tick) {
   }
 }
 
-Tick SpanWatch::next_look(Tick done) const {
+Tick SpanWatch::next_poll(Tick done) const {
   Tick next = kNever;
   for (const Span& span : spans_) next = std::min(next, values_.next_change(span.condition, done));
   return next;

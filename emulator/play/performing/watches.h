@@ -34,7 +34,7 @@ class SpanWatch final : public world::TickWatcher {
       : world_(world), values_(values), describe_(describe) {}
 
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
   void open(Span span) { spans_.push_back(std::move(span)); }
   /// Returns false if no span of that name is open.
   bool close(const std::string& name);
@@ -68,7 +68,7 @@ class ConditionHistory final : public world::TickWatcher {
       : condition_(std::move(condition)), values_(values) {}
 
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override { return values_.next_change(condition_, done); }
+  Tick next_poll(Tick done) const override { return values_.next_change(condition_, done); }
   /// Returns the first tick from `begin` on at which the condition was true.
   std::optional<Tick> first_from(Tick begin) const;
 

@@ -133,14 +133,14 @@ std::string colour_of(const TraceTable& table, std::size_t column) {
 
 /// Returns the range from the minimum to the maximum of a panel's columns, and a little more.
 std::string range_of(const TraceTable& table, const PlotPanel& panel) {
-  double least = table.columns[panel.columns.front()].front();
-  double greatest = least;
+  double min = table.columns[panel.columns.front()].front();
+  double max = min;
   for (const std::size_t column : panel.columns) {
     const auto [low, high] = std::minmax_element(table.columns[column].begin(), table.columns[column].end());
-    least = std::min(least, *low);
-    greatest = std::max(greatest, *high);
+    min = std::min(min, *low);
+    max = std::max(max, *high);
   }
-  const AxisScale scale = scale_for(least, greatest, 5);
+  const AxisScale scale = scale_for(min, max, 5);
   return "set yrange [" + world::number_text(scale.low) + ":" + world::number_text(scale.high) + "]\n";
 }
 

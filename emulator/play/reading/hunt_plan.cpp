@@ -16,7 +16,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/play/reading/hunt_form.h"
+#include "emulator/play/reading/hunt_schema.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
 #include "emulator/play/reading/variation.h"
@@ -145,7 +145,7 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   Entry entry{
       .step = field.without(kBeside).settled(), .values = {}, .first = first_, .last = last_, .ways = {}};
   if (const auto times = field.find("times"))
-    entry.most = static_cast<std::size_t>(times->integer(kMostTimesSchema));
+    entry.max = static_cast<std::size_t>(times->integer(kMaxTimesSchema));
   if (const auto within = field.find("within")) entry.within = read_within(*within);
   if (const auto from = field.find("from")) entry.first = std::max(first_, step_called(*from) + 1);
   if (const auto to = field.find("to")) entry.last = std::min(last_, step_called(*to));

@@ -45,7 +45,7 @@ class HuntPlan {
   struct Entry {
     world::YamlFields step;         // includes values that are still to be drawn
     std::vector<Variation> values;  // in the order written
-    std::size_t most = 1;           // how often it may happen
+    std::size_t max = 1;            // how often it may happen
     SimTime within{-1};             // all of them happen within this time; negative: at any time
     std::size_t first = 0;          // the steps of the scenario before which it may happen
     std::size_t last = 0;

@@ -10,8 +10,8 @@
 
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
-#include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/step_schemas.h"
 #include "emulator/play/reading/steps_reader.h"
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"

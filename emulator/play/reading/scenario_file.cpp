@@ -17,11 +17,11 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/model.h"
 #include "emulator/play/reading/play_reader.h"
-#include "emulator/play/reading/scenario_form.h"
+#include "emulator/play/reading/scenario_schema.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/scenario/case.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/bench_schema.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 

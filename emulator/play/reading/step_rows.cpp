@@ -3,9 +3,9 @@
 #include <array>
 #include <span>
 
-#include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/play/reading/step_schemas.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::play {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 
-#include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/bench_schema.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::world {
 class YamlFields;

@@ -18,7 +18,7 @@
 #include "emulator/play/reading/step_rows.h"
 #include "emulator/play/reading/trial.h"
 #include "emulator/play/scenario/scenario.h"
-#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/bench_schema.h"
 #include "emulator/world/faults/fault.h"
 
 namespace understudy::emulator::play {
@@ -99,7 +99,7 @@ Steps StepsReader::read_apart(const world::YamlFields& step) {
   parameters_ = &kNone;
   const Story before = story_;
   diagnostics_ = {};
-  diagnostics_.require([&] { read_or_complain(step); });
+  diagnostics_.require([&] { read_or_report(step); });
   story_ = before;
   return steps;
 }
@@ -134,13 +134,13 @@ void StepsReader::read_here(const world::YamlFields& list, const Parameters& par
   const Parameters* const outer = std::exchange(parameters_, &parameters);
   const auto steps = list.with_rule(&parameters).elements();
   if (steps.empty()) list.fail("is empty; expected at least one step");
-  for (const world::YamlFields& step : steps) read_or_complain(step);
+  for (const world::YamlFields& step : steps) read_or_report(step);
   parameters_ = outer;
   --depth_;
 }
 
 /// Reads a step. If it cannot be read, restores the reader's state before it.
-void StepsReader::read_or_complain(const world::YamlFields& step) {
+void StepsReader::read_or_report(const world::YamlFields& step) {
   const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
   const auto outer = std::pair(may_lack_name_, has_failed_);
   const StepRow* row = nullptr;

@@ -100,7 +100,7 @@ class StepsReader {
   bool has_diagnostics() const { return diagnostics_.count() > 0; }
 
  private:
-  void read_or_complain(const world::YamlFields& step);
+  void read_or_report(const world::YamlFields& step);
   void read_step(const world::YamlFields& step, const StepRow* row);
   void note_written();
   void count(const world::YamlFields& where);

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/step_schemas.h"
 #include "emulator/play/reading/steps_reader.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/speech/line_protocol.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/protocol/line_protocol.h"
+#include "emulator/world/protocol/received_lines.h"
 
 namespace understudy::emulator::play {
 
@@ -48,9 +48,10 @@ std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields
   const std::size_t number = read_line_of(reader, value);
   const world::Bench& bench = reader.trial().bench();
   const world::LineSetup& line = bench.lines[number];
-  const world::LineProtocol& speech = world::protocol_of(*bench.devices[line.stations.front().device].model);
-  if (!speech.carries_text()) {
-    value.fail("line '" + line.name + "' carries " + std::string(speech.messages()) +
+  const world::LineProtocol& protocol =
+      world::protocol_of(*bench.devices[line.stations.front().device].model);
+  if (!protocol.carries_text()) {
+    value.fail("line '" + line.name + "' carries " + std::string(protocol.messages()) +
                "; expected a line that carries text, or `bytes`");
   }
   return number;

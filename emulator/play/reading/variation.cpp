@@ -14,9 +14,9 @@
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "emulator/play/reading/amounts.h"
-#include "emulator/play/reading/scenario_form.h"
-#include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/play/reading/scenario_schema.h"
+#include "emulator/world/bench_file/bench_schema.h"
+#include "emulator/world/bench_file/schema.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::play {

@@ -8,10 +8,10 @@
 
 namespace understudy::emulator::play {
 
-AxisScale exact_scale_for(double low, double high, int most_marks) {
+AxisScale exact_scale_for(double low, double high, int max_marks) {
   AxisScale scale{.low = low, .high = high, .marks = {}, .decimals = 0};
   // This finds the smallest step of 1, 2, 5, 10, ... that needs few enough marks.
-  const double wanted = (high - low) / most_marks;
+  const double wanted = (high - low) / max_marks;
   double power = 1;
   int decimals = 0;
   while (power > wanted) {
@@ -32,11 +32,11 @@ AxisScale exact_scale_for(double low, double high, int most_marks) {
   return scale;
 }
 
-AxisScale scale_for(double least, double greatest, int most_marks) {
+AxisScale scale_for(double min, double max, int max_marks) {
   constexpr double kBeyond = 0.05;
-  if (least == greatest) return exact_scale_for(least - 1, greatest + 1, std::min(most_marks, 3));
-  const double beyond = kBeyond * (greatest - least);
-  return exact_scale_for(least - beyond, greatest + beyond, most_marks);
+  if (min == max) return exact_scale_for(min - 1, max + 1, std::min(max_marks, 3));
+  const double beyond = kBeyond * (max - min);
+  return exact_scale_for(min - beyond, max + beyond, max_marks);
 }
 
 std::string plain_number(double value) {

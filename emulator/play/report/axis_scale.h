@@ -15,9 +15,9 @@ struct AxisScale {
 
 /// Returns a scale from the smallest to the largest value, and a little beyond so that lines do not touch the
 /// frame, with at most this many marks (at least 2). A constant value is in the middle.
-AxisScale scale_for(double least, double greatest, int most_marks);
+AxisScale scale_for(double min, double max, int max_marks);
 /// Like the above, from exactly the smallest to exactly the largest value.
-AxisScale exact_scale_for(double low, double high, int most_marks);
+AxisScale exact_scale_for(double low, double high, int max_marks);
 
 /// Returns "32000" or "10666.67": whole numbers in full, others with seven digits.
 std::string plain_number(double value);

@@ -14,21 +14,21 @@ void Envelope::add(Tick tick, double value) {
   const Point point{tick, value};
   if (stretches_.empty()) {
     origin_ = tick;
-    least_ = greatest_ = value;
+    min_ = max_ = value;
     stretches_.push_back({point, point, point, point});
     return;
   }
   if (tick <= stretches_.back().last.tick) return;
-  least_ = std::min(least_, value);
-  greatest_ = std::max(greatest_, value);
-  while (static_cast<std::size_t>((tick - origin_) / length_) >= most_stretches_) halve();
+  min_ = std::min(min_, value);
+  max_ = std::max(max_, value);
+  while (static_cast<std::size_t>((tick - origin_) / length_) >= max_stretches_) halve();
   Stretch& last = stretches_.back();
   if ((tick - origin_) / length_ != (last.first.tick - origin_) / length_) {
     stretches_.push_back({point, point, point, point});
     return;
   }
-  if (value < last.least.value) last.least = point;
-  if (value > last.greatest.value) last.greatest = point;
+  if (value < last.min.value) last.min = point;
+  if (value > last.max.value) last.max = point;
   last.last = point;
 }
 
@@ -55,8 +55,8 @@ void Envelope::halve() {
       continue;
     }
     Stretch& whole = longer.back();
-    if (stretch.least.value < whole.least.value) whole.least = stretch.least;
-    if (stretch.greatest.value > whole.greatest.value) whole.greatest = stretch.greatest;
+    if (stretch.min.value < whole.min.value) whole.min = stretch.min;
+    if (stretch.max.value > whole.max.value) whole.max = stretch.max;
     whole.last = stretch.last;
   }
   stretches_ = std::move(longer);
@@ -76,7 +76,7 @@ std::vector<Envelope::Point> Envelope::points() const {
     }
   };
   for (const Stretch& stretch : stretches_) {
-    std::array<Point, 4> four{stretch.first, stretch.least, stretch.greatest, stretch.last};
+    std::array<Point, 4> four{stretch.first, stretch.min, stretch.max, stretch.last};
     std::sort(four.begin(), four.end(), [](const Point& a, const Point& b) { return a.tick < b.tick; });
     for (const Point& point : four) add(point);
   }

@@ -17,7 +17,7 @@ class Envelope {
     bool operator==(const Point&) const = default;
   };
 
-  explicit Envelope(std::size_t most_stretches = 600) : most_stretches_(most_stretches) {}
+  explicit Envelope(std::size_t max_stretches = 600) : max_stretches_(max_stretches) {}
 
   /// Adds a value. Ticks ascend; a value at an earlier tick, or at the last one again, is ignored.
   void add(Tick tick, double value);
@@ -28,25 +28,25 @@ class Envelope {
   /// are kept. A line through the points is the signal, or encloses it.
   std::vector<Point> points() const;
   /// Returns true if there were at least two different values.
-  bool varies() const { return !stretches_.empty() && least_ != greatest_; }
-  double least() const { return least_; }
-  double greatest() const { return greatest_; }
+  bool varies() const { return !stretches_.empty() && min_ != max_; }
+  double min() const { return min_; }
+  double max() const { return max_; }
 
  private:
   struct Stretch {
     Point first;
-    Point least;
-    Point greatest;
+    Point min;
+    Point max;
     Point last;
   };
   void halve();
 
-  std::size_t most_stretches_;
+  std::size_t max_stretches_;
   Tick origin_ = 0;                 // where the first stretch begins
   Tick length_ = 1;                 // how long each stretch is
   std::vector<Stretch> stretches_;  // stretches in which nothing was added may be missing
-  double least_ = 0;
-  double greatest_ = 0;
+  double min_ = 0;
+  double max_ = 0;
 };
 
 }  // namespace understudy::emulator::play

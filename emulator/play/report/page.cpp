@@ -161,7 +161,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
 std::string always_on(const Stretch& stretch) {
   std::string names;
   for (const SeenSignal& signal : stretch.signals) {
-    const bool is_on = signal.kind == SeenSignal::Kind::bit && !signal.varies() && signal.least != 0;
+    const bool is_on = signal.kind == SeenSignal::Kind::bit && !signal.varies() && signal.min != 0;
     if (is_on) names += (names.empty() ? "" : ", ") + signal.name;
   }
   return names.empty() ? "" : "<p class=\"dim\">on throughout: <code>" + xml_escaped(names) + "</code></p>\n";

@@ -143,13 +143,13 @@ class Drawing {
     legend(panel);
     const double top = y_ + kLegendHeight;
     const double bottom = top + panel.height;
-    double least = panel.has_zero ? 0 : panel.curves[0].signal->least;
-    double greatest = panel.has_zero ? 0 : panel.curves[0].signal->greatest;
+    double min = panel.has_zero ? 0 : panel.curves[0].signal->min;
+    double max = panel.has_zero ? 0 : panel.curves[0].signal->max;
     for (const Curve& curve : panel.curves) {
-      least = std::min(least, curve.signal->least);
-      greatest = std::max(greatest, curve.signal->greatest);
+      min = std::min(min, curve.signal->min);
+      max = std::max(max, curve.signal->max);
     }
-    const AxisScale scale = scale_for(least, greatest, panel.marks);
+    const AxisScale scale = scale_for(min, max, panel.marks);
     const double per_unit = panel.height / (scale.high - scale.low);
     for (const double mark : scale.marks) {
       const double y = bottom - (mark - scale.low) * per_unit;
@@ -158,7 +158,7 @@ class Drawing {
     }
     frame(top, bottom);
     for (const Curve& curve : panel.curves) {
-      const double base = curve.signal->least;
+      const double base = curve.signal->min;
       const double base_y = bottom - (base - scale.low) * per_unit;
       body_ +=
           "<polyline" +

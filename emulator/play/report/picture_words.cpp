@@ -36,8 +36,7 @@ std::string words_of(const SeenSignal& signal) {
     return signal.name + " is " + level(first) + " at first and " + level(last) + " at the end";
   }
   return signal.name + " goes from " + plain_number(first.value) + " to " + plain_number(last.value) +
-         unit_of(signal.kind) + ", between " + plain_number(signal.least) + " and " +
-         plain_number(signal.greatest);
+         unit_of(signal.kind) + ", between " + plain_number(signal.min) + " and " + plain_number(signal.max);
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ struct SeenSignal {
     double value = 0;
   };
   std::vector<Point> points{};  // include the first and the last of the stretch
-  double least = 0;
-  double greatest = 0;
-  bool varies() const { return least != greatest; }
+  double min = 0;
+  double max = 0;
+  bool varies() const { return min != max; }
 };
 
 struct SeenFrame {

@@ -16,7 +16,7 @@
 #include "emulator/play/results/result.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/plant/plant.h"
-#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
 
@@ -63,27 +63,27 @@ RunLogger::RunLogger(world::World& world) : world_(world), probes_(world) {
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
       if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       const std::string axis = device.name + "." + std::string(device.model->axes[a].name);
-      add_sight(axis + ".position", SignalKind::position);
-      add_sight(axis + ".pulses", SignalKind::pulses);
-      add_sight(axis + ".speed", SignalKind::speed);
+      add_signal(axis + ".position", SignalKind::position);
+      add_signal(axis + ".pulses", SignalKind::pulses);
+      add_signal(axis + ".speed", SignalKind::speed);
       if (world.device(d).axes()->duty_percent(static_cast<int>(a)))
-        add_sight(axis + ".pwm", SignalKind::duty);
+        add_signal(axis + ".pwm", SignalKind::duty);
       for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
-        add_sight(axis + word, SignalKind::bit);
+        add_signal(axis + word, SignalKind::bit);
       }
       const world::PlantSetup& machine = world.machine(d, static_cast<int>(a));
-      if (machine.near_home) add_sight(axis + ".near_home", SignalKind::bit);
-      if (machine.mark) add_sight(axis + ".mark", SignalKind::bit);
+      if (machine.near_home) add_signal(axis + ".near_home", SignalKind::bit);
+      if (machine.mark) add_signal(axis + ".mark", SignalKind::bit);
     }
-    for (const TerminalSight& sight : terminal_sights(world.device(d))) {
-      if (sight.kind == TerminalRow::Kind::dip_switch) continue;
-      const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
-      const SignalKind kind = is_in_millivolts(sight.kind) ? SignalKind::voltage
-                              : is_bit                     ? SignalKind::bit
-                                                           : SignalKind::level;
-      add_sight(device.name + "." + sight.name, kind);
+    for (const TerminalView& observed : terminal_views(world.device(d))) {
+      if (observed.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = observed.what == TerminalView::What::level && has_two_levels(observed.kind);
+      const SignalKind kind = is_in_millivolts(observed.kind) ? SignalKind::voltage
+                              : is_bit                        ? SignalKind::bit
+                                                              : SignalKind::level;
+      add_signal(device.name + "." + observed.name, kind);
     }
-    add_sight(device.name + ".power", SignalKind::bit);
+    add_signal(device.name + ".power", SignalKind::bit);
   }
   world_.add_watcher(*this);
   world_restored(0);
@@ -94,8 +94,8 @@ RunLogger::~RunLogger() {
   ignore_lines();
 }
 
-void RunLogger::add_sight(const std::string& name, SignalKind kind) {
-  sights_.push_back({kind, name, probes_.resolve(name).handle, Envelope()});
+void RunLogger::add_signal(const std::string& name, SignalKind kind) {
+  signals_.push_back({kind, name, probes_.resolve(name).handle, Envelope()});
 }
 
 void RunLogger::watch_lines() {
@@ -121,26 +121,27 @@ void RunLogger::world_restored(std::size_t steps) {
 }
 
 void RunLogger::on_tick(Tick tick) {
-  for (Sight& sight : sights_) {
-    const double value = probes_.value(sight.handle).real();
-    sight.values.add(tick, sight.kind == SignalKind::voltage ? value / kMillivolts : value);
+  for (ObservedSignal& observed : signals_) {
+    const double value = probes_.value(observed.handle).real();
+    observed.values.add(tick, observed.kind == SignalKind::voltage ? value / kMillivolts : value);
   }
   stretch_.end = std::max(stretch_.end, time_of(tick));
 }
 
-Tick RunLogger::next_look(Tick done) const {
+Tick RunLogger::next_poll(Tick done) const {
   Tick next = kNever;
-  for (const Sight& sight : sights_) next = std::min(next, probes_.next_change(sight.handle, done));
+  for (const ObservedSignal& observed : signals_)
+    next = std::min(next, probes_.next_change(observed.handle, done));
   return next;
 }
 
 void RunLogger::on_rest(Tick last) {
-  for (Sight& sight : sights_) sight.values.stay(last);
+  for (ObservedSignal& observed : signals_) observed.values.stay(last);
   stretch_.end = std::max(stretch_.end, time_of(last));
 }
 
 void RunLogger::add(const pty::CapturedPacket& packet) {
-  const bool is_from_host = packet.way == pty::Way::from_host;
+  const bool is_from_host = packet.direction == pty::Direction::from_host;
   const bool is_frame = !packet.bytes.empty();
   const world::WorldLine& line = world_.line(packet.line);
   auto& request = requests_[packet.line];
@@ -168,17 +169,17 @@ void RunLogger::add(const pty::CapturedPacket& packet) {
 
 void RunLogger::end_stretch() {
   Stretch stretch = std::exchange(stretch_, {});
-  std::vector<Sight> sights = std::exchange(sights_, {});
-  for (const Sight& sight : sights) {
-    SeenSignal signal{.name = sight.name,
-                      .kind = sight.kind,
-                      .least = sight.values.least(),
-                      .greatest = sight.values.greatest()};
-    for (const Envelope::Point& point : sight.values.points()) {
+  std::vector<ObservedSignal> observed_signals = std::exchange(signals_, {});
+  for (const ObservedSignal& observed : observed_signals) {
+    SeenSignal signal{.name = observed.name,
+                      .kind = observed.kind,
+                      .min = observed.values.min(),
+                      .max = observed.values.max()};
+    for (const Envelope::Point& point : observed.values.points()) {
       signal.points.push_back({point.tick, point.value});
     }
     stretch.signals.push_back(std::move(signal));
-    sights_.push_back({sight.kind, sight.name, sight.handle, Envelope()});
+    signals_.push_back({observed.kind, observed.name, observed.handle, Envelope()});
   }
   if (stretch.frames.size() > 2 * kFramesKept) {
     const std::size_t more = stretch.frames.size() - 2 * kFramesKept;

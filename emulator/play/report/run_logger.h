@@ -28,24 +28,24 @@ class RunLogger final : public Observer, private world::TickWatcher {
   void finish(ScenarioResult& result) override;
 
  private:
-  struct Sight {
+  struct ObservedSignal {
     SeenSignal::Kind kind;
     std::string name;
     std::int32_t handle;
     Envelope values;
   };
-  void add_sight(const std::string& name, SeenSignal::Kind kind);
+  void add_signal(const std::string& name, SeenSignal::Kind kind);
   void watch_lines();
   void ignore_lines();
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
   void on_rest(Tick last) override;
   void add(const pty::CapturedPacket& packet);
   void end_stretch();
 
   world::World& world_;
   world::Probes probes_;
-  std::vector<Sight> sights_;
+  std::vector<ObservedSignal> signals_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   /// The requests of each line, which are needed to decode replies.
   std::vector<std::vector<std::uint8_t>> requests_;

@@ -32,10 +32,10 @@ std::uint64_t hash_of_key(const std::string& file, const std::string& case_id, c
 
 class JsonLines final : public ResultsFile {
  public:
-  JsonLines(const std::string& path, bool goes_on) : path_(path) {
+  JsonLines(const std::string& path, bool continues) : path_(path) {
     try {
       file_.emplace(path, ContentKind::results);
-      if (goes_on) read();
+      if (continues) read();
     } catch (const OutputError& error) {
       refuse(error.what());
     }
@@ -120,7 +120,7 @@ class JsonLines final : public ResultsFile {
       const auto it = std::lower_bound(played_.begin(), played_.end(), hash);
       if (it != played_.end() && (*it & ~kFailed) == hash) *it |= kFailed;
     }
-    file_->go_on(size);
+    file_->continue_at(size);
   }
 
   static bool is_row(const nlohmann::json& json) {
@@ -138,8 +138,8 @@ class JsonLines final : public ResultsFile {
 
 }  // namespace
 
-std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool goes_on) {
-  return std::make_unique<JsonLines>(path, goes_on);
+std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool continues) {
+  return std::make_unique<JsonLines>(path, continues);
 }
 
 }  // namespace understudy::emulator::play

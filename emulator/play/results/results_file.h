@@ -69,7 +69,7 @@ inline constexpr std::string_view kSqliteEnding = ".sqlite";
 /// Opens or creates the file; its old content stays until begin(). With `goes_on`, the run continues in the
 /// file, so its rows are read. All functions throw GrowingFileError if a file cannot be written, or was not
 /// written by this program.
-std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool goes_on);
-std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool goes_on);
+std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool continues);
+std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool continues);
 
 }  // namespace understudy::emulator::play

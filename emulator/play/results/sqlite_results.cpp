@@ -51,7 +51,7 @@ std::string sql_quoted(const std::string& text, char mark) {
 
 class SqliteResults final : public ResultsFile {
  public:
-  SqliteResults(const std::string& path, bool goes_on) : path_(path) {
+  SqliteResults(const std::string& path, bool continues) : path_(path) {
     try {
       lock_.emplace(path, ContentKind::database);
     } catch (const OutputError& error) {
@@ -63,7 +63,7 @@ class SqliteResults final : public ResultsFile {
     if (code != SQLITE_OK) refuse_last();
     sqlite3_busy_timeout(opened, kPatience_ms);
     require_own();
-    if (!goes_on) return;
+    if (!continues) return;
     make_tables();
     const Statement names = prepare("SELECT name FROM parameter_names");
     while (step(names)) names_.insert(text_of(names, 0));
@@ -237,8 +237,8 @@ class SqliteResults final : public ResultsFile {
 
 }  // namespace
 
-std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool goes_on) {
-  return std::make_unique<SqliteResults>(path, goes_on);
+std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool continues) {
+  return std::make_unique<SqliteResults>(path, continues);
 }
 
 }  // namespace understudy::emulator::play

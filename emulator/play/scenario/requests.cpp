@@ -40,7 +40,7 @@ using FunctionKind = world::FunctionRow::Kind;
 /// 6.12).
 int most_of(Table table, FunctionKind kind) {
   const world::FunctionRow* const function = world::function_for(table, kind);
-  return function != nullptr ? function->most : 1;
+  return function != nullptr ? function->max : 1;
 }
 
 bool is_of_one_table(const Words& a, const Words& b) { return a.device == b.device && a.table == b.table; }

@@ -9,7 +9,7 @@
 #include "emulator/device/register_map/register_names.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/view/bench_inventory.h"
 

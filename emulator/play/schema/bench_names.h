@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::play {
 

@@ -14,12 +14,12 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/model.h"
-#include "emulator/play/reading/scenario_form.h"
+#include "emulator/play/reading/scenario_schema.h"
 #include "emulator/play/reading/step_rows.h"
 #include "emulator/play/schema/bench_names.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/bench_form.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/bench_schema.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::play {
 
@@ -37,37 +37,37 @@ class SchemaWriter {
   SchemaWriter(ModelList models, bool has_parameters, bool has_names = false)
       : models_(models), has_parameters_(has_parameters), has_names_(has_names) {}
 
-  Json of(const world::Schema& form) const {
-    if (form.is_part && requires_) {
+  Json of(const world::Schema& schema) const {
+    if (schema.is_part && requires_) {
       SchemaWriter of_parts = *this;
       of_parts.requires_ = false;
-      return of_parts.of(form);
+      return of_parts.of(schema);
     }
-    switch (form.kind) {
+    switch (schema.kind) {
       case world::Schema::Kind::text:
-        return lists(form) ? reference(form.names_of) : Json{{"type", {"string", "number", "boolean"}}};
-      case world::Schema::Kind::integer: return integer(form);
+        return lists(schema) ? reference(schema.names_of) : Json{{"type", {"string", "number", "boolean"}}};
+      case world::Schema::Kind::integer: return integer(schema);
       case world::Schema::Kind::level:
         return Json{{"enum", {"on", "off", "true", "false", "0", "1", true, false, 0, 1}}};
       case world::Schema::Kind::duration:
         return or_parameter(Json{{"type", "string"}, {"pattern", kDurationText}});
-      case world::Schema::Kind::words: return words(form);
-      case world::Schema::Kind::list: return list(form);
+      case world::Schema::Kind::words: return words(schema);
+      case world::Schema::Kind::list: return list(schema);
       case world::Schema::Kind::names: {
-        Json schema{{"type", "object"}, {"additionalProperties", of(*form.of)}};
-        if (lists(form)) schema["propertyNames"] = reference(form.names_of);
-        return schema;
+        Json made{{"type", "object"}, {"additionalProperties", of(*schema.of)}};
+        if (lists(schema)) made["propertyNames"] = reference(schema.names_of);
+        return made;
       }
       case world::Schema::Kind::keys: {
-        Json schema = keys(form.keys);
+        Json made = keys(schema.keys);
         // A key may also be a parameter's value: { "${fault}": feeder }.
-        if (has_parameters_) schema["patternProperties"] = Json{{kParameter, Json::object()}};
-        return schema;
+        if (has_parameters_) made["patternProperties"] = Json{{kParameter, Json::object()}};
+        return made;
       }
       case world::Schema::Kind::either: {
-        Json ways = Json::array();
-        for (const world::Schema* way : form.ways) ways.push_back(of(*way));
-        return Json{{"anyOf", ways}};
+        Json alternatives = Json::array();
+        for (const world::Schema* alternative : schema.alternatives) alternatives.push_back(of(*alternative));
+        return Json{{"anyOf", alternatives}};
       }
       case world::Schema::Kind::steps: return Json{{"$ref", "#/definitions/steps"}};
     }
@@ -81,11 +81,11 @@ class SchemaWriter {
       properties[std::string(row.key)] = described(row);
       if (row.required && requires_) required.push_back(row.key);
     }
-    Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
-    if (!required.empty()) schema["required"] = required;
+    Json made{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+    if (!required.empty()) made["required"] = required;
     if (properties.contains(world::kModelKey.key) && properties.contains(world::kNvKey.key))
-      schema["allOf"] = memories();
-    return schema;
+      made["allOf"] = memories();
+    return made;
   }
 
   /// Returns the schema of a step: exactly one kind, and the keys that may accompany it.
@@ -102,7 +102,7 @@ class SchemaWriter {
       }
     }
     Json dependencies = Json::object();
-    for (const auto& [key, ways] : needed) dependencies[key] = Json{{"anyOf", ways}};
+    for (const auto& [key, alternatives] : needed) dependencies[key] = Json{{"anyOf", alternatives}};
     return Json{{"type", "object"},
                 {"properties", properties},
                 {"additionalProperties", false},
@@ -125,15 +125,15 @@ class SchemaWriter {
     return "";
   }
   Json definition(const NameList& list) const {
-    Json ways = Json::array();
-    if (!list.names.empty()) ways.push_back(Json{{"enum", list.names}});
+    Json alternatives = Json::array();
+    if (!list.names.empty()) alternatives.push_back(Json{{"enum", list.names}});
     // Editors show these beside the names.
-    if (!list.meanings.empty()) ways.back()["enumDescriptions"] = list.meanings;
+    if (!list.meanings.empty()) alternatives.back()["enumDescriptions"] = list.meanings;
     for (const std::string& pattern : list.patterns) {
-      ways.push_back(Json{{"type", "string"}, {"pattern", pattern}});
+      alternatives.push_back(Json{{"type", "string"}, {"pattern", pattern}});
     }
-    ways.push_back(Json{{"type", "string"}, {"pattern", kParameter}});
-    return Json{{"anyOf", ways}};
+    alternatives.push_back(Json{{"type", "string"}, {"pattern", kParameter}});
+    return Json{{"anyOf", alternatives}};
   }
 
  private:
@@ -162,57 +162,57 @@ class SchemaWriter {
     if (kept == nullptr) return kinds;
     for (const BlockKind& kind : kept->kinds()) {
       Json texts = of(world::kTextByName);
-      texts["maxProperties"] = kind.most;
-      texts["description"] = "Texts by their names: " + std::to_string(kind.most) + " at most, of " +
+      texts["maxProperties"] = kind.max;
+      texts["description"] = "Texts by their names: " + std::to_string(kind.max) + " at most, of " +
                              std::to_string(kind.longest) + " bytes at most.";
       kinds[std::string(kind.name)] = std::move(texts);
     }
     return kinds;
   }
 
-  bool lists(const world::Schema& form) const {
-    return has_names_ && form.names_of != world::Schema::Of::anything;
+  bool lists(const world::Schema& schema) const {
+    return has_names_ && schema.names_of != world::Schema::Of::anything;
   }
   static Json reference(world::Schema::Of sort) {
     return Json{{"$ref", "#/definitions/" + definition_of(sort)}};
   }
 
-  Json or_parameter(Json schema) const {
-    if (!has_parameters_) return schema;
-    return Json{{"anyOf", {schema, Json{{"type", "string"}, {"pattern", kParameter}}}}};
+  Json or_parameter(Json made) const {
+    if (!has_parameters_) return made;
+    return Json{{"anyOf", {made, Json{{"type", "string"}, {"pattern", kParameter}}}}};
   }
 
-  Json integer(const world::Schema& form) const {
+  Json integer(const world::Schema& schema) const {
     Json number{{"type", "integer"}};
-    if (form.lowest != INT64_MIN) number["minimum"] = form.lowest;
-    if (form.highest != INT64_MAX) number["maximum"] = form.highest;
+    if (schema.lowest != INT64_MIN) number["minimum"] = schema.lowest;
+    if (schema.highest != INT64_MAX) number["maximum"] = schema.highest;
     return or_parameter(Json{{"anyOf", {number, Json{{"type", "string"}, {"pattern", kWholeNumber}}}}});
   }
 
   /// Lists words. `on` and `true` are words for us, but truth values for some YAML readers.
-  Json words(const world::Schema& form) const {
+  Json words(const world::Schema& schema) const {
     Json words = Json::array();
-    for (const std::string_view word : form.words) words.push_back(word);
-    for (const std::string_view word : form.words) {
+    for (const std::string_view word : schema.words) words.push_back(word);
+    for (const std::string_view word : schema.words) {
       if (word == "on" || word == "true") words.push_back(true);
       if (word == "off" || word == "false") words.push_back(false);
     }
     return or_parameter(Json{{"enum", words}});
   }
 
-  Json list(const world::Schema& form) const {
-    Json schema{{"type", "array"}, {"items", of(*form.of)}};
-    if (form.count > 0) schema["maxItems"] = form.count;
-    schema["minItems"] = std::max(form.count, 1);
-    return schema;
+  Json list(const world::Schema& schema) const {
+    Json made{{"type", "array"}, {"items", of(*schema.of)}};
+    if (schema.count > 0) made["maxItems"] = schema.count;
+    made["minItems"] = std::max(schema.count, 1);
+    return made;
   }
 
   Json described(const world::Key& row) const {
-    Json schema = of(*row.form);
+    Json made = of(*row.schema);
     // Draft 7 ignores keys next to a $ref.
-    if (schema.contains("$ref")) schema = Json{{"allOf", {schema}}};
-    schema["description"] = row.doc;
-    return schema;
+    if (made.contains("$ref")) made = Json{{"allOf", {made}}};
+    made["description"] = row.doc;
+    return made;
   }
 
   ModelList models_;
@@ -223,9 +223,9 @@ class SchemaWriter {
 
 /// Requires a scenario to have steps, or several scenarios that do.
 Json whole_scenario(const SchemaWriter& writer) {
-  Json schema = writer.keys(kScenarioKeys);
-  schema["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};
-  return schema;
+  Json made = writer.keys(kScenarioKeys);
+  made["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};
+  return made;
 }
 
 Json step_definitions(const SchemaWriter& writer) {
@@ -233,9 +233,9 @@ Json step_definitions(const SchemaWriter& writer) {
               {"steps", {{"type", "array"}, {"minItems", 1}, {"items", {{"$ref", "#/definitions/step"}}}}}};
 }
 
-std::string finished(const std::string& title, const Json& schema, Json definitions) {
+std::string finished(const std::string& title, const Json& made, Json definitions) {
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
-  whole.update(schema);
+  whole.update(made);
   if (!definitions.empty()) whole["definitions"] = std::move(definitions);
   return whole.dump(2) + "\n";
 }

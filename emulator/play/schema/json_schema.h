@@ -6,7 +6,7 @@
 
 #include "emulator/device/model.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::play {
 

@@ -268,8 +268,8 @@ Json line_of(const Daemon& daemon, const Port& port) {
               {"tcp", port.tcp_places()},
               {"settings", pty::to_string(line.line.options().settings)},
               {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
-              {"protocol", line.speech.protocol().name},
-              {"text", line.speech.carries_text()}};
+              {"protocol", line.protocol.protocol().name},
+              {"text", line.protocol.carries_text()}};
 }
 
 Json station_of(const world::LineStation& station) {

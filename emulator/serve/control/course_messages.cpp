@@ -73,33 +73,33 @@ struct Span {
   std::string lane;
   SimTime begin{0};
   SimTime end{0};
-  Json told;
+  Json entry;
   bool is_bad = false;
   std::uint64_t count = 1;
 };
 
 Json json_of_span(const Span& span) {
-  Json told{{"lane", span.lane}, {"begin_ns", span.begin.count()}, {"end_ns", span.end.count()}};
-  told.update(span.told);
-  if (span.is_bad) told["bad"] = true;
-  if (span.count > 1) told["count"] = span.count;
-  return told;
+  Json entry{{"lane", span.lane}, {"begin_ns", span.begin.count()}, {"end_ns", span.end.count()}};
+  entry.update(span.entry);
+  if (span.is_bad) entry["bad"] = true;
+  if (span.count > 1) entry["count"] = span.count;
+  return entry;
 }
 
 void add_exchanges(std::vector<Span>& spans, const world::History& history) {
   for (const world::Exchange& exchange : history.exchanges()) {
-    Json told{{"kind", "frame"}};
+    Json entry{{"kind", "frame"}};
     const auto add = [&](const char* key, const std::string& text) {
-      if (!text.empty()) told[key] = text;
+      if (!text.empty()) entry[key] = text;
     };
     add("text", exchange.request);
     add("reply", exchange.reply);
     add("remark", exchange.remark);
-    if (exchange.latency) told["latency_ns"] = exchange.latency->count();
+    if (exchange.latency) entry["latency_ns"] = exchange.latency->count();
     spans.push_back({.lane = exchange.line,
                      .begin = exchange.begin,
                      .end = exchange.end,
-                     .told = std::move(told),
+                     .entry = std::move(entry),
                      .is_bad = exchange.is_refusal || !exchange.remark.empty()});
   }
 }
@@ -113,7 +113,7 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
     spans.push_back({.lane = lane,
                      .begin = event.time,
                      .end = end,
-                     .told = Json{{"kind", lane}, {"text", text}},
+                     .entry = Json{{"kind", lane}, {"text", text}},
                      .is_bad = true});
   };
   const auto finish = [&](const std::string& key, SimTime at) {
@@ -123,9 +123,9 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
     under_way.erase(found);
   };
   for (const world::Event& event : history.events()) {
-    Json told{{"kind", "event"}, {"what", event.what}};
+    Json entry{{"kind", "event"}, {"what", event.what}};
     const auto add = [&](const char* key, const std::string& text) {
-      if (!text.empty()) told[key] = text;
+      if (!text.empty()) entry[key] = text;
     };
     add("by", event.by);
     add("device", event.device);
@@ -136,7 +136,7 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
     spans.push_back({.lane = lane,
                      .begin = event.time,
                      .end = event.time,
-                     .told = std::move(told),
+                     .entry = std::move(entry),
                      .is_bad = event.what == "exception" || event.what == "dropped"});
     if (event.what == "power" && event.value == "0") {
       begin("power " + event.device, event, "power", event.device + " has no power");
@@ -157,7 +157,7 @@ void add_waits(std::vector<Span>& spans, const world::Timeline& timeline) {
     spans.push_back({.lane = event.where == 1 ? "host" : "host thread " + std::to_string(event.where),
                      .begin = event.since,
                      .end = event.at,
-                     .told = Json{{"kind", "wait"}, {"text", event.text}},
+                     .entry = Json{{"kind", "wait"}, {"text", event.text}},
                      .is_bad = event.text.ends_with("in vain")});
   }
 }
@@ -176,12 +176,12 @@ void add_programs(std::vector<Span>& spans, const Stretch& stretch, const world:
   };
   timeline.play_again(other, stretch.from, stretch.to, apart_of(stretch, is_exact), look);
   for (world::ProgramSpans::Span& span : found.finish()) {
-    Json told{{"kind", "program"}, {"line", span.line}, {"text", span.text}};
-    if (!span.waits_for.empty()) told["waits_for"] = span.waits_for;
+    Json entry{{"kind", "program"}, {"line", span.line}, {"text", span.text}};
+    if (!span.waits_for.empty()) entry["waits_for"] = span.waits_for;
     spans.push_back({.lane = span.program.empty() ? span.device : span.device + " " + span.program,
                      .begin = span.begin,
                      .end = span.end,
-                     .told = std::move(told),
+                     .entry = std::move(entry),
                      .is_bad = span.has_failed});
   }
 }
@@ -202,7 +202,7 @@ std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
       const bool is_one = span.end - before.begin < dot;
       if (is_one) {
         before.end = std::max(before.end, span.end);
-        if (span.is_bad && !before.is_bad) before.told = std::move(span.told);
+        if (span.is_bad && !before.is_bad) before.entry = std::move(span.entry);
         before.is_bad = before.is_bad || span.is_bad;
         before.count += span.count;
         continue;
@@ -240,14 +240,14 @@ Json curves_message(const Json& message, const world::Timeline& timeline, world:
     if (is_exact) curves.watch();
   });
   curves.finish();
-  Json told = Json::array();
+  Json entry = Json::array();
   for (std::size_t i = 0; i < names.size(); ++i)
-    told.push_back(Json{{"least", points_of(curves.least(i))}, {"greatest", points_of(curves.greatest(i))}});
+    entry.push_back(Json{{"least", points_of(curves.min(i))}, {"greatest", points_of(curves.max(i))}});
   return Json{{"ok", true},
               {"from_ns", stretch.from.count()},
               {"to_ns", stretch.to.count()},
               {"step_ns", is_exact ? kTickLength.count() : apart.count()},
-              {"curves", std::move(told)}};
+              {"curves", std::move(entry)}};
 }
 
 Json spans_message(const Json& message, const world::Timeline& timeline, world::World& other,
@@ -263,15 +263,15 @@ Json spans_message(const Json& message, const world::Timeline& timeline, world::
     spans.push_back({.lane = "events",
                      .begin = story->at,
                      .end = story->at,
-                     .told = Json{{"kind", "failed"}, {"text", story->sentence}},
+                     .entry = Json{{"kind", "failed"}, {"text", story->sentence}},
                      .is_bad = true});
   }
   add_programs(spans, stretch, timeline, other);
   const std::vector<Span> some = thinned(std::move(spans), stretch);
-  Json told = Json::array();
+  Json entry = Json::array();
   const std::size_t end = std::min(some.size(), first < some.size() ? first + kMaxSpans : first);
-  for (std::size_t i = first; i < end; ++i) told.push_back(json_of_span(some[i]));
-  Json reply{{"ok", true}, {"spans", std::move(told)}, {"of", some.size()}};
+  for (std::size_t i = first; i < end; ++i) entry.push_back(json_of_span(some[i]));
+  Json reply{{"ok", true}, {"spans", std::move(entry)}, {"of", some.size()}};
   if (history.dropped() > 0) reply["left_out"] = history.dropped();
   if (end < some.size()) reply["next"] = end;
   return reply;

@@ -10,8 +10,8 @@
 
 #include "base/text/one_line.h"
 #include "emulator/device/device.h"
-#include "emulator/device/mistakes_told.h"
 #include "emulator/device/model.h"
+#include "emulator/device/more_mistakes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/user_program.h"

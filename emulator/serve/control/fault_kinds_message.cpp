@@ -8,8 +8,8 @@
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/reply_task.h"
 #include "emulator/serve/control/reply_text.h"
-#include "emulator/world/bench_file/fault_form.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/fault_schema.h"
+#include "emulator/world/bench_file/schema.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
 
@@ -29,16 +29,16 @@ std::string_view place_word(world::FaultKindRow::Place place) {
   return {};
 }
 
-std::string_view form_word(world::FaultFieldRow::Schema form) {
-  using Schema = world::FaultFieldRow::Schema;
-  switch (form) {
-    case Schema::number: return "number";
-    case Schema::level: return "level";
-    case Schema::duration:
-    case Schema::ticks:
-    case Schema::even_ticks: return "duration";
-    case Schema::bytes: return "bytes";
-    case Schema::side: return "side";
+std::string_view type_word(world::FaultFieldRow::ValueType type) {
+  using ValueType = world::FaultFieldRow::ValueType;
+  switch (type) {
+    case ValueType::number: return "number";
+    case ValueType::level: return "level";
+    case ValueType::duration:
+    case ValueType::ticks:
+    case ValueType::even_ticks: return "duration";
+    case ValueType::bytes: return "bytes";
+    case ValueType::side: return "side";
   }
   return {};
 }
@@ -51,16 +51,16 @@ std::string_view doc_of(std::string_view key) {
 }
 
 /// Returns all words that a field can have, if there are only a few.
-std::vector<std::string_view> words_of(world::FaultFieldRow::Schema form) {
-  using Schema = world::FaultFieldRow::Schema;
-  switch (form) {
-    case Schema::level: return {"on", "off"};
-    case Schema::side: return {"reply", "request", "both"};
-    case Schema::number:
-    case Schema::duration:
-    case Schema::ticks:
-    case Schema::even_ticks:
-    case Schema::bytes: break;
+std::vector<std::string_view> words_of(world::FaultFieldRow::ValueType type) {
+  using ValueType = world::FaultFieldRow::ValueType;
+  switch (type) {
+    case ValueType::level: return {"on", "off"};
+    case ValueType::side: return {"reply", "request", "both"};
+    case ValueType::number:
+    case ValueType::duration:
+    case ValueType::ticks:
+    case ValueType::even_ticks:
+    case ValueType::bytes: break;
   }
   return {};
 }
@@ -69,14 +69,14 @@ Json kind_of(const world::FaultKindRow& kind) {
   Json fields = Json::array();
   for (const world::FaultFieldRow& field : kind.fields) {
     Json entry{{"name", field.name},
-               {"form", form_word(field.form)},
+               {"form", type_word(field.type)},
                {"required", field.required},
                {"doc", doc_of(field.name)}};
-    if (field.form == world::FaultFieldRow::Schema::number) {
+    if (field.type == world::FaultFieldRow::ValueType::number) {
       entry["lowest"] = field.lowest;
       entry["highest"] = field.highest;
     }
-    for (const std::string_view word : words_of(field.form)) entry["words"].push_back(word);
+    for (const std::string_view word : words_of(field.type)) entry["words"].push_back(word);
     fields.push_back(std::move(entry));
   }
   return Json{{"name", kind.name},

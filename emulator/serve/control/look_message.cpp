@@ -54,13 +54,13 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
 }
 
 /// Returns the number of the first entry of a list: the one after "since", or the first of the last ones.
-std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t most) {
+std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t max) {
   if (message.contains("since") && message.contains("last")) {
     throw MessageError("since: cannot be combined with last; expected one of them");
   }
   if (message.contains("since")) return require_count(message, "since");
-  const std::uint64_t last = message.contains("last") ? require_count(message, "last") : most;
-  return next - std::min<std::uint64_t>({last, most, next});
+  const std::uint64_t last = message.contains("last") ? require_count(message, "last") : max;
+  return next - std::min<std::uint64_t>({last, max, next});
 }
 
 }  // namespace
@@ -76,20 +76,20 @@ bool Listing::add_frame(ReplyText& text) {
     if (count_ == 0) next_ = daemon_.frames().next_number();
     return false;
   }
-  const world::FrameLog::Told& told = some.front();
-  Json frame{{"number", told.number},
-             {"time_ns", told.time.count()},
-             {"line", told.line},
-             {"way", told.way == pty::Way::from_host ? "in" : "out"},
-             {"text", told.text}};
-  if (!told.remark.empty()) frame["remark"] = told.remark;
+  const world::FrameLog::Decoded& entry = some.front();
+  Json frame{{"number", entry.number},
+             {"time_ns", entry.time.count()},
+             {"line", entry.line},
+             {"way", entry.direction == pty::Direction::from_host ? "in" : "out"},
+             {"text", entry.text}};
+  if (!entry.remark.empty()) frame["remark"] = entry.remark;
   if (is_raw_) {
-    frame["bytes"] = hex_of(told.bytes);
-    if (told.latency) frame["latency_ns"] = told.latency->count();
-    if (told.is_refusal) frame["exception"] = true;
+    frame["bytes"] = hex_of(entry.bytes);
+    if (entry.latency) frame["latency_ns"] = entry.latency->count();
+    if (entry.is_refusal) frame["exception"] = true;
   }
   text.element(frame);
-  next_ = told.number + 1;
+  next_ = entry.number + 1;
   ++count_;
   return true;
 }
@@ -103,17 +103,17 @@ bool Listing::add_event(ReplyText& text) {
     return false;
   }
   const world::Event& event = some.front();
-  Json told{{"number", event.number}, {"time_ns", event.time.count()}, {"what", event.what}};
+  Json entry{{"number", event.number}, {"time_ns", event.time.count()}, {"what", event.what}};
   const auto add = [&](const char* key, const std::string& what) {
-    if (!what.empty()) told[key] = what;
+    if (!what.empty()) entry[key] = what;
   };
   add("by", event.by);
   add("line", event.line);
   add("device", event.device);
   add("name", event.name);
-  if (!event.value.empty()) told["value"] = json_of(std::stod(event.value));
+  if (!event.value.empty()) entry["value"] = json_of(std::stod(event.value));
   add("text", event.text);
-  text.element(told);
+  text.element(entry);
   next_ = event.number + 1;
   ++count_;
   return true;

@@ -68,11 +68,11 @@ bool flag_or_false(const Json& message, const char* key) {
   return message[key].get<bool>();
 }
 
-std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most) {
+std::uint64_t require_count(const Json& message, const char* key, std::uint64_t max) {
   const Json& value = message[key];
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > max) {
     throw is_not(key, value, "a whole number",
-                 "one of " + (most == UINT64_MAX ? "0 or more" : "0 to " + std::to_string(most)));
+                 "one of " + (max == UINT64_MAX ? "0 or more" : "0 to " + std::to_string(max)));
   }
   return value.get<std::uint64_t>();
 }

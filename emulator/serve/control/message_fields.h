@@ -52,8 +52,8 @@ const Json& require_values(const Json& message, std::string_view expected);
 
 /// Returns false if the key is missing.
 bool flag_or_false(const Json& message, const char* key);
-/// Returns a whole number from 0 to `most`.
-std::uint64_t require_count(const Json& message, const char* key, std::uint64_t most = UINT64_MAX);
+/// Returns a whole number from 0 to `max`.
+std::uint64_t require_count(const Json& message, const char* key, std::uint64_t max = UINT64_MAX);
 /// Returns the device named under "device"; without that key, the only device.
 std::size_t require_device(const Daemon& daemon, const Json& message);
 /// Throws if the device has no power.

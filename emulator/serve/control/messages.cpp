@@ -34,7 +34,7 @@ struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
-  ReplyTask (*tell)(Daemon& daemon, Json message) = nullptr;
+  ReplyTask (*make_reply)(Daemon& daemon, Json message) = nullptr;
 };
 constexpr std::array<Verb, 38> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
@@ -117,7 +117,7 @@ Json parsed(const std::string& line) {
       [](const std::string& key) {
         return MessageError(understudy::quoted(key) + " appears twice; expected it once");
       },
-      {.deepest = kDeepest, .most_members = kMaxNamed});
+      {.deepest = kDeepest, .max_members = kMaxNamed});
   for (const auto& [key, value] : message.items()) {
     const bool is_of_program = key == "text" && message.value("do", Json()) == "program";
     if (!is_of_program) require_short_texts(value);
@@ -153,8 +153,8 @@ bool say_or_refuse(const ControlServer::Reply& reply, const Make& make) {
 }
 
 /// Makes the first piece of a reply at once, and the others when there is time for them.
-void tell(Daemon& daemon, ReplyTask telling, const ControlServer::Reply& reply) {
-  const auto whole = std::make_shared<ReplyTask>(std::move(telling));
+void run_reply(Daemon& daemon, ReplyTask task, const ControlServer::Reply& reply) {
+  const auto whole = std::make_shared<ReplyTask>(std::move(task));
   const auto resume = [whole, reply] {
     const bool is_over = say_or_refuse(reply, [&]() -> std::optional<std::string> {
       if (!whole->resume()) return std::nullopt;
@@ -183,8 +183,8 @@ Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
   const std::string author = take_author(message);
   daemon.observers().events.set_author(author);
   if (verb.answer != nullptr) return verb.answer(daemon, message);
-  if (verb.tell != nullptr) {
-    tell(daemon, verb.tell(daemon, std::move(message)), reply);
+  if (verb.make_reply != nullptr) {
+    run_reply(daemon, verb.make_reply(daemon, std::move(message)), reply);
   } else {
     verb.answer_later(daemon, message, reply);
   }

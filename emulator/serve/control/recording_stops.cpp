@@ -37,7 +37,7 @@ world::Debugger& RecordingStops::debugger() const { return daemon_.observers().d
 
 SimTime RecordingStops::now() const { return daemon_.world().now(); }
 
-Json RecordingStops::go_on(const Json& message) {
+Json RecordingStops::resume(const Json& message) {
   require_keys(message, {"do", "within", "back"});
   if (is_way_back(message)) {
     if (message.contains("within")) throw MessageError("within: cannot be combined with back; expected one");

@@ -24,7 +24,7 @@ class RecordingStops {
 
   /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. If there is no stop, goes to the end,
   /// or back to the beginning.
-  Json go_on(const Json& message);
+  Json resume(const Json& message);
   /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and by ticks.
   Json step(const Json& message);
 

@@ -267,7 +267,7 @@ class PageWalk {
 
 Json json_of_parameter(const NamedParameterRow& row) {
   Json entry{{"name", row.name},       {"number", row.number},  {"access", "R/W"}, {"section", 0},
-             {"kept", row.persistent}, {"min", row.least},      {"max", row.most}, {"unit", row.unit},
+             {"kept", row.persistent}, {"min", row.min},        {"max", row.max},  {"unit", row.unit},
              {"factory", row.factory}, {"meaning", row.meaning}};
   if (!row.not_implemented.empty()) entry["not_modelled"] = row.not_implemented;
   return entry;

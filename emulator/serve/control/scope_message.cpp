@@ -65,12 +65,13 @@ world::ScopeSetup scope_setup(const Json& message) {
 }
 
 Json course_of_scope(const world::Scope& scope) {
-  Json told{{"state", state_word(scope.state())},   {"names", scope.setup().names},
-            {"condition", scope.setup().condition}, {"from_ns", time_of(scope.first_tick()).count()},
-            {"step_ns", kTickLength.count()},       {"count", scope.count()}};
-  if (scope.state() != world::Scope::State::armed) told["trigger_ns"] = time_of(scope.trigger_tick()).count();
-  if (!scope.diagnostic().empty()) told["error"] = scope.diagnostic();
-  return told;
+  Json entry{{"state", state_word(scope.state())},   {"names", scope.setup().names},
+             {"condition", scope.setup().condition}, {"from_ns", time_of(scope.first_tick()).count()},
+             {"step_ns", kTickLength.count()},       {"count", scope.count()}};
+  if (scope.state() != world::Scope::State::armed)
+    entry["trigger_ns"] = time_of(scope.trigger_tick()).count();
+  if (!scope.diagnostic().empty()) entry["error"] = scope.diagnostic();
+  return entry;
 }
 
 std::optional<std::vector<std::uint8_t>> bytes_of(std::string_view text) {
@@ -145,7 +146,7 @@ ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
 }
 
 /// Returns a reply in one piece.
-ReplyTask told(Json reply) { co_return text_of(reply); }
+ReplyTask reply_of(Json reply) { co_return text_of(reply); }
 
 }  // namespace
 
@@ -156,12 +157,12 @@ ReplyTask scope_message(Daemon& daemon, Json message) {
     daemon.catch_up();
     auto armed = std::make_unique<world::Scope>(daemon.world(), std::move(setup));
     scope = std::move(armed);
-    return told(scope_reply(scope.get()));
+    return reply_of(scope_reply(scope.get()));
   }
   require_keys(message, {"do", "from", "off"});
   daemon.catch_up();
   if (message.contains("off")) scope.reset();
-  if (!scope || !message.contains("from")) return told(scope_reply(scope.get()));
+  if (!scope || !message.contains("from")) return reply_of(scope_reply(scope.get()));
   return samples_message(daemon, require_count(message, "from"));
 }
 
@@ -177,7 +178,7 @@ Json send_message(Daemon& daemon, const Json& message) {
       throw MessageError("text: expected 1 to " + std::to_string(kMaxBytes) + " bytes, without \"bytes\"");
     }
     bytes.assign(text.begin(), text.end());
-    if (line.speech.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');
+    if (line.protocol.carries_text() && text.back() != '\r' && text.back() != '\n') bytes.push_back('\r');
   } else {
     const auto parsed = bytes_of(require_text(message, "bytes"));
     if (!parsed)

@@ -73,9 +73,9 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   Descriptor socket;
-  bool is_awaiting = false;   // a reply is still to come, and nothing is read until then
-  bool has_said_all = false;  // the client has closed its side
-  std::string input;          // the beginning of a message
+  bool is_awaiting = false;           // a reply is still to come, and nothing is read until then
+  bool has_finished_sending = false;  // the client has closed its side
+  std::string input;                  // the beginning of a message
   std::string output;
   std::size_t sent = 0;  // bytes of the output
 };
@@ -126,7 +126,7 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
-  if (client->is_awaiting || client->has_said_all)
+  if (client->is_awaiting || client->has_finished_sending)
     return drop(descriptor);  // nothing is read from it now, so it has hung up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
@@ -138,7 +138,7 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (count < 0) return drop(descriptor);
   if (count == 0) {
-    client->has_said_all = true;
+    client->has_finished_sending = true;
     if (!write_out(*client)) drop(descriptor);
     return;
   }
@@ -191,9 +191,9 @@ bool ControlServer::write_out(Client& client) {
     client.sent = 0;
     client.output = {};  // frees the memory of a large reply
   }
-  if (client.has_said_all && client.output.empty()) return false;
+  if (client.has_finished_sending && client.output.empty()) return false;
   // Messages that follow one without a reply yet stay in the socket.
-  const std::uint32_t read = client.has_said_all || client.is_awaiting ? 0U : EventLoop::readable;
+  const std::uint32_t read = client.has_finished_sending || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.socket.get(), read | write);
   return true;

@@ -120,15 +120,15 @@ Json device_status(const world::World& world, std::size_t number) {
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
   // Counts and groups, if there are any, have separate objects.
-  for (const TerminalSight& sight : terminal_sights(device)) {
+  for (const TerminalView& view : terminal_views(device)) {
     const bool is_count =
-        sight.what == TerminalSight::What::pulses || sight.kind == TerminalRow::Kind::counted_in;
-    const bool is_word = sight.what == TerminalSight::What::word;
-    const char* const key = is_word                ? "groups"
-                            : is_count             ? "counts"
-                            : is_input(sight.kind) ? "inputs"
-                                                   : "outputs";
-    status[key][sight.name] = value_of(device, sight);
+        view.what == TerminalView::What::pulses || view.kind == TerminalRow::Kind::counted_in;
+    const bool is_word = view.what == TerminalView::What::word;
+    const char* const key = is_word               ? "groups"
+                            : is_count            ? "counts"
+                            : is_input(view.kind) ? "inputs"
+                                                  : "outputs";
+    status[key][view.name] = value_of(device, view);
   }
   status["axes"] = Json::object();
   status["machines"] = Json::object();
@@ -181,7 +181,7 @@ void StatusParts::add_head(ReplyText& text) {
   text.member("lateness", {{"wakes", pacer.lateness().count()},
                            {"p50_us", microseconds(pacer.lateness().percentile(50))},
                            {"p99_us", microseconds(pacer.lateness().percentile(99))},
-                           {"max_us", microseconds(pacer.lateness().greatest())},
+                           {"max_us", microseconds(pacer.lateness().max())},
                            {"slips", pacer.slips()}});
   text.member("ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_skipped()}});
   text.open_list("lines");

@@ -37,7 +37,7 @@ namespace {
 struct Condition {
   explicit Condition(const world::World& world) : probes(world) {}
   /// Returns true if the condition holds. A condition without a result ends the waiting too.
-  bool is_there() {
+  bool is_met() {
     try {
       return world::is_true(expression, probes);
     } catch (const std::runtime_error& error) {
@@ -80,7 +80,7 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
     throw MessageError(std::string("condition: ") + error.what());
   }
   const auto done = [&daemon, reply, condition] {
-    const bool reached = condition->is_there();
+    const bool reached = condition->is_met();
     if (!condition->no_result.empty()) {
       return reply(Json{{"ok", false}, {"error", "condition: " + condition->no_result}}.dump());
     }
@@ -88,7 +88,7 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
     told["reached"] = reached;
     reply(told.dump());
   };
-  if (!daemon.advance(within, done, [condition] { return condition->is_there(); })) {
+  if (!daemon.advance(within, done, [condition] { return condition->is_met(); })) {
     throw MessageError(std::string(kRunsByItself));
   }
 }

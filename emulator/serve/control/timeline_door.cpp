@@ -87,11 +87,11 @@ class Travel {
     Json marks = Json::array();
     for (std::size_t i = from; i < std::min(marks_.size(), from + kMarksAtOnce); ++i)
       marks.push_back(marks_[i]);
-    Json told{{"begin_ns", timeline_.begin().count()},
-              {"end_ns", timeline_.end().count()},
-              {"at_ns", daemon_.world().now().count()},
-              {"marks", std::move(marks)}};
-    Json reply{{"ok", true}, {"timeline", std::move(told)}};
+    Json entry{{"begin_ns", timeline_.begin().count()},
+               {"end_ns", timeline_.end().count()},
+               {"at_ns", daemon_.world().now().count()},
+               {"marks", std::move(marks)}};
+    Json reply{{"ok", true}, {"timeline", std::move(entry)}};
     if (!scenario_.empty()) reply["timeline"]["scenario"] = scenario_;
     if (story_ && from == 0) reply["timeline"]["story"] = json_of(*story_);
     if (altered_at()) reply["timeline"]["altered_at_ns"] = altered_at()->count();
@@ -184,9 +184,9 @@ class Travel {
   void collect() {
     history_.collect(daemon_.world(), daemon_.frames(), daemon_.observers().events);
     Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
-    for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
-      moments_.push_back(told.time);
-      next_frame_ = told.number + 1;
+    for (const auto& entry : daemon_.frames().since(next_frame_, SIZE_MAX)) {
+      moments_.push_back(entry.time);
+      next_frame_ = entry.number + 1;
     }
     for (const auto& event : daemon_.observers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
@@ -234,7 +234,7 @@ class Travel {
     debugger.sleep();
     timeline_.go_to(time, [this](const world::WorldState& state, std::size_t keyframe) {
       daemon_.restore(state);
-      daemon_.tell_anew(last_before(keyframe, &Stretch::frames), last_before(keyframe, &Stretch::events));
+      daemon_.restart_logs(last_before(keyframe, &Stretch::frames), last_before(keyframe, &Stretch::events));
     });
     debugger.wake();
   }
@@ -282,7 +282,7 @@ ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup given) {
     if (word == "what-if") return answer(reply, [&] { return (*travel)->what_if(message); });
     const bool is_recorded = !(*travel)->is_altered();
     if (word == "continue" && is_recorded)
-      return answer(reply, [&] { return (*travel)->stops().go_on(message); });
+      return answer(reply, [&] { return (*travel)->stops().resume(message); });
     if (word == "step" && is_recorded) return answer(reply, [&] { return (*travel)->stops().step(message); });
     if (!word.empty() && is_recorded && !only_looks(message, word)) {
       return answer(reply, [&]() -> Json {

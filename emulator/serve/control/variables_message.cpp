@@ -114,8 +114,8 @@ Json values_of_axes(const Daemon& daemon, const Device& device) {
 
 Json values_of_terminals(const Daemon& /*daemon*/, const Device& device) {
   Json values = Json::object();
-  for (const TerminalSight& sight : terminal_sights(device))
-    values[device.name() + "." + sight.name] = value_of(device, sight);
+  for (const TerminalView& view : terminal_views(device))
+    values[device.name() + "." + view.name] = value_of(device, view);
   return values;
 }
 

@@ -95,7 +95,7 @@ Json go_back(Daemon& daemon, const Go& go) {
         const SimTime at = daemon.world().now();
         std::erase_if(earlier.frames, [&](const auto& frame) { return frame.time > at; });
         std::erase_if(earlier.events, [&](const auto& event) { return event.time > at; });
-        daemon.tell_anew(std::move(earlier.frames), std::move(earlier.events));
+        daemon.restart_logs(std::move(earlier.frames), std::move(earlier.events));
       });
       debugger.wake();
     };
@@ -125,7 +125,7 @@ void keep_course(Daemon& daemon) {
 }
 
 Json continue_back(Daemon& daemon, const Json& message) {
-  return go_back(daemon, [&](RecordingStops& stops) { return stops.go_on(message); });
+  return go_back(daemon, [&](RecordingStops& stops) { return stops.resume(message); });
 }
 
 Json step_back(Daemon& daemon, const Json& message) {

@@ -82,7 +82,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
       bench_hash_(world::bench_hash(bench)),
       files_(options.files),
       pacer_(options.speed, wall_now()) {
-  frames_.tell([this](const pty::CapturedPacket& packet) { missing_stations_.look(packet); });
+  frames_.set_observer([this](const pty::CapturedPacket& packet) { missing_stations_.check(packet); });
   if (options.watch_signals) watch_signals();
   watch_posts();
   make_ports(bench);
@@ -246,10 +246,10 @@ bool Daemon::resume() {
   return true;
 }
 
-bool Daemon::advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there) {
+bool Daemon::advance(SimTime duration, std::function<void()> done, std::function<bool()> is_met) {
   if (!pacer_.standing() || advance_done_ || duration > kHorizon - world_.now()) return false;
   advance_target_ = world_.now() + duration;
-  advance_is_there_ = std::move(is_there);
+  advance_is_met_ = std::move(is_met);
   advance_done_ = std::move(done);
   return true;
 }
@@ -258,7 +258,7 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
 void Daemon::work_towards_condition() {
   const WallTime until = wall_now() + kWorkSlice;
   while (world_.now() < advance_target_ && wall_now() < until && !is_held()) {
-    if (advance_is_there_()) {
+    if (advance_is_met_()) {
       advance_target_ = world_.now();
       return;
     }
@@ -290,7 +290,7 @@ bool Daemon::waits_for_hosts() {
 }
 
 void Daemon::work_on_advance() {
-  if (advance_is_there_) {
+  if (advance_is_met_) {
     work_towards_condition();
   } else {
     work_towards(advance_target_, wall_now() + kWorkSlice);
@@ -301,7 +301,7 @@ void Daemon::work_on_advance() {
   for (const auto& port : ports_) port->flush();
   const std::function<void()> done = std::move(advance_done_);
   advance_done_ = nullptr;
-  advance_is_there_ = nullptr;
+  advance_is_met_ = nullptr;
   done();
 }
 
@@ -312,18 +312,18 @@ std::string_view Daemon::why_no_restore() const {
   return {};
 }
 
-void Daemon::tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events) {
-  frames_.begin_anew_after(std::move(frames));
+void Daemon::restart_logs(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events) {
+  frames_.restart_after(std::move(frames));
   observers_.events.restored_after(std::move(events));
 }
 
 void Daemon::restore(const world::WorldState& state) {
   world::restore(world_, state);
-  frames_.begin_anew();
+  frames_.restart();
   observers_.events.restored();
   ++observers_.restores;
-  if (observers_.scope) observers_.scope->begin_anew();
-  observers_.debugger.begin_anew();
+  if (observers_.scope) observers_.scope->restart();
+  observers_.debugger.restart();
   observers_.course.reset();
   planned_.reset();
   behind_since_.reset();
@@ -345,10 +345,10 @@ void Daemon::wait() {
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   if (waits_for_hosts()) wake = wall_now() + kReadingTime;
   for (const auto& port : ports_) {
-    const auto look = port->next_look(pacer_.standing());
-    if (look && (!wake || *look < *wake)) wake = look;
+    const auto next = port->next_poll(pacer_.standing());
+    if (next && (!wake || *next < *wake)) wake = next;
   }
-  if (const auto look = memories_->next_poll(); look && (!wake || *look < *wake)) wake = look;
+  if (const auto next = memories_->next_poll(); next && (!wake || *next < *wake)) wake = next;
   const bool can_be_late = !makes_time_go() && !behind_since_;
   loop_.wait(wake, can_be_late ? EventLoop::kLaterSlice : EventLoop::kLongSlice);
 }
@@ -369,7 +369,7 @@ void Daemon::run() {
     }
     const WallTime now = wall_now();
     for (const auto& port : ports_) {
-      port->look(now, pacer_.standing());
+      port->poll(now, pacer_.standing());
       port->flush();
     }
     memories_->poll(now);

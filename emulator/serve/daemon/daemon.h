@@ -96,10 +96,10 @@ class Daemon {
   /// progress. The patience with an incomplete frame still depends on the initial speed.
   bool set_speed(const Speed& speed);
   bool is_advancing() const { return advance_done_ != nullptr; }
-  /// Advances simulated time by `duration`, or to the end of the first tick at which `is_there` is true
+  /// Advances simulated time by `duration`, or to the end of the first tick at which `is_met` is true
   /// (asked at the end of every tick), then calls `done`. Returns false if the clock is running, or while
   /// another advance is in progress.
-  bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
+  bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_met = {});
   /// Advances simulated time to `time` before it returns. The clock must be stopped, and no advance in
   /// progress.
   void advance_at_once(SimTime time) {
@@ -123,7 +123,7 @@ class Daemon {
   /// that are there now. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
   /// Replaces the earlier frames and events that observers see.
-  void tell_anew(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
+  void restart_logs(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
 
  private:
   void watch_signals();
@@ -175,8 +175,8 @@ class Daemon {
   std::optional<WallTime> behind_since_;  // when it began to catch up; nothing: it is up to date
 
   SimTime advance_target_{0};
-  std::function<bool()> advance_is_there_;  // may be none
-  std::function<void()> advance_done_;      // set while an advance is in progress
+  std::function<bool()> advance_is_met_;  // may be none
+  std::function<void()> advance_done_;    // set while an advance is in progress
 };
 
 }  // namespace understudy::emulator::serve

@@ -46,9 +46,9 @@ std::string stations_of(const world::WorldLine& line) {
 
 }  // namespace
 
-void MissingStations::look(const pty::CapturedPacket& packet) {
-  const bool is_request =
-      packet.way == pty::Way::from_host && packet.remark == pty::Remark::none && !packet.bytes.empty();
+void MissingStations::check(const pty::CapturedPacket& packet) {
+  const bool is_request = packet.direction == pty::Direction::from_host &&
+                          packet.remark == pty::Remark::none && !packet.bytes.empty();
   if (!is_request) return;
   const world::WorldLine& line = world_.line(packet.line);
   const std::uint8_t address = packet.bytes.front();
@@ -58,10 +58,12 @@ void MissingStations::look(const pty::CapturedPacket& packet) {
 }
 
 bool MissingStations::is_new(std::size_t line, std::uint8_t address) {
-  if (told_.size() <= line) told_.resize(line + 1);
-  std::vector<std::uint8_t>& told = told_[line];
-  if (told.size() == kMaxTold || std::find(told.begin(), told.end(), address) != told.end()) return false;
-  told.push_back(address);
+  if (reported_.size() <= line) reported_.resize(line + 1);
+  std::vector<std::uint8_t>& reported = reported_[line];
+  if (reported.size() == kMaxReported ||
+      std::find(reported.begin(), reported.end(), address) != reported.end())
+    return false;
+  reported.push_back(address);
   return true;
 }
 

@@ -20,16 +20,16 @@ class MissingStations {
       : world_(world), log_(std::move(log)) {}
 
   /// Logs each number once; if a host tries all of them, only a few.
-  void look(const pty::CapturedPacket& packet);
+  void check(const pty::CapturedPacket& packet);
 
  private:
-  static constexpr std::size_t kMaxTold = 8;  // for each line
+  static constexpr std::size_t kMaxReported = 8;  // for each line
 
   bool is_new(std::size_t line, std::uint8_t address);
 
   const world::World& world_;
   std::function<void(const std::string&)> log_;
-  std::vector<std::vector<std::uint8_t>> told_;  // of each line
+  std::vector<std::vector<std::uint8_t>> reported_;  // of each line
 };
 
 }  // namespace understudy::emulator::serve

@@ -109,7 +109,7 @@ void HostDoors::attend() {
   }
 }
 
-bool HostDoors::tell_news(HostWaits& waits) {
+bool HostDoors::report_news(HostWaits& waits) {
   bool has_ended = false;
   for (std::size_t i = 0; i < entrances_.size(); ++i) {
     const std::uint64_t news = daemon_.doors()[i]->news();

@@ -28,7 +28,7 @@ class HostDoors {
   /// Admits hosts that have connected, and takes what they have written.
   void attend();
   /// Ends the waits of threads whose door has sent something. Returns true if there was one.
-  bool tell_news(HostWaits& waits);
+  bool report_news(HostWaits& waits);
   /// Returns the next timeout of a door, such as a gateway's for an answer, or nothing.
   std::optional<SimTime> due() const;
   /// Returns true if a thread waits for a door of the port.

@@ -26,9 +26,9 @@
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
-#include "emulator/serve/host_time/companion.h"
 #include "emulator/serve/host_time/host_library.h"
 #include "emulator/serve/host_time/host_waits.h"
+#include "emulator/serve/host_time/simulated_task.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
 #include "emulator/serve/ports/port.h"
@@ -41,13 +41,13 @@ namespace understudy::emulator::serve {
 namespace {
 
 // A host of several threads that is not asleep is checked again after this time, then less and less often.
-constexpr WallTime kFirstLook = std::chrono::microseconds(20);
-constexpr WallTime kRarestLook = std::chrono::milliseconds(1);
+constexpr WallTime kFirstPoll = std::chrono::microseconds(20);
+constexpr WallTime kSlowestPoll = std::chrono::milliseconds(1);
 // Time advances for this long before the control socket and signals have their turn.
 constexpr WallTime kSlice = std::chrono::milliseconds(5);
 constexpr WallTime kWatch = std::chrono::milliseconds(500);
 // A thread that has not waited for this many watches is reported.
-constexpr int kLooksBeforeTelling = 4;
+constexpr int kPollsBeforeReport = 4;
 
 Descriptor make_timer() {
   Descriptor timer(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC));
@@ -91,10 +91,10 @@ int terminal_of(const Port& port) {
 
 }  // namespace
 
-HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> tell)
+HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> report)
     : daemon_(daemon),
       place_(place),
-      tell_(std::move(tell)),
+      report_(std::move(report)),
       page_(place + host_time::kPageEnding),
       doors_(daemon, place, page_),
       waits_([this](int number, HostAnswer what, const HostWaits::Thread& thread) {
@@ -102,8 +102,8 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       }),
       tasks_(daemon.loop(),
              [this](int process) {
-               must_look_ = true;  // its end may have sent a signal
-               if (silent_.contains(process)) hear_all();
+               must_poll_ = true;  // its end may have sent a signal
+               if (silent_.contains(process)) receive_all();
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
@@ -112,7 +112,7 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       log_([this](int terminal) { return line_of(terminal); },
            [this](const HostWait& wait) { daemon_.record_wait(wait.thread, wait.begin, wait.text); }),
       lines_(daemon.ports().size()),
-      next_look_(make_timer()),
+      next_poll_(make_timer()),
       watch_(make_timer()) {
   page_.set_now(daemon_.world().now());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -130,14 +130,14 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       if (read(timer.get(), &ignored, sizeof ignored) > 0) act();
     });
   };
-  on_timer(next_look_, [this] { consider(); });
+  on_timer(next_poll_, [this] { consider(); });
   on_timer(watch_, [this] { watch_over(); });
   set_timer(watch_, kWatch, kWatch);
 }
 
 HostTime::~HostTime() {
   for (const auto& [number, descriptor] : connections_) daemon_.loop().unwatch(number);
-  daemon_.loop().unwatch(next_look_.get());
+  daemon_.loop().unwatch(next_poll_.get());
   daemon_.loop().unwatch(watch_.get());
   listener_.reset();
   unlink(place_.c_str());
@@ -160,7 +160,7 @@ void HostTime::admit(Descriptor client) {
 /// A process closes its connections when it becomes another program, which greets anew if it has the library.
 void HostTime::drop(int number) {
   const int process = waits_.threads().at(number).process;
-  must_look_ = true;
+  must_poll_ = true;
   waits_.remove(number);
   daemon_.loop().unwatch(number);
   connections_.erase(number);
@@ -170,7 +170,7 @@ void HostTime::drop(int number) {
 }
 
 /// Reads all pending messages: the end of a short-lived program may be noticed before its greeting.
-void HostTime::hear_all() {
+void HostTime::receive_all() {
   listener_->accept_all();
   std::vector<int> numbers;
   for (const auto& [number, connection] : connections_) numbers.push_back(number);
@@ -182,10 +182,10 @@ void HostTime::hear_all() {
 void HostTime::judge_end_of(int process) {
   if (silent_.erase(process) == 0 || is_host_to_end_) return;
   if (process == first_process_) was_greeted_ = false;
-  if (process == first_process_ || std::exchange(has_told_of_silence_, true)) return;
-  tell_("process " + std::to_string(process) +
-        " of the host did not load our library, so it ran in real time; expected programs that keep "
-        "LD_PRELOAD");
+  if (process == first_process_ || std::exchange(has_reported_silence_, true)) return;
+  report_("process " + std::to_string(process) +
+          " of the host did not load our library, so it ran in real time; expected programs that keep "
+          "LD_PRELOAD");
 }
 
 void HostTime::on_message(int number) {
@@ -193,30 +193,32 @@ void HostTime::on_message(int number) {
   Descriptor passed;
   const ssize_t size = receive_message(number, message, passed);
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  using host_time::Said;
+  using host_time::MessageKind;
   has_moved_ = true;
   const bool is_good = size == static_cast<ssize_t>(sizeof message) &&
-                       (message.what != Said::hello || message.sequence == host_time::kVersion);
+                       (message.what != MessageKind::hello || message.sequence == host_time::kVersion);
   if (!is_good) {
     drop(number);
     return consider();
   }
-  if (message.what == Said::hello) {
+  if (message.what == MessageKind::hello) {
     if (!std::exchange(was_greeted_, true)) first_process_ = message.process;
     silent_.erase(message.process);
   }
-  if (message.what == Said::hello || message.what == Said::child) tasks_.add(message.process);
-  if (message.what == Said::timer) timers_.set(message, std::move(passed));
-  waits_.heard(number, message);
+  if (message.what == MessageKind::hello || message.what == MessageKind::child) tasks_.add(message.process);
+  if (message.what == MessageKind::timer) timers_.set(message, std::move(passed));
+  waits_.on_message(number, message);
   if (!connections_.contains(number)) return;
   if (waits_.threads().at(number).state == HostState::gone) return drop(number);
-  if (message.what == Said::wait || message.what == Said::inside || message.what == Said::timer) consider();
+  if (message.what == MessageKind::wait || message.what == MessageKind::inside ||
+      message.what == MessageKind::timer)
+    consider();
 }
 
 void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thread) {
   if (what == HostAnswer::refuse) return;  // on_message() drops it
   host_time::Message message = thread.wait;
-  message.what = what == HostAnswer::go ? host_time::Said::go : host_time::Said::cancelled;
+  message.what = what == HostAnswer::go ? host_time::MessageKind::go : host_time::MessageKind::cancelled;
   // It cannot block: a thread has at most a few answers that it has not read.
   [[maybe_unused]] const ssize_t sent = send(number, &message, sizeof message, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (thread.wait.is_on_word != 0 && what == HostAnswer::go) page_.wake(thread.thread);
@@ -225,9 +227,9 @@ void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thre
 // --- time ----------------------------------------------------------------------------------------
 
 /// Checks again soon, because no message reports that a thread has gone to sleep.
-void HostTime::look_again() {
-  patience_ = std::clamp(patience_ * 2, kFirstLook, kRarestLook);
-  set_timer(next_look_, patience_);
+void HostTime::poll_again() {
+  patience_ = std::clamp(patience_ * 2, kFirstPoll, kSlowestPoll);
+  set_timer(next_poll_, patience_);
 }
 
 bool HostTime::is_host_asleep() {
@@ -237,13 +239,13 @@ bool HostTime::is_host_asleep() {
   for (const auto& [number, thread] : waits_.threads()) {
     if (thread.state != HostState::waiting) continue;
     ++waiting;
-    if (thread.wait.has_others == 0 && !must_look_) resting.insert(thread.thread);
+    if (thread.wait.has_others == 0 && !must_poll_) resting.insert(thread.thread);
   }
   // A thread that has just ended may have woken one that waits for others too.
   if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread()) return true;
   // A thread that has sent a message also sleeps until it is answered, so this comes last.
   if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
-  must_look_ = false;
+  must_poll_ = false;
   return true;
 }
 
@@ -280,7 +282,7 @@ bool HostTime::give_to_host() {
     if (has_news) has_ended = waits_.line_has_news(before) || has_ended;
     if (port.line().save().input.empty()) has_ended = waits_.line_is_drained(terminal) || has_ended;
   }
-  has_ended = doors_.tell_news(waits_) || has_ended;
+  has_ended = doors_.report_news(waits_) || has_ended;
   return waits_.time_is(now) || has_ended;
 }
 
@@ -289,7 +291,7 @@ bool HostTime::give_to_host() {
 bool HostTime::expire_timers() {
   const auto expired = timers_.expire(daemon_.world().now());
   for (const HostTimers::Expired& each : expired) send_signal(each);
-  must_look_ = must_look_ || !expired.empty();
+  must_poll_ = must_poll_ || !expired.empty();
   return !expired.empty();
 }
 
@@ -304,12 +306,12 @@ std::optional<SimTime> HostTime::next_stop() const {
   };
   if (const auto next = timers_.next()) not_beyond(*next);
   if (const auto next = doors_.due()) not_beyond(*next);
-  if (const auto next = companion_ != nullptr ? companion_->next_act() : std::nullopt) not_beyond(*next);
+  if (const auto next = task_ != nullptr ? task_->next_act() : std::nullopt) not_beyond(*next);
   for (const auto& port : daemon_.ports()) {
     if (const auto full = port->time_until_full()) not_beyond(now + *full);
     if (!waits_.is_line_waited_for(terminal_of(*port)) && !doors_.is_waited_for(*port, waits_)) continue;
     if (const auto due = port->line().due()) not_beyond(*due);
-    const bool may_change = port->world_line().speech.may_be_unasked() || !world.faults().empty();
+    const bool may_change = port->world_line().protocol.may_be_unasked() || !world.faults().empty();
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
   }
   if (stop) return stop;
@@ -317,24 +319,24 @@ std::optional<SimTime> HostTime::next_stop() const {
 }
 
 bool HostTime::may_time_go() const {
-  if (is_host_over_) return companion_ != nullptr && companion_->next_act();
+  if (is_host_over_) return task_ != nullptr && task_->next_act();
   return (waits_.is_any_waiting() || timers_.next()) && !waits_.is_any_outside();
 }
 
 void HostTime::consider() {
   if (!may_time_go()) return;
-  if (daemon_.is_advancing() || daemon_.pacer().paused() || !is_host_asleep()) return look_again();
+  if (daemon_.is_advancing() || daemon_.pacer().paused() || !is_host_asleep()) return poll_again();
   patience_ = WallTime{0};
   const WallTime until = wall_now() + kSlice;
   while (true) {
-    if (companion_ != nullptr) companion_->act(daemon_.world().now());  // before the host, in every run
-    const bool goes_on = give_to_host();
+    if (task_ != nullptr) task_->act(daemon_.world().now());  // before the host, in every run
+    const bool continues = give_to_host();
     if (!may_time_go()) return;
     // A thread that continues may next wait for one that waits already, and no message would report that.
-    if (goes_on) return look_again();
-    if (expire_timers()) return look_again();
+    if (continues) return poll_again();
+    if (expire_timers()) return poll_again();
     for (const auto& port : daemon_.ports()) {
-      if (port->is_in_doubt()) return look_again();
+      if (port->is_in_doubt()) return poll_again();
     }
     const auto stop = next_stop();
     if (!stop) return;
@@ -343,22 +345,22 @@ void HostTime::consider() {
     daemon_.advance_at_once(*stop);
     log_.end(daemon_.world().now());
     if (wall_now() >= until) {
-      set_timer(next_look_, WallTime{1});
+      set_timer(next_poll_, WallTime{1});
       return;
     }
   }
 }
 
-void HostTime::accompany(Companion* companion) {
-  companion_ = companion;
-  if (companion != nullptr) consider();
+void HostTime::run_beside(SimulatedTask* task) {
+  task_ = task;
+  if (task != nullptr) consider();
 }
 
 void HostTime::host_ended() {
   take_from_host();
   log_.finish(line_counts());
   is_host_over_ = true;
-  if (!was_greeted_) hear_all();  // the end of a short-lived host may be noticed before its greeting
+  if (!was_greeted_) receive_all();  // the end of a short-lived host may be noticed before its greeting
   consider();
 }
 
@@ -382,19 +384,19 @@ std::size_t HostTime::line_of(int terminal) const {
 
 /// Reports once that a thread does not wait, and once that all wait for something outside the bench.
 void HostTime::watch_over() {
-  idle_looks_ = std::exchange(has_moved_, false) ? 0 : idle_looks_ + 1;
-  if (idle_looks_ < kLooksBeforeTelling || is_host_over_) return;
+  idle_polls_ = std::exchange(has_moved_, false) ? 0 : idle_polls_ + 1;
+  if (idle_polls_ < kPollsBeforeReport || is_host_over_) return;
   const auto running = tasks_.running_one();
   const bool is_outside = waits_.is_any_outside() || (!waits_.is_any_for_bench() && !timers_.next());
-  if (!running && is_outside && !std::exchange(has_told_of_outside_, true)) {
-    tell_(
+  if (!running && is_outside && !std::exchange(has_reported_outside_, true)) {
+    report_(
         "the host waits for something outside the bench, such as standard input or another machine, so the "
         "clock is stopped");
   }
-  if (!running || std::exchange(has_told_of_spinning_, true)) return;
-  tell_(*running +
-        " does not wait, so the clock is stopped; expected a wait that the bench can end, such as poll or "
-        "sleep");
+  if (!running || std::exchange(has_reported_spinning_, true)) return;
+  report_(*running +
+          " does not wait, so the clock is stopped; expected a wait that the bench can end, such as poll or "
+          "sleep");
 }
 
 }  // namespace understudy::emulator::serve

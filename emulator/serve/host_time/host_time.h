@@ -19,13 +19,13 @@
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
-#include "emulator/serve/host_time/companion.h"
 #include "emulator/serve/host_time/host_doors.h"
 #include "emulator/serve/host_time/host_page.h"
 #include "emulator/serve/host_time/host_tasks.h"
 #include "emulator/serve/host_time/host_timers.h"
 #include "emulator/serve/host_time/host_wait_log.h"
 #include "emulator/serve/host_time/host_waits.h"
+#include "emulator/serve/host_time/simulated_task.h"
 #include "emulator/serve/loop/listener.h"
 
 namespace understudy::emulator::serve {
@@ -33,9 +33,9 @@ namespace understudy::emulator::serve {
 class HostTime {
  public:
   /// From now on the ports of the daemon are served when the host waits. The clock must be stopped
-  /// (`manual`). `place` is the path of the socket, which must be in a private folder. `tell` receives
+  /// (`manual`). `place` is the path of the socket, which must be in a private folder. `report` receives
   /// messages for the user. Throws std::system_error.
-  HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> tell);
+  HostTime(Daemon& daemon, const std::string& place, std::function<void(const std::string&)> report);
   ~HostTime();
   HostTime(const HostTime&) = delete;
   HostTime& operator=(const HostTime&) = delete;
@@ -44,10 +44,10 @@ class HostTime {
   std::vector<std::pair<std::string, std::string>> environment() const;
   /// From now on time advances only while the companion waits too. It must outlive this object, or be removed
   /// (null).
-  void accompany(Companion* companion);
+  void run_beside(SimulatedTask* task);
   /// Must be called when a signal is about to end the host: waiting threads may wake, and processes may end
   /// before they have greeted.
-  void host_is_to_end() { must_look_ = is_host_to_end_ = true; }
+  void host_is_to_end() { must_poll_ = is_host_to_end_ = true; }
   /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the companion
   /// alone decides how far time advances.
   void host_ended();
@@ -58,14 +58,14 @@ class HostTime {
   void admit(Descriptor client);
   void on_message(int number);
   void drop(int number);
-  void hear_all();
+  void receive_all();
   void judge_end_of(int process);
   void answer(int number, HostAnswer answer, const HostWaits::Thread& thread);
   void consider();
   bool may_time_go() const;
   bool is_host_asleep();
   bool has_unread_messages() const;
-  void look_again();
+  void poll_again();
   void take_from_host();
   bool give_to_host();
   bool expire_timers();
@@ -82,11 +82,11 @@ class HostTime {
   };
 
   Daemon& daemon_;
-  Companion* companion_ = nullptr;
+  SimulatedTask* task_ = nullptr;
   bool is_host_to_end_ = false;
   bool is_host_over_ = false;
   std::string place_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
   HostPage page_;
   HostDoors doors_;
   HostWaits waits_;
@@ -97,18 +97,18 @@ class HostTime {
   int listening_ = -1;  // the listener's socket
   std::unique_ptr<Listener> listener_;
   std::vector<Seen> lines_;
-  Descriptor next_look_;    // a timer
+  Descriptor next_poll_;    // a timer
   Descriptor watch_;        // a timer
   WallTime patience_{0};    // before the next check of a host that is not asleep
-  bool must_look_ = false;  // a signal may have woken a thread that the bench takes for waiting
+  bool must_poll_ = false;  // a signal may have woken a thread that the bench takes for waiting
   bool was_greeted_ = false;
   int first_process_ = -1;
   std::set<int> silent_;  // processes that have become other programs, and have not greeted since
-  bool has_told_of_silence_ = false;
+  bool has_reported_silence_ = false;
   bool has_moved_ = true;  // since watch_over() looked last
-  int idle_looks_ = 0;
-  bool has_told_of_spinning_ = false;
-  bool has_told_of_outside_ = false;
+  int idle_polls_ = 0;
+  bool has_reported_spinning_ = false;
+  bool has_reported_outside_ = false;
 };
 
 }  // namespace understudy::emulator::serve

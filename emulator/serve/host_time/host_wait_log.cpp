@@ -84,12 +84,12 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
       open.begin = last.begin;
       open.answered = last.answered;
     } else {
-      tell(number, last, lines);
+      report(number, last, lines);
     }
     open_.emplace(number, std::move(open));
     before.erase(found);
   }
-  for (const auto& [number, last] : before) tell(number, last, lines);
+  for (const auto& [number, last] : before) report(number, last, lines);
   std::erase_if(numbers_, [&](const auto& each) { return !waits.threads().contains(each.first); });
 }
 
@@ -98,10 +98,10 @@ void HostWaitLog::end(SimTime now) {
 }
 
 void HostWaitLog::finish(const Lines& lines) {
-  for (const auto& [number, open] : std::exchange(open_, {})) tell(number, open, lines);
+  for (const auto& [number, open] : std::exchange(open_, {})) report(number, open, lines);
 }
 
-void HostWaitLog::tell(int number, const Open& open, const Lines& lines) {
+void HostWaitLog::report(int number, const Open& open, const Lines& lines) {
   if (open.end <= open.begin) return;
   std::string text;
   switch (open.kind) {
@@ -115,10 +115,10 @@ void HostWaitLog::tell(int number, const Open& open, const Lines& lines) {
   if (open.lines.size() == 1 && lines.size() > 1) text += " on " + lines[open.lines.front()].name;
   const bool is_in_vain =
       open.kind == Kind::reply && sum(open.lines, lines, &LineCount::bytes_out) == open.answered;
-  tell_({.thread = numbers_.at(number),
-         .begin = open.begin,
-         .end = open.end,
-         .text = text + (is_in_vain ? " in vain" : "")});
+  report_({.thread = numbers_.at(number),
+           .begin = open.begin,
+           .end = open.end,
+           .text = text + (is_in_vain ? " in vain" : "")});
 }
 
 }  // namespace understudy::emulator::serve

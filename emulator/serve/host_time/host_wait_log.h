@@ -35,8 +35,8 @@ class HostWaitLog {
   using Lines = std::vector<LineCount>;
 
   /// `line_of` returns the line for the number of a terminal or a door, or a number beyond the lines.
-  HostWaitLog(std::function<std::size_t(int)> line_of, std::function<void(const HostWait&)> tell)
-      : line_of_(std::move(line_of)), tell_(std::move(tell)) {}
+  HostWaitLog(std::function<std::size_t(int)> line_of, std::function<void(const HostWait&)> report)
+      : line_of_(std::move(line_of)), report_(std::move(report)) {}
 
   /// Must be called when all threads wait and time is about to advance.
   void begin(const HostWaits& waits, const Lines& lines, SimTime now);
@@ -64,10 +64,10 @@ class HostWaitLog {
   };
 
   Open open_for(const HostWaits::Thread& thread, const Lines& lines, SimTime now) const;
-  void tell(int number, const Open& open, const Lines& lines);
+  void report(int number, const Open& open, const Lines& lines);
 
   std::function<std::size_t(int)> line_of_;
-  std::function<void(const HostWait&)> tell_;
+  std::function<void(const HostWait&)> report_;
   std::map<int, Open> open_;  // by the thread's connection
   std::map<int, std::size_t> numbers_;
   std::size_t next_number_ = 1;

@@ -23,28 +23,28 @@ bool waits_for_line(const host_time::Message& wait, int terminal) {
 void HostWaits::happen(int number, Thread& thread, HostEvent event) {
   const HostStep step = host_step(thread.state, event);
   thread.state = step.next;
-  if (step.answer != HostAnswer::nothing) tell_(number, step.answer, thread);
+  if (step.answer != HostAnswer::nothing) report_(number, step.answer, thread);
 }
 
-void HostWaits::heard(int number, const host_time::Message& message) {
+void HostWaits::on_message(int number, const host_time::Message& message) {
   const auto found = threads_.find(number);
   if (found == threads_.end()) return;
   Thread& thread = found->second;
   switch (message.what) {
-    case host_time::Said::hello:
+    case host_time::MessageKind::hello:
       thread.process = message.process;
       thread.thread = message.thread;
       return happen(number, thread, HostEvent::hello);
-    case host_time::Said::wait: thread.wait = message; return happen(number, thread, HostEvent::wait);
-    case host_time::Said::cancel:
+    case host_time::MessageKind::wait: thread.wait = message; return happen(number, thread, HostEvent::wait);
+    case host_time::MessageKind::cancel:
       thread.wait.sequence = message.sequence;
       return happen(number, thread, HostEvent::cancel);
-    case host_time::Said::outside: thread.is_outside = true; return;
-    case host_time::Said::inside: thread.is_outside = false; return;
-    case host_time::Said::child:
-    case host_time::Said::timer:
-    case host_time::Said::go:
-    case host_time::Said::cancelled: return;
+    case host_time::MessageKind::outside: thread.is_outside = true; return;
+    case host_time::MessageKind::inside: thread.is_outside = false; return;
+    case host_time::MessageKind::child:
+    case host_time::MessageKind::timer:
+    case host_time::MessageKind::go:
+    case host_time::MessageKind::cancelled: return;
   }
 }
 

@@ -90,15 +90,15 @@ class HostWaits {
     bool is_outside = false;
     host_time::Message wait{};  // while it waits
   };
-  using Tell = std::function<void(int number, HostAnswer answer, const Thread& thread)>;
+  using Report = std::function<void(int number, HostAnswer answer, const Thread& thread)>;
 
-  /// `tell` is called with each answer but `nothing`.
-  explicit HostWaits(Tell tell) : tell_(std::move(tell)) {}
+  /// `report` is called with each answer but `nothing`.
+  explicit HostWaits(Report report) : report_(std::move(report)) {}
 
   void add(int number) { threads_[number]; }
   void remove(int number) { threads_.erase(number); }
   /// Handles a message of a thread. Messages that are not events of the table change nothing here.
-  void heard(int number, const host_time::Message& message);
+  void on_message(int number, const host_time::Message& message);
   /// Ends the waits whose end has come at simulated time `now`. Returns true if there were any.
   bool time_is(SimTime now);
   /// Must be called when data have arrived on the line whose pseudo-terminal has this number. Returns true if
@@ -124,7 +124,7 @@ class HostWaits {
   void happen(int number, Thread& thread, HostEvent event);
   bool happen_on_line(int terminal, bool is_drained);
 
-  Tell tell_;
+  Report report_;
   std::map<int, Thread> threads_;
 };
 

@@ -86,11 +86,11 @@ void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
 
 /// Tells the kernel the changed interests. This waits until the next poll, so that an interest that changes
 /// back, as after an immediate reply, costs nothing.
-void EventLoop::tell_interests() {
+void EventLoop::update_interests() {
   for (const int descriptor : changed_) {
     const auto it = watches_.find(descriptor);
-    if (it == watches_.end() || it->second.told == it->second.interest) continue;
-    it->second.told = it->second.interest;
+    if (it == watches_.end() || it->second.known == it->second.interest) continue;
+    it->second.known = it->second.interest;
     epoll_event event{};
     event.events = epoll_events(it->second.interest);
     event.data.fd = descriptor;
@@ -138,7 +138,7 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   if (until && !is_due) wake_at(*until);
   if (puts_off) mute_later_ones(true);
   const bool only_looks = is_due || (!pieces_.empty() && !puts_off);
-  tell_interests();
+  update_interests();
   std::array<epoll_event, 32> events{};
   const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_looks ? 0 : -1);
   if (puts_off) mute_later_ones(false);
@@ -190,7 +190,7 @@ void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
       if (piece()) pieces_.push_back(piece);
     } else if (are_ready) {
       are_pieces_next_ = true;
-      tell_interests();
+      update_interests();
       epoll_event event{};
       are_ready = epoll_wait(later_, &event, 1, 0) == 1;
       if (are_ready) call(event.data.fd, event.events);

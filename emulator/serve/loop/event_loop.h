@@ -55,11 +55,11 @@ class EventLoop {
   struct Watch {
     int epoll = -1;  // the epoll that it is in
     std::uint32_t interest = 0;
-    std::uint32_t told = 0;                                     // the interest that the kernel knows of
+    std::uint32_t known = 0;                                    // the interest that the kernel knows of
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
   };
   void wake_at(WallTime moment);
-  void tell_interests();
+  void update_interests();
   void call(int descriptor, std::uint32_t events);
   void mute_later_ones(bool are_muted);
   void call_later_ones(bool are_ready, WallTime slice);

@@ -54,7 +54,7 @@ std::string format_speed(const Speed& speed) {
 void Lateness::record(WallTime lateness) {
   recent_[count_ % recent_.size()] = lateness;
   ++count_;
-  greatest_ = std::max(greatest_, lateness);
+  max_ = std::max(max_, lateness);
 }
 
 namespace {

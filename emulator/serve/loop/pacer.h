@@ -38,12 +38,12 @@ class Lateness {
   void record(WallTime lateness);
   std::uint64_t count() const { return count_; }
   WallTime percentile(int percent) const;  // Returns 0 if there are no measurements.
-  WallTime greatest() const { return greatest_; }
+  WallTime max() const { return max_; }
 
  private:
   std::array<WallTime, 4096> recent_{};
   std::uint64_t count_ = 0;
-  WallTime greatest_{0};
+  WallTime max_{0};
 };
 
 class Pacer {

@@ -28,14 +28,15 @@ bool does(const world::LineStation& station, std::uint8_t number, Addressing wha
 }
 
 bool is_answered(const world::WorldLine& line, std::uint8_t number) {
-  return std::ranges::any_of(
-      line.stations, [&](const auto& station) { return does(*station, number, Addressing::obey_and_reply); });
+  return std::ranges::any_of(line.stations, [&](const auto& station) {
+    return does(*station, number, Addressing::execute_and_reply);
+  });
 }
 
 std::optional<std::uint8_t> number_of(const world::LineStation& station) {
   for (int number = 0; number <= kLastStation; ++number) {
     const auto unit = static_cast<std::uint8_t>(number);
-    if (does(station, unit, Addressing::obey_and_reply)) return unit;
+    if (does(station, unit, Addressing::execute_and_reply)) return unit;
   }
   return std::nullopt;
 }

@@ -44,28 +44,28 @@ std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
 }
 
 /// Returns false if the message gives a length that no message has.
-bool is_length_possible(std::span<const std::uint8_t> heard) {
-  if (heard.size() < kHeader) return true;
-  const std::size_t length = word_at(heard, 4);
+bool is_length_possible(std::span<const std::uint8_t> received) {
+  if (received.size() < kHeader) return true;
+  const std::size_t length = word_at(received, 4);
   return length >= kMinLength && length <= kMaxLength;
 }
 
 /// Returns the size of the message, or nothing if it is incomplete or invalid.
-std::optional<std::size_t> size_of_message(std::span<const std::uint8_t> heard) {
-  if (heard.size() < kHeader || !is_length_possible(heard)) return std::nullopt;
-  const std::size_t size = kHeader + word_at(heard, 4);
-  return heard.size() >= size ? std::optional(size) : std::nullopt;
+std::optional<std::size_t> size_of_message(std::span<const std::uint8_t> received) {
+  if (received.size() < kHeader || !is_length_possible(received)) return std::nullopt;
+  const std::size_t size = kHeader + word_at(received, 4);
+  return received.size() >= size ? std::optional(size) : std::nullopt;
 }
 
 }  // namespace
 
-bool ModbusTcp::hear_client(std::span<const std::uint8_t> bytes) {
+bool ModbusTcp::receive_from_client(std::span<const std::uint8_t> bytes) {
   if (is_refused_) return false;
-  heard_.insert(heard_.end(), bytes.begin(), bytes.end());
-  std::span<const std::uint8_t> rest = heard_;
+  received_.insert(received_.end(), bytes.begin(), bytes.end());
+  std::span<const std::uint8_t> rest = received_;
   while (const auto size = size_of_message(rest)) rest = rest.subspan(*size);
   if (is_length_possible(rest)) return true;
-  heard_.resize(heard_.size() - rest.size());
+  received_.resize(received_.size() - rest.size());
   is_refused_ = true;
   return false;
 }
@@ -77,13 +77,13 @@ std::optional<std::chrono::milliseconds> ModbusTcp::patience() const {
 
 ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
   while (room >= kLongestFrame && !on_line_ && to_client_.empty()) {
-    const auto size = size_of_message(heard_);
+    const auto size = size_of_message(received_);
     if (!size) break;
-    const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(*size);
-    const bool is_modbus = word_at(heard_, 2) == 0;
-    Bytes frame(heard_.begin() + kHeader, end);
-    const std::uint16_t transaction = word_at(heard_, 0);
-    heard_.erase(heard_.begin(), end);
+    const auto end = received_.begin() + static_cast<std::ptrdiff_t>(*size);
+    const bool is_modbus = word_at(received_, 2) == 0;
+    Bytes frame(received_.begin() + kHeader, end);
+    const std::uint16_t transaction = word_at(received_, 0);
+    received_.erase(received_.begin(), end);
     if (!is_modbus) continue;  // another protocol is ignored, as the standard says
     const std::uint8_t unit = frame[0];
     if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
@@ -96,7 +96,7 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
 }
 
 /// Receives from the line. Replies that do not match the pending request (late, or damaged) are dropped.
-void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
+void ModbusTcp::receive_from_line(std::span<const std::uint8_t> bytes) {
   if (!on_line_) return;
   reply_.insert(reply_.end(), bytes.begin(), bytes.end());
   while (reply_.size() >= kExceptionFrame) {
@@ -116,19 +116,19 @@ void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
 
 void ModbusTcp::give_up() {
   if (!on_line_) return;
-  if (is_broadcast() || !rules_.tells) {
+  if (is_broadcast() || !rules_.reports_timeout) {
     on_line_.reset();
     return;
   }
   answer(std::array{static_cast<std::uint8_t>(on_line_->function | kException), kTargetDoesNotRespond});
 }
 
-bool ModbusTcp::is_idle() const { return !on_line_ && to_client_.empty() && !size_of_message(heard_); }
+bool ModbusTcp::is_idle() const { return !on_line_ && to_client_.empty() && !size_of_message(received_); }
 
 void ModbusTcp::client_gone() {
   to_client_.clear();
-  const auto next = on_line_ ? std::optional<std::size_t>(0) : size_of_message(heard_);
-  heard_.resize(next.value_or(0));
+  const auto next = on_line_ ? std::optional<std::size_t>(0) : size_of_message(received_);
+  received_.resize(next.value_or(0));
 }
 
 void ModbusTcp::answer(std::span<const std::uint8_t> pdu) {

@@ -11,26 +11,26 @@
 #include <span>
 #include <utility>
 
-#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/client_protocol.h"
 
 namespace understudy::emulator::serve {
 
 /// The gateway's settings, and the stations on its line.
 struct GatewayRules {
   std::chrono::milliseconds timeout{1000};  // for a station to answer
-  bool tells = true;                        // by exception 11 that it has not
+  bool reports_timeout = true;              // by exception 11 that it has not
   /// Returns the station for a unit; null: the station with that number.
   std::function<std::uint8_t(std::uint8_t unit, std::uint8_t function)> station_of{};
 };
 
-class ModbusTcp final : public TcpSpeech {
+class ModbusTcp final : public ClientProtocol {
  public:
   explicit ModbusTcp(GatewayRules rules = {}) : rules_(std::move(rules)) {}
 
   /// Returns false if the bytes give a length that no request has, so that the beginning of the next is
   /// unknown. Earlier requests are still served; that message and all later bytes never are.
-  [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes) override;
-  void hear_line(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] bool receive_from_client(std::span<const std::uint8_t> bytes) override;
+  void receive_from_line(std::span<const std::uint8_t> bytes) override;
   std::optional<std::chrono::milliseconds> patience() const override;
   /// Must be called when the time for the reply has passed. The client learns that the station does not
   /// answer, except for a broadcast, or if the settings forbid it.
@@ -47,10 +47,10 @@ class ModbusTcp final : public TcpSpeech {
   /// number 0.
   bool waits() const { return on_line_.has_value(); }
   bool is_broadcast() const { return on_line_ && on_line_->station == 0; }
-  bool has_room() const override { return heard_.size() < kMaxHeard; }
+  bool has_room() const override { return received_.size() < kMaxReceived; }
 
  private:
-  static constexpr std::size_t kMaxHeard = 4096;
+  static constexpr std::size_t kMaxReceived = 4096;
 
   struct Request {
     std::uint16_t transaction = 0;
@@ -61,7 +61,7 @@ class ModbusTcp final : public TcpSpeech {
   void answer(std::span<const std::uint8_t> pdu);
 
   GatewayRules rules_;
-  Bytes heard_;              // of the client: whole requests, and the beginning of one
+  Bytes received_;           // of the client: whole requests, and the beginning of one
   bool is_refused_ = false;  // it has sent bytes that are not Modbus TCP
   Bytes reply_;              // from the line, as far as received
   Bytes to_client_;

@@ -18,7 +18,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/line.h"
@@ -33,10 +33,10 @@ namespace understudy::emulator::serve {
 namespace {
 
 // The kernel reports a host's close a moment before it takes effect. After this time it has.
-constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
+constexpr WallTime kSecondPoll = std::chrono::milliseconds(5);
 
 // The interval of checks if the kernel does not report who opens and closes a terminal.
-constexpr WallTime kUnwatchedLook = std::chrono::milliseconds(50);
+constexpr WallTime kUnwatchedPoll = std::chrono::milliseconds(50);
 
 // A lost terminal is tried again after this time.
 constexpr WallTime kRecovery = std::chrono::milliseconds(100);
@@ -46,7 +46,7 @@ constexpr WallTime kStillReads = std::chrono::milliseconds(200);
 
 // This holds what the kernel holds (20,480 bytes) and one reading more, so a host that leaves loses nothing.
 // Hosts that write and leave faster than the wire carries lose the rest.
-constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
+constexpr std::size_t kLeftoverCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
 
@@ -70,7 +70,7 @@ class Port::Overflow final : public pty::LineObserver {
   void on_start_bit(SimTime) override {}
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
-  void on_speech(const pty::Speech&) override {}
+  void on_transmission(const pty::Transmission&) override {}
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
   std::size_t quiet_characters() const override { return pty::Line::kInputCapacity; }
@@ -172,45 +172,45 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   if (presence.closed && !terminal_->host_present()) {
     world_.host_settings(line_number_, terminal_->poll_host_settings());
     world_.host_closed(line_number_);
-    leave_behind(bytes);
-    keep_what_was_left_behind();
+    add_leftover(bytes);
+    keep_leftover();
   } else {
     receive(bytes);
   }
 }
 
 /// Keeps what a host wrote before it closed. It is still served, but must not count as the next host's.
-void Port::keep_what_was_left_behind() {
+void Port::keep_leftover() {
   std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
   while (!terminal_->host_present()) {
     const std::size_t count = terminal_->read(bytes);
     if (terminal_->host_present()) {
       // The next host came during the read: these may be its bytes, and it must get its reply. If they have
       // to wait for the bytes left behind, they are served in order, but without a reply.
-      pass_on_what_was_left_behind();
+      pass_on_leftover();
       const auto read = std::span(bytes).first(count);
-      if (left_behind_.empty() && count <= line().room()) return on_presence(read);
-      leave_behind(read);
+      if (leftover_.empty() && count <= line().room()) return on_presence(read);
+      add_leftover(read);
       return on_presence({});
     }
     if (count == 0) break;
-    leave_behind(std::span(bytes).first(count));
+    add_leftover(std::span(bytes).first(count));
   }
-  pass_on_what_was_left_behind();
+  pass_on_leftover();
 }
 
-void Port::leave_behind(std::span<const std::uint8_t> bytes) {
-  const auto taken = bytes.first(std::min(bytes.size(), kLeftBehindCapacity - left_behind_.size()));
-  left_behind_.insert(left_behind_.end(), taken.begin(), taken.end());
+void Port::add_leftover(std::span<const std::uint8_t> bytes) {
+  const auto taken = bytes.first(std::min(bytes.size(), kLeftoverCapacity - leftover_.size()));
+  leftover_.insert(leftover_.end(), taken.begin(), taken.end());
 }
 
 /// Passes on the bytes left behind, ahead of what the next host writes, as on a wire. It loops because with
 /// instant timing the line has room again at once, and nothing would wake us for the rest.
-void Port::pass_on_what_was_left_behind() {
-  while (const std::size_t count = std::min(left_behind_.size(), line().room())) {
+void Port::pass_on_leftover() {
+  while (const std::size_t count = std::min(leftover_.size(), line().room())) {
     catch_up_();
-    world_.receive_departed(line_number_, std::span(left_behind_).first(count));
-    left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
+    world_.receive_departed(line_number_, std::span(leftover_).first(count));
+    leftover_.erase(leftover_.begin(), leftover_.begin() + static_cast<std::ptrdiff_t>(count));
     world_.advance_to(world_.now());
   }
 }
@@ -229,7 +229,7 @@ void Port::ignore_terminal() {
 void Port::on_data(std::uint32_t ready) {
   if (guest_ != nullptr) return ignore_terminal();
   if (!terminal_->holds_slave()) on_presence({});  // the event may be a hang-up
-  if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
+  if ((ready & EventLoop::readable) != 0 && leftover_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
     const std::size_t count = terminal_->read(std::span(bytes).first(line().room()));
     if (terminal_->has_presence_news()) {
@@ -263,13 +263,13 @@ WallTime Port::patience() const {
   return world::kFramePatience * std::max<std::int64_t>(framing.rest_patience / framing.patience, 1);
 }
 
-std::optional<WallTime> Port::next_look(bool clock_stands) {
+std::optional<WallTime> Port::next_poll(bool clock_stands) {
   if (next_recovery_ > WallTime{0}) return next_recovery_;
   const bool is_in_doubt = terminal_ && terminal_->is_in_doubt();
   if (!is_in_doubt && (!terminal_ || terminal_->is_watched())) {
     next_presence_ = WallTime{0};
   } else if (next_presence_ == WallTime{0}) {
-    next_presence_ = wall_now() + (is_in_doubt ? kSecondLook : kUnwatchedLook);
+    next_presence_ = wall_now() + (is_in_doubt ? kSecondPoll : kUnwatchedPoll);
   }
   std::optional<WallTime> next;
   if (next_presence_ > WallTime{0}) next = next_presence_;
@@ -281,7 +281,7 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
   return next;
 }
 
-void Port::look(WallTime now, bool clock_stands) {
+void Port::poll(WallTime now, bool clock_stands) {
   if (next_recovery_ > WallTime{0} && now >= next_recovery_) terminal_ ? keep_watch() : follow_plug();
   follow_hosts();
   if (next_presence_ > WallTime{0} && now >= next_presence_) {
@@ -332,13 +332,13 @@ bool Port::is_waited_for() {
 
 std::optional<SimTime> Port::time_until_full() const {
   const world::WorldLine& line = world_.line(line_number_);
-  if (!host_present() || (!line.speech.may_be_unasked() && !line.line.due())) return std::nullopt;
+  if (!host_present() || (!line.protocol.may_be_unasked() && !line.line.due())) return std::nullopt;
   return line.line.options().settings.duration_of(pty::Line::kOutputCapacity);
 }
 
 void Port::flush() {
   follow_plug();
-  if (!left_behind_.empty()) pass_on_what_was_left_behind();
+  if (!leftover_.empty()) pass_on_leftover();
   hand_over();
   is_listening_ = room() > 0;
   if (guest_ != nullptr) return guest_->follow();
@@ -362,7 +362,7 @@ void Port::follow_plug() {
 void Port::pull_out() {
   is_pulled_out_ = true;
   next_recovery_ = next_presence_ = WallTime{0};
-  left_behind_.clear();
+  leftover_.clear();
   if (guest_ != nullptr) guest_->hang_up();
   if (!terminal_) return;
   if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
@@ -379,12 +379,12 @@ void Port::plug_in() {
   try {
     terminal_.emplace(*link_, presence_);
   } catch (const pty::PortError& error) {
-    if (!std::exchange(has_told_, true)) log_("line " + line().name() + ": " + error.what());
+    if (!std::exchange(has_reported_, true)) log_("line " + line().name() + ": " + error.what());
     is_pulled_out_ = true;
     next_recovery_ = wall_now() + kRecovery;
     return;
   }
-  has_told_ = false;
+  has_reported_ = false;
   const char* const path = terminal_->path().c_str();
   // The group comes first, because the old group must not gain access.
   if (access_.st_mode != 0 && chown(path, static_cast<uid_t>(-1), access_.st_gid) == 0)
@@ -412,24 +412,24 @@ void Port::leave(std::span<const std::uint8_t> last) {
   catch_up_();
   guest_ = nullptr;
   world_.host_closed(line_number_);
-  leave_behind(last);
+  add_leftover(last);
   if (terminal_ && terminal_->host_present()) world_.host_opened(line_number_);
   flush();
 }
 
-void Port::hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings) {
+void Port::take_from_guest(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings) {
   catch_up_();
   guest_settings_ = settings;
   take_in(bytes, guest_settings_);
   flush();
 }
 
-void Port::take_back() {
+void Port::discard_input() {
   catch_up_();
   world_.host_purged(line_number_);
 }
 
-void Port::throw_away() {
+void Port::discard_output() {
   catch_up_();
   world_.take_output(line_number_, line().output().size());
 }

@@ -51,16 +51,16 @@ class Port {
   std::optional<SimTime> time_until_full() const;
   /// Tells the line which hosts came and went, if the watch has collected anything about them.
   void follow_hosts();
-  /// Returns when look() should be called even if nothing is readable: a host may have come or gone, a frame
+  /// Returns when poll() should be called even if nothing is readable: a host may have come or gone, a frame
   /// is incomplete while the clock is stopped, or a lost or unplugged pseudo-terminal could not be opened
   /// again yet.
-  std::optional<WallTime> next_look(bool clock_stands);
-  void look(WallTime now, bool clock_stands);
+  std::optional<WallTime> next_poll(bool clock_stands);
+  void poll(WallTime now, bool clock_stands);
   /// Must be called after a restore: the line gets the host that is there now, and the old line's unsent
   /// bytes are dropped.
   void world_restored();
 
-  /// A host that does not use the pseudo-terminal. It passes its bytes to hear().
+  /// A host that does not use the pseudo-terminal. It passes its bytes to take_from_guest().
   class Guest {
    public:
     virtual ~Guest() = default;
@@ -79,15 +79,15 @@ class Port {
   /// The guest leaves. Its last bytes are still served.
   void leave(std::span<const std::uint8_t> last);
   /// Takes bytes from the guest, at most room().
-  void hear(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
+  void take_from_guest(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings);
   /// Must be called when the guest flushes bytes that are not on the wire yet.
-  void take_back();
+  void discard_input();
   /// Must be called when the guest discards bytes that it has not taken yet.
-  void throw_away();
-  std::size_t room() const { return left_behind_.empty() ? line().room() : 0; }
+  void discard_output();
+  std::size_t room() const { return leftover_.empty() ? line().room() : 0; }
   bool is_unplugged() const { return line().is_unplugged(); }
   /// Returns true if no bytes are in transit and nothing is due.
-  bool is_quiet() const { return left_behind_.empty() && !line().due() && line().output().empty(); }
+  bool is_quiet() const { return leftover_.empty() && !line().due() && line().output().empty(); }
   const pty::Line& line() const { return world_line().line; }
   const world::WorldLine& world_line() const { return world_.line(line_number_); }
   SimTime now() const { return world_.now(); }
@@ -111,9 +111,9 @@ class Port {
   void unwatch();
   void keep_watch();
   void on_presence(std::span<const std::uint8_t> bytes);
-  void keep_what_was_left_behind();
-  void leave_behind(std::span<const std::uint8_t> bytes);
-  void pass_on_what_was_left_behind();
+  void keep_leftover();
+  void add_leftover(std::span<const std::uint8_t> bytes);
+  void pass_on_leftover();
   void receive(std::span<const std::uint8_t> bytes);
   WallTime patience() const;
   void take_in(std::span<const std::uint8_t> bytes, const std::optional<pty::HostSettings>& settings);
@@ -133,16 +133,16 @@ class Port {
   Guest* guest_ = nullptr;                       // has the line instead
   std::optional<pty::HostSettings> guest_settings_;
   std::vector<std::string> tcp_places_;
-  std::vector<std::uint8_t> left_behind_;  // from hosts that have closed; at most kLeftBehindCapacity
-  WallTime next_presence_{0};              // when to check again who is there; 0: not needed
-  bool is_watching_ = false;               // the terminal's descriptor
-  bool is_on_demand_ = false;              // the terminal's descriptor is not watched
-  bool is_pulled_out_ = false;             // by a fault
-  bool has_told_ = false;                  // the log has said why it cannot be plugged in again
-  struct stat access_ {};                  // of the previous terminal
-  WallTime next_recovery_{0};              // when to try again to open a lost terminal; 0: it is not lost
-  bool is_listening_ = true;               // the line had room when last something was handed over
-  WallTime last_taken_{0};                 // when the host's side took something last
+  std::vector<std::uint8_t> leftover_;  // from hosts that have closed; at most kLeftoverCapacity
+  WallTime next_presence_{0};           // when to check again who is there; 0: not needed
+  bool is_watching_ = false;            // the terminal's descriptor
+  bool is_on_demand_ = false;           // the terminal's descriptor is not watched
+  bool is_pulled_out_ = false;          // by a fault
+  bool has_reported_ = false;           // the log has said why it cannot be plugged in again
+  struct stat access_ {};               // of the previous terminal
+  WallTime next_recovery_{0};           // when to try again to open a lost terminal; 0: it is not lost
+  bool is_listening_ = true;            // the line had room when last something was handed over
+  WallTime last_taken_{0};              // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
   WallTime last_bytes_{0};   // when the host's last bytes came; 0: no frame is waited for
   bool has_paused_ = false;  // while the clock is stopped: the usual patience for a frame has passed since

@@ -7,14 +7,14 @@
 #include <span>
 #include <utility>
 
-#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/client_protocol.h"
 
 namespace understudy::emulator::serve {
 
-class RawBytes final : public TcpSpeech {
+class RawBytes final : public ClientProtocol {
  public:
-  bool has_room() const override { return to_line_.size() < kMaxHeard; }
-  bool hear_client(std::span<const std::uint8_t> bytes) override {
+  bool has_room() const override { return to_line_.size() < kMaxReceived; }
+  bool receive_from_client(std::span<const std::uint8_t> bytes) override {
     to_line_.insert(to_line_.end(), bytes.begin(), bytes.end());
     return true;
   }
@@ -24,13 +24,13 @@ class RawBytes final : public TcpSpeech {
     to_line_.erase(to_line_.begin(), end);
     return taken;
   }
-  void hear_line(std::span<const std::uint8_t> bytes) override {
+  void receive_from_line(std::span<const std::uint8_t> bytes) override {
     to_client_.insert(to_client_.end(), bytes.begin(), bytes.end());
   }
   Bytes take_for_client() override { return std::exchange(to_client_, {}); }
 
  private:
-  static constexpr std::size_t kMaxHeard = 4096;
+  static constexpr std::size_t kMaxReceived = 4096;
   Bytes to_line_;
   Bytes to_client_;
 };

@@ -40,8 +40,8 @@ struct Rfc2217::Row {
 
 Rfc2217::Rfc2217(const pty::LineSettings& line) : to_client_(options_.begin()), settings_(line) {}
 
-bool Rfc2217::hear_client(Value bytes) {
-  reader_.hear(bytes);
+bool Rfc2217::receive_from_client(Value bytes) {
+  reader_.append(bytes);
   return true;
 }
 
@@ -54,7 +54,7 @@ Rfc2217::Bytes Rfc2217::take_for_line(std::size_t room) {
     if (!taken.empty()) break;
     const auto command = reader_.take_command();
     if (!command) break;
-    obey(*command);
+    execute(*command);
     // A receiver sees a break as a character of zeros without a stop bit.
     if (std::exchange(breaks_, false) && room > 0) return {0};
     if (takes_back_ || throws_away_) break;
@@ -69,14 +69,16 @@ std::optional<pty::HostSettings> Rfc2217::settings() const {
                            .parity = settings_.parity};
 }
 
-bool Rfc2217::takes_back() { return std::exchange(takes_back_, false); }
-bool Rfc2217::throws_away() { return std::exchange(throws_away_, false); }
+bool Rfc2217::discards_input() { return std::exchange(takes_back_, false); }
+bool Rfc2217::discards_output() { return std::exchange(throws_away_, false); }
 
-void Rfc2217::hear_line(Value bytes) { telnet::append_data(to_client_, bytes, options_.we_are_binary()); }
+void Rfc2217::receive_from_line(Value bytes) {
+  telnet::append_data(to_client_, bytes, options_.we_are_binary());
+}
 
 Rfc2217::Bytes Rfc2217::take_for_client() { return std::exchange(to_client_, {}); }
 
-void Rfc2217::obey(const telnet::Command& command) {
+void Rfc2217::execute(const telnet::Command& command) {
   switch (command.verb) {
     case telnet::kWill:
     case telnet::kWont:
@@ -84,12 +86,12 @@ void Rfc2217::obey(const telnet::Command& command) {
     case telnet::kDont: {
       const Bytes said = options_.answer(command);
       to_client_.insert(to_client_.end(), said.begin(), said.end());
-      if (options_.has_com_port() && !std::exchange(has_told_modem_state_, options_.has_com_port()))
-        tell_modem_state();
+      if (options_.has_com_port() && !std::exchange(has_reported_modem_state_, options_.has_com_port()))
+        report_modem_state();
       break;
     }
     case telnet::kSubnegotiation:
-      if (command.option == telnet::kComPort) obey_com_port(command.body);
+      if (command.option == telnet::kComPort) execute_com_port(command.body);
       break;
     case telnet::kBreak: breaks_ = true; break;
     case telnet::kAreYouThere: to_client_.insert(to_client_.end(), {telnet::kIac, telnet::kNop}); break;
@@ -97,8 +99,8 @@ void Rfc2217::obey(const telnet::Command& command) {
   }
 }
 
-void Rfc2217::obey_com_port(Value body) {
-  static constexpr std::array kRows{Row{0, 0, &Rfc2217::tell_signature},
+void Rfc2217::execute_com_port(Value body) {
+  static constexpr std::array kRows{Row{0, 0, &Rfc2217::report_signature},
                                     Row{1, 4, &Rfc2217::set_baud},
                                     Row{2, 1, &Rfc2217::set_data_bits},
                                     Row{3, 1, &Rfc2217::set_parity},
@@ -125,7 +127,7 @@ void Rfc2217::answer(std::uint8_t code, Value value) {
 }
 
 /// Answers a request for the signature. A client that sends its own gets no answer.
-void Rfc2217::tell_signature(Value value) {
+void Rfc2217::report_signature(Value value) {
   if (!value.empty()) return;
   answer(0, Bytes(kSignature.begin(), kSignature.end()));
 }
@@ -179,9 +181,9 @@ void Rfc2217::control(Value value) {
   answer(5, flow_);  // flow control by modem lines, which do not exist
 }
 
-void Rfc2217::tell_modem_state() { answer(7, kModemReady); }
+void Rfc2217::report_modem_state() { answer(7, kModemReady); }
 void Rfc2217::notify_line_state(Value) { answer(6, kLineEmpty); }
-void Rfc2217::notify_modem_state(Value) { tell_modem_state(); }
+void Rfc2217::notify_modem_state(Value) { report_modem_state(); }
 
 void Rfc2217::suspend(Value) { is_suspended_ = true; }
 void Rfc2217::resume(Value) { is_suspended_ = false; }

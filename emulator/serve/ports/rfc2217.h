@@ -7,25 +7,25 @@
 #include <optional>
 #include <span>
 
-#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/client_protocol.h"
 #include "emulator/serve/ports/telnet.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator::serve {
 
-class Rfc2217 final : public TcpSpeech {
+class Rfc2217 final : public ClientProtocol {
  public:
   /// A host that sets nothing has the settings of `line`.
   explicit Rfc2217(const pty::LineSettings& line);
 
   bool has_room() const override { return reader_.has_room() && to_client_.size() < kMaxUnsaid; }
-  bool hear_client(std::span<const std::uint8_t> bytes) override;
+  bool receive_from_client(std::span<const std::uint8_t> bytes) override;
   Bytes take_for_line(std::size_t room) override;
   std::optional<pty::HostSettings> settings() const override;
-  bool takes_back() override;
-  bool throws_away() override;
+  bool discards_input() override;
+  bool discards_output() override;
   bool listens() const override { return !is_suspended_; }
-  void hear_line(std::span<const std::uint8_t> bytes) override;
+  void receive_from_line(std::span<const std::uint8_t> bytes) override;
   Bytes take_for_client() override;
 
   struct Row;
@@ -33,14 +33,14 @@ class Rfc2217 final : public TcpSpeech {
  private:
   static constexpr std::size_t kMaxUnsaid = 4096;
 
-  void obey(const telnet::Command& command);
-  void obey_com_port(std::span<const std::uint8_t> body);
+  void execute(const telnet::Command& command);
+  void execute_com_port(std::span<const std::uint8_t> body);
   void answer(std::uint8_t code, std::span<const std::uint8_t> value);
   void answer(std::uint8_t code, std::uint8_t value) { answer(code, std::span(&value, 1)); }
-  void tell_modem_state();
+  void report_modem_state();
 
   // The functions in the table's rows, each with the received value.
-  void tell_signature(std::span<const std::uint8_t> value);
+  void report_signature(std::span<const std::uint8_t> value);
   void set_baud(std::span<const std::uint8_t> value);
   void set_data_bits(std::span<const std::uint8_t> value);
   void set_parity(std::span<const std::uint8_t> value);
@@ -65,7 +65,7 @@ class Rfc2217 final : public TcpSpeech {
   std::uint8_t rts_ = 11;
   std::uint8_t inbound_flow_ = 14;
   bool is_suspended_ = false;
-  bool has_told_modem_state_ = false;
+  bool has_reported_modem_state_ = false;
   bool breaks_ = false;  // a break goes onto the line next
   bool takes_back_ = false;
   bool throws_away_ = false;

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "base/files/descriptor.h"
-#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/client_protocol.h"
 
 namespace understudy::emulator::serve {
 
@@ -49,30 +49,31 @@ bool is_for_later() { return errno == EAGAIN || errno == EINTR; }
 
 }  // namespace
 
-TcpClient::TcpClient(Descriptor socket, std::unique_ptr<TcpSpeech> speech, bool has_messages)
-    : socket_(std::move(socket)), speech_(std::move(speech)), has_messages_(has_messages) {
+TcpClient::TcpClient(Descriptor socket, std::unique_ptr<ClientProtocol> protocol, bool has_messages)
+    : socket_(std::move(socket)), protocol_(std::move(protocol)), has_messages_(has_messages) {
   notice_dead_peers(socket_.get());
   set_option(socket_.get(), IPPROTO_TCP, TCP_NODELAY, 1);
   acknowledge_at_once(socket_.get());
 }
 
-TcpClient::Heard TcpClient::read() {
+TcpClient::ReadResult TcpClient::read() {
   std::array<std::uint8_t, kOneReading> bytes;
   const ssize_t count = recv(socket_.get(), bytes.data(), bytes.size(), 0);
-  if (count < 0) return is_for_later() ? Heard::nothing : Heard::that_it_is_gone;
+  if (count < 0) return is_for_later() ? ReadResult::nothing : ReadResult::connection_gone;
   if (count == 0) {
-    has_said_all_ = true;
-    return Heard::nothing;
+    has_finished_sending_ = true;
+    return ReadResult::nothing;
   }
   acknowledge_at_once(socket_.get());
-  const bool is_known = speech_->hear_client(std::span(bytes).first(static_cast<std::size_t>(count)));
-  return is_known ? Heard::what_it_speaks : Heard::something_else;
+  const bool is_known =
+      protocol_->receive_from_client(std::span(bytes).first(static_cast<std::size_t>(count)));
+  return is_known ? ReadResult::protocol_bytes : ReadResult::foreign_bytes;
 }
 
 void TcpClient::send_out() {
   while (true) {
     if (unsent_.empty()) {
-      unsent_ = speech_->take_for_client();
+      unsent_ = protocol_->take_for_client();
       spoil_unsent();
     }
     if (unsent_.empty()) return;
@@ -119,7 +120,7 @@ void TcpClient::forget_socket() {
   socket_.close();
   unsent_.clear();
   rest_.clear();
-  speech_->client_gone();
+  protocol_->client_gone();
 }
 
 }  // namespace understudy::emulator::serve

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/files/descriptor.h"
-#include "emulator/serve/ports/tcp_speech.h"
+#include "emulator/serve/ports/client_protocol.h"
 
 namespace understudy::emulator::serve {
 
@@ -24,24 +24,24 @@ struct Spoiling {
 
 class TcpClient {
  public:
-  TcpClient(Descriptor socket, std::unique_ptr<TcpSpeech> speech, bool has_messages);
+  TcpClient(Descriptor socket, std::unique_ptr<ClientProtocol> protocol, bool has_messages);
 
-  TcpSpeech& speech() { return *speech_; }
-  const TcpSpeech& speech() const { return *speech_; }
+  ClientProtocol& protocol() { return *protocol_; }
+  const ClientProtocol& protocol() const { return *protocol_; }
   int socket() const { return socket_.get(); }
 
-  enum class Heard : std::uint8_t {
+  enum class ReadResult : std::uint8_t {
     nothing,          // for now, or because the client has sent everything
-    what_it_speaks,   // bytes of its protocol
-    something_else,   // bytes outside its protocol; it will be released
-    that_it_is_gone,  // nothing can be sent any more
+    protocol_bytes,   // bytes of its protocol
+    foreign_bytes,    // bytes outside its protocol; it will be released
+    connection_gone,  // nothing can be sent any more
   };
   /// Reads some of the bytes it has sent.
-  Heard read();
+  ReadResult read();
   /// Returns false if it has closed its sending half, or is ahead of the line: then nothing is read.
-  bool is_read() const { return !has_said_all_ && speech_->has_room(); }
+  bool is_read() const { return !has_finished_sending_ && protocol_->has_room(); }
   /// Returns true if it has closed its sending half. It still gets the answers to its requests.
-  bool has_said_all() const { return has_said_all_; }
+  bool has_finished_sending() const { return has_finished_sending_; }
 
   /// Sends as much as the network accepts. Reading shows whether the client has gone.
   void send_out();
@@ -65,15 +65,15 @@ class TcpClient {
 
  private:
   Descriptor socket_;
-  std::unique_ptr<TcpSpeech> speech_;
-  TcpSpeech::Bytes unsent_;  // bytes it has not taken yet, at most as many as came at once
+  std::unique_ptr<ClientProtocol> protocol_;
+  ClientProtocol::Bytes unsent_;  // bytes it has not taken yet, at most as many as came at once
   std::uint64_t sent_ = 0;
-  bool has_said_all_ = false;
+  bool has_finished_sending_ = false;
   void spoil_unsent();
 
   bool has_messages_;
   Spoiling spoiling_;
-  TcpSpeech::Bytes rest_;
+  ClientProtocol::Bytes rest_;
   std::optional<std::chrono::nanoseconds> pause_;
   bool hangs_up_ = false;
 };

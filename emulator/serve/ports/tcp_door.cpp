@@ -21,6 +21,7 @@
 #include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
+#include "emulator/serve/ports/client_protocol.h"
 #include "emulator/serve/ports/gateway_units.h"
 #include "emulator/serve/ports/modbus_tcp.h"
 #include "emulator/serve/ports/port.h"
@@ -28,7 +29,6 @@
 #include "emulator/serve/ports/rfc2217.h"
 #include "emulator/serve/ports/tcp_client.h"
 #include "emulator/serve/ports/tcp_places.h"
-#include "emulator/serve/ports/tcp_speech.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/faults/fault.h"
 #include "pty/line_settings.h"
@@ -75,23 +75,24 @@ TcpDoor::~TcpDoor() {
   for (const auto& client : clients_) loop_.unwatch(client->socket());
 }
 
-std::unique_ptr<TcpSpeech> TcpDoor::make_speech() {
+std::unique_ptr<ClientProtocol> TcpDoor::make_protocol() {
   switch (address_.protocol) {
     case world::TcpProtocol::rtu: return std::make_unique<RawBytes>();
     case world::TcpProtocol::rfc2217: return std::make_unique<Rfc2217>(port_.line().options().settings);
     case world::TcpProtocol::modbus_tcp: break;
   }
-  const auto station_of = [this, has_told = false](std::uint8_t unit, std::uint8_t function) mutable {
+  const auto station_of = [this, has_reported = false](std::uint8_t unit, std::uint8_t function) mutable {
     const std::uint8_t station = station_of_unit(unit, address_.gateway, port_.world_line());
-    const std::string why = has_told ? "" : why_unanswered(station, function, port_.world_line());
+    const std::string why = has_reported ? "" : why_unanswered(station, function, port_.world_line());
     if (!why.empty()) {
-      has_told = true;
+      has_reported = true;
       log_("a host at " + world::to_string(address_) + " asks for unit " + std::to_string(unit) + ", " + why);
     }
     return station;
   };
-  return std::make_unique<ModbusTcp>(GatewayRules{
-      .timeout = address_.gateway.timeout, .tells = address_.gateway.tells, .station_of = station_of});
+  return std::make_unique<ModbusTcp>(GatewayRules{.timeout = address_.gateway.timeout,
+                                                  .reports_timeout = address_.gateway.reports_timeout,
+                                                  .station_of = station_of});
 }
 
 // --- clients that connect ------------------------------------------------------------------------
@@ -102,10 +103,10 @@ void TcpDoor::admit(Descriptor socket) {
   if (is_gateway() && clients_.size() >= kMaxMasters) return refuse();
   if (!is_gateway()) {
     // The first client may just have sent its last bytes, or disconnected.
-    while (!clients_.empty() && clients_.front()->is_read() && hear(*clients_.front())) serve_line();
+    while (!clients_.empty() && clients_.front()->is_read() && read_from(*clients_.front())) serve_line();
     serve_line();
     if (!clients_.empty()) {
-      if (next_ || !clients_.front()->has_said_all()) return refuse();
+      if (next_ || !clients_.front()->has_finished_sending()) return refuse();
       next_ = std::move(socket);
       return set_timer(kLongestGoodbye);
     }
@@ -128,7 +129,7 @@ void TcpDoor::refuse() {
 
 void TcpDoor::let_in(Descriptor socket) {
   TcpClient& client =
-      *clients_.emplace_back(std::make_unique<TcpClient>(std::move(socket), make_speech(), is_gateway()));
+      *clients_.emplace_back(std::make_unique<TcpClient>(std::move(socket), make_protocol(), is_gateway()));
   if (!is_on_demand_) {
     loop_.watch(client.socket(), EventLoop::readable,
                 [this, &client](std::uint32_t ready) { on_client(client, ready); });
@@ -144,17 +145,17 @@ void TcpDoor::on_client(TcpClient& client, std::uint32_t ready) {
   if ((ready & EventLoop::departed) != 0) {
     let_go(client);
   } else if ((ready & EventLoop::readable) != 0 && client.is_read()) {
-    hear(client);
+    read_from(client);
   }
   serve_line();
 }
 
 /// Reads from a client. Returns true if it has sent something.
-bool TcpDoor::hear(TcpClient& client) {
-  const TcpClient::Heard heard = client.read();
-  if (heard == TcpClient::Heard::nothing) return false;
-  if (heard == TcpClient::Heard::what_it_speaks) return true;
-  if (heard == TcpClient::Heard::something_else)
+bool TcpDoor::read_from(TcpClient& client) {
+  const TcpClient::ReadResult result = client.read();
+  if (result == TcpClient::ReadResult::nothing) return false;
+  if (result == TcpClient::ReadResult::protocol_bytes) return true;
+  if (result == TcpClient::ReadResult::foreign_bytes)
     log_("the bytes from a client at " + world::to_string(address_) +
          " are not Modbus TCP; the client is disconnected");
   let_go(client);
@@ -166,12 +167,12 @@ void TcpDoor::attend() {
     due_.reset();
     expire();
   }
-  bool has_heard = true;
-  while (has_heard) {
-    has_heard = false;
+  bool has_read = true;
+  while (has_read) {
+    has_read = false;
     for (std::size_t i = 0; i < clients_.size(); ++i) {
       TcpClient& client = *clients_[i];
-      if (!client.is_gone() && client.is_read()) has_heard = hear(client) || has_heard;
+      if (!client.is_gone() && client.is_read()) has_read = read_from(client) || has_read;
     }
     serve_line();
   }
@@ -193,13 +194,13 @@ void TcpDoor::let_go(TcpClient& client) {
   for (const auto& listener : listeners_) listener->try_again();
 }
 
-TcpSpeech::Bytes TcpDoor::take_rest(TcpClient& client) {
-  TcpSpeech::Bytes rest;
-  for (bool goes_on = true; goes_on && rest.size() < kMaxLeft;) {
-    const TcpSpeech::Bytes some = client.speech().take_for_line(kOneTaking);
+ClientProtocol::Bytes TcpDoor::take_rest(TcpClient& client) {
+  ClientProtocol::Bytes rest;
+  for (bool continues = true; continues && rest.size() < kMaxLeft;) {
+    const ClientProtocol::Bytes some = client.protocol().take_for_line(kOneTaking);
     rest.insert(rest.end(), some.begin(), some.end());
-    client.speech().take_for_client();
-    goes_on = !some.empty() || client.read() == TcpClient::Heard::what_it_speaks;
+    client.protocol().take_for_client();
+    continues = !some.empty() || client.read() == TcpClient::ReadResult::protocol_bytes;
   }
   return rest;
 }
@@ -208,7 +209,7 @@ TcpSpeech::Bytes TcpDoor::take_rest(TcpClient& client) {
 
 bool TcpDoor::waits_for_reply() const {
   return std::ranges::any_of(clients_, [](const auto& client) {
-    return client->speech().patience().has_value() || client->has_rest();
+    return client->protocol().patience().has_value() || client->has_rest();
   });
 }
 
@@ -217,21 +218,21 @@ bool TcpDoor::serve_next() {
   if (waits_for_reply()) return false;
   for (std::size_t i = 0; i < clients_.size(); ++i) {
     const std::size_t which = (turn_ + i) % clients_.size();
-    TcpSpeech& speech = clients_[which]->speech();
-    const TcpSpeech::Bytes bytes = speech.take_for_line(port_.room());
-    const bool takes_back = speech.takes_back();
-    const bool throws_away = speech.throws_away();
-    if (takes_back) port_.take_back();
-    if (throws_away) port_.throw_away();
+    ClientProtocol& protocol = clients_[which]->protocol();
+    const ClientProtocol::Bytes bytes = protocol.take_for_line(port_.room());
+    const bool discards_input = protocol.discards_input();
+    const bool discards_output = protocol.discards_output();
+    if (discards_input) port_.discard_input();
+    if (discards_output) port_.discard_output();
     if (!bytes.empty()) {
       turn_ = which + 1;
       if (is_gateway()) clients_[which]->spoil({});
       const pty::LineSettings line = port_.line().options().settings;
-      await_reply(speech);
-      port_.hear(bytes, speech.settings().value_or(
-                            pty::HostSettings{.baud = line.baud, .stop_bits = line.stop_bits}));
+      await_reply(protocol);
+      port_.take_from_guest(bytes, protocol.settings().value_or(
+                                       pty::HostSettings{.baud = line.baud, .stop_bits = line.stop_bits}));
     }
-    if (!bytes.empty() || takes_back || throws_away) return true;
+    if (!bytes.empty() || discards_input || discards_output) return true;
   }
   return false;
 }
@@ -259,8 +260,8 @@ void TcpDoor::send_out(TcpClient& client) {
 
 void TcpDoor::follow() { serve_line(); }
 
-void TcpDoor::await_reply(const TcpSpeech& speech) {
-  const auto patience = speech.patience();
+void TcpDoor::await_reply(const ClientProtocol& protocol) {
+  const auto patience = protocol.patience();
   if (!patience) return;
   set_timer(*patience + std::chrono::nanoseconds(std::chrono::seconds(kLongestExchange_bits)) /
                             port_.line().options().settings.baud);
@@ -285,7 +286,7 @@ void TcpDoor::on_timer() {
 
 void TcpDoor::expire() {
   if (next_ && !clients_.empty()) let_go(*clients_.front());
-  for (const auto& client : clients_) client->has_rest() ? client->send_rest() : client->speech().give_up();
+  for (const auto& client : clients_) client->has_rest() ? client->send_rest() : client->protocol().give_up();
   serve_line();
 }
 
@@ -293,9 +294,9 @@ void TcpDoor::expire() {
 /// gateway takes everything, but sends no further request while a reply waits to be taken.
 std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
   if (clients_.empty()) return bytes.size();
-  if (!is_gateway() && (clients_.front()->has_unsent() || !clients_.front()->speech().listens())) return 0;
+  if (!is_gateway() && (clients_.front()->has_unsent() || !clients_.front()->protocol().listens())) return 0;
   for (const auto& client : clients_) {
-    client->speech().hear_line(bytes);
+    client->protocol().receive_from_line(bytes);
     send_out(*client);
   }
   return bytes.size();
@@ -306,15 +307,15 @@ std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
 /// Returns true if a client that sends no more has received all replies.
 bool TcpDoor::has_all(const TcpClient& client) const {
   if (client.has_unsent() || client.has_rest()) return false;
-  if (is_gateway()) return client.speech().is_idle();
+  if (is_gateway()) return client.protocol().is_idle();
   // A client that does not listen now never will.
-  return port_.room() > 0 && (port_.is_quiet() || !client.speech().listens());
+  return port_.room() > 0 && (port_.is_quiet() || !client.protocol().listens());
 }
 
 void TcpDoor::see_off() {
   const auto is_done = [this](const auto& client) {
     const bool has_gone = client->hangs_up() && !client->has_unsent();
-    return has_gone || ((client->is_gone() || client->has_said_all()) && has_all(*client));
+    return has_gone || ((client->is_gone() || client->has_finished_sending()) && has_all(*client));
   };
   if (std::ranges::none_of(clients_, is_done)) return;
   for (const auto& client : clients_) {
@@ -334,7 +335,7 @@ void TcpDoor::see_off() {
 void TcpDoor::spoil(const world::Fault& fault) {
   using Kind = world::Fault::Kind;
   for (const auto& client : clients_) {
-    if (is_gateway() && !client->speech().patience()) continue;
+    if (is_gateway() && !client->protocol().patience()) continue;
     Spoiling spoiling = client->spoiling();
     const auto size = static_cast<std::size_t>(fault.amount);
     if (fault.kind == Kind::hang_up) spoiling.hangs_up_after = size;
@@ -355,7 +356,7 @@ void TcpDoor::hang_up() {
 }
 
 /// Leaves the line after the last client has gone.
-void TcpDoor::leave(const TcpSpeech::Bytes& last) {
+void TcpDoor::leave(const ClientProtocol::Bytes& last) {
   news_ = news() + 1;
   clients_.clear();
   port_.leave(last);

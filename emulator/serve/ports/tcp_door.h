@@ -16,9 +16,9 @@
 #include "base/files/descriptor.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
+#include "emulator/serve/ports/client_protocol.h"
 #include "emulator/serve/ports/port.h"
 #include "emulator/serve/ports/tcp_client.h"
-#include "emulator/serve/ports/tcp_speech.h"
 #include "emulator/world/bench/listening.h"
 
 namespace understudy::emulator::serve {
@@ -56,11 +56,11 @@ class TcpDoor final : private Port::Guest {
   void hang_up() override;
 
   bool is_gateway() const { return address_.protocol == world::TcpProtocol::modbus_tcp; }
-  std::unique_ptr<TcpSpeech> make_speech();
+  std::unique_ptr<ClientProtocol> make_protocol();
   void let_in(Descriptor socket);
   void refuse();
   void on_client(TcpClient& client, std::uint32_t ready);
-  bool hear(TcpClient& client);
+  bool read_from(TcpClient& client);
   void let_go(TcpClient& client);
   void on_timer();
   void expire();
@@ -69,11 +69,11 @@ class TcpDoor final : private Port::Guest {
   bool serve_next();
   void serve_line();
   void send_out(TcpClient& client);
-  void await_reply(const TcpSpeech& speech);
+  void await_reply(const ClientProtocol& protocol);
   bool has_all(const TcpClient& client) const;
   void see_off();
-  void leave(const TcpSpeech::Bytes& last);
-  TcpSpeech::Bytes take_rest(TcpClient& client);
+  void leave(const ClientProtocol::Bytes& last);
+  ClientProtocol::Bytes take_rest(TcpClient& client);
 
   EventLoop& loop_;
   Port& port_;

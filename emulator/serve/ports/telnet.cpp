@@ -18,14 +18,14 @@ bool has_option(std::uint8_t verb) { return verb >= kSubnegotiation && verb != k
 }  // namespace
 
 void Reader::drop(std::size_t count) {
-  heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(count));
+  received_.erase(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-void Reader::take_data(Bytes& taken, std::size_t most, bool is_binary) {
+void Reader::take_data(Bytes& taken, std::size_t max, bool is_binary) {
   std::size_t at = 0;
-  while (!is_skipping_ && taken.size() < most && at < heard_.size()) {
-    const std::uint8_t byte = heard_[at];
-    const bool is_escaped = byte == kIac && at + 1 < heard_.size() && heard_[at + 1] == kIac;
+  while (!is_skipping_ && taken.size() < max && at < received_.size()) {
+    const std::uint8_t byte = received_[at];
+    const bool is_escaped = byte == kIac && at + 1 < received_.size() && received_[at + 1] == kIac;
     if (byte == kIac && !is_escaped) break;
     at += is_escaped ? 2 : 1;
     if (!is_binary && was_return_ && byte == 0) {
@@ -40,14 +40,14 @@ void Reader::take_data(Bytes& taken, std::size_t most, bool is_binary) {
 
 std::optional<Command> Reader::take_command() {
   if (is_skipping_) return skip_subnegotiation() ? std::optional(Command{}) : std::nullopt;
-  if (heard_.size() < 2 || heard_[0] != kIac || heard_[1] == kIac) return std::nullopt;
-  Command command{.verb = heard_[1], .option = 0, .body = {}};
+  if (received_.size() < 2 || received_[0] != kIac || received_[1] == kIac) return std::nullopt;
+  Command command{.verb = received_[1], .option = 0, .body = {}};
   if (!has_option(command.verb)) {
     drop(2);
     return command;
   }
-  if (heard_.size() < 3) return std::nullopt;
-  command.option = heard_[2];
+  if (received_.size() < 3) return std::nullopt;
+  command.option = received_[2];
   if (command.verb == kSubnegotiation) return take_subnegotiation();
   drop(3);
   return command;
@@ -57,38 +57,38 @@ std::optional<Command> Reader::take_command() {
 /// whose meaning depends on the next.
 bool Reader::skip_subnegotiation() {
   std::size_t at = 0;
-  while (at + 1 < heard_.size()) {
-    if (heard_[at] != kIac) {
+  while (at + 1 < received_.size()) {
+    if (received_[at] != kIac) {
       ++at;
-    } else if (heard_[at + 1] == kIac) {
+    } else if (received_[at + 1] == kIac) {
       at += 2;
     } else {
-      drop(heard_[at + 1] == kSubnegotiationEnd ? at + 2 : at);
+      drop(received_[at + 1] == kSubnegotiationEnd ? at + 2 : at);
       is_skipping_ = false;
       return true;
     }
   }
-  if (at < heard_.size() && heard_[at] != kIac) ++at;
+  if (at < received_.size() && received_[at] != kIac) ++at;
   drop(at);
   return false;
 }
 
 /// Takes a subnegotiation. A command inside it breaks it off, and it is ignored.
 std::optional<Command> Reader::take_subnegotiation() {
-  Command command{.verb = kSubnegotiation, .option = heard_[2], .body = {}};
-  for (std::size_t at = 3; at + 1 < heard_.size(); ++at) {
+  Command command{.verb = kSubnegotiation, .option = received_[2], .body = {}};
+  for (std::size_t at = 3; at + 1 < received_.size(); ++at) {
     if (at > kLongestSubnegotiation) {
       drop(3);
       is_skipping_ = true;
       return take_command();
     }
-    if (heard_[at] == kIac && heard_[at + 1] != kIac) {
-      const bool is_ended = heard_[at + 1] == kSubnegotiationEnd;
+    if (received_[at] == kIac && received_[at + 1] != kIac) {
+      const bool is_ended = received_[at + 1] == kSubnegotiationEnd;
       drop(is_ended ? at + 2 : at);
       return is_ended ? command : Command{};
     }
-    command.body.push_back(heard_[at]);
-    if (heard_[at] == kIac) ++at;
+    command.body.push_back(received_[at]);
+    if (received_[at] == kIac) ++at;
   }
   return std::nullopt;
 }

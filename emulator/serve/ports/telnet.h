@@ -36,14 +36,16 @@ struct Command {
 /// Splits received bytes in their order.
 class Reader {
  public:
-  static constexpr std::size_t kMaxHeard = 4096;
+  static constexpr std::size_t kMaxReceived = 4096;
   static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are ignored
 
-  bool has_room() const { return heard_.size() < kMaxHeard; }
-  void hear(std::span<const std::uint8_t> bytes) { heard_.insert(heard_.end(), bytes.begin(), bytes.end()); }
-  /// Adds bytes up to the next command, until there are `most`. If they are not binary, the 0 after a
+  bool has_room() const { return received_.size() < kMaxReceived; }
+  void append(std::span<const std::uint8_t> bytes) {
+    received_.insert(received_.end(), bytes.begin(), bytes.end());
+  }
+  /// Adds bytes up to the next command, until there are `max`. If they are not binary, the 0 after a
   /// carriage return is not passed to the line.
-  void take_data(Bytes& taken, std::size_t most, bool is_binary);
+  void take_data(Bytes& taken, std::size_t max, bool is_binary);
   /// Returns the next command if no byte precedes it and it is complete. A malformed one becomes a kNop.
   std::optional<Command> take_command();
 
@@ -52,7 +54,7 @@ class Reader {
   std::optional<Command> take_subnegotiation();
   void drop(std::size_t count);
 
-  Bytes heard_;
+  Bytes received_;
   bool is_skipping_ = false;  // an overlong subnegotiation
   bool was_return_ = false;
 };

@@ -50,9 +50,9 @@ Bench bench_of_one(const Model& model, DeviceSettings settings, const std::strin
   settings.bauds.resize(ports.size());
   for (std::size_t i = 0; i < ports.size(); ++i) {
     const std::string name(ports.size() == 1 ? "line" : ports[i].name);
-    const std::string behind = i == 0 || link.empty() ? "" : "." + std::string(ports[i].name);
+    const std::string suffix = i == 0 || link.empty() ? "" : "." + std::string(ports[i].name);
     bench.lines.push_back(
-        {.name = name, .link = link + behind, .baud = settings.bauds[i], .stations = {StationSetup(0, i)}});
+        {.name = name, .link = link + suffix, .baud = settings.bauds[i], .stations = {StationSetup(0, i)}});
   }
   bench.devices.push_back({.model = &model, .settings = std::move(settings)});
   return bench;

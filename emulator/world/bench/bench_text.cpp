@@ -88,13 +88,13 @@ Json machine_text(const PlantSetup& plant, const Model& model) {
   }
   if (plant.home_opens) text["home"]["contact"] = "opens";
   if (plant.home_input >= 0) text["home"]["input"] = input(plant.home_input);
-  const auto add_switch = [&](const char* key, const std::optional<SwitchSetup>& its) {
-    if (!its) return;
-    text[key] = Json{{"at", its->on.first},
-                     {"width", its->on.last - its->on.first + 1},
-                     {"hysteresis", its->hysteresis_pulses}};
-    if (its->opens) text[key]["contact"] = "opens";
-    if (its->input >= 0) text[key]["input"] = input(its->input);
+  const auto add_switch = [&](const char* key, const std::optional<SwitchSetup>& setup) {
+    if (!setup) return;
+    text[key] = Json{{"at", setup->on.first},
+                     {"width", setup->on.last - setup->on.first + 1},
+                     {"hysteresis", setup->hysteresis_pulses}};
+    if (setup->opens) text[key]["contact"] = "opens";
+    if (setup->input >= 0) text[key]["input"] = input(setup->input);
   };
   add_switch("near_home", plant.near_home);
   add_switch("mark", plant.mark);

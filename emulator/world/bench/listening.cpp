@@ -46,7 +46,7 @@ struct SettingRow {
 bool set_timeout(GatewaySettings& gateway, std::string_view value) {
   const auto time = value == "0" ? SimTime{0} : parse_duration(value);
   if (time == SimTime{0}) {
-    gateway.tells = false;
+    gateway.reports_timeout = false;
     return true;
   }
   if (!time || *time < std::chrono::milliseconds(1) || *time > kLongestTimeout) return false;
@@ -56,7 +56,7 @@ bool set_timeout(GatewaySettings& gateway, std::string_view value) {
 
 bool set_exception(GatewaySettings& gateway, std::string_view value) {
   if (value != "on" && value != "off") return false;
-  gateway.tells = value == "on";
+  gateway.reports_timeout = value == "on";
   return true;
 }
 

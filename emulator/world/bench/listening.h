@@ -20,7 +20,7 @@ struct GatewaySettings {
   /// How long a station may take to answer, not counting the time on the wire.
   std::chrono::milliseconds timeout{1000};
   /// If true, the gateway answers exception 11 when a station has not answered.
-  bool tells = true;
+  bool reports_timeout = true;
   /// The station for unit 255. kOnlyStation: the station on the line, if there is only one. kAnyUnit: that
   /// station, for all units.
   int unit = kOnlyStation;

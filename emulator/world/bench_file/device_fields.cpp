@@ -26,7 +26,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/setting_entry.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/bench_schema.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
@@ -198,14 +198,14 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   }
   if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
   if (setting == "modules") {  // sets the maximum, so that later messages about modules are right
-    return std::exchange(settings.modules, model.most_modules) != model.most_modules;
+    return std::exchange(settings.modules, model.max_modules) != model.max_modules;
   }
   if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
   return !std::exchange(settings.bauds, {}).empty();  // the DIP switches demand another speed
 }
 
 /// Reports the error at the entry, or at the memory if the entry has no place of its own.
-[[noreturn]] void complain(const YamlFields& nv, const NvEntryError& error) {
+[[noreturn]] void fail(const YamlFields& nv, const NvEntryError& error) {
   if (!nv.is_map()) nv.fail(error.what());
   const bool is_block = error.list == NvEntryError::List::blocks;
   if (const auto entry = nv.find(is_block ? error.kind : error.name)) {
@@ -217,7 +217,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
 
 /// Reports the error at the setting, or at the device if the setting has no place. Reports the speed of a
 /// line at the station on that line.
-[[noreturn]] void complain(const DevicePlaces& places, const SettingError& error, const Model& model) {
+[[noreturn]] void fail(const DevicePlaces& places, const SettingError& error, const Model& model) {
   const YamlFields& device = places.device;
   if (error.setting == "baud") {
     const auto& entry = dynamic_cast<const SettingEntryError&>(error).entry;
@@ -274,7 +274,7 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   const bool knows_modules = read("modules", [&](const YamlFields& field) {
     settings.modules = static_cast<int>(field.integer(kModulesSchema));
   });
-  if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
+  if (!knows_modules && device.model != nullptr) settings.modules = device.model->max_modules;
   read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, diagnostics); });
   read("dip", [&](const YamlFields& field) {
     diagnostics.attempt([&] { field.require_map(); });
@@ -307,10 +307,10 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Diagnostics& 
         make_device(*device.model, settings);
       } catch (const SettingError& error) {
         is_asked = take_away(error, settings, *device.model);
-        complain(places, error, *device.model);
+        fail(places, error, *device.model);
       } catch (const NvEntryError& error) {
         is_asked = settings.nv && emulator::take_away(error, *settings.nv);
-        if (const auto nv = fields.find("nv")) complain(*nv, error);
+        if (const auto nv = fields.find("nv")) fail(*nv, error);
         fields.fail(std::string("nv: ") + error.what());
       } catch (const NvError& error) {
         is_asked = std::exchange(settings.nv, std::nullopt).has_value();

@@ -12,7 +12,7 @@
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
-#include "emulator/device/mistakes_told.h"
+#include "emulator/device/more_mistakes.h"
 #include "emulator/device/program_error.h"
 #include "emulator/world/bench/inline_text.h"
 
@@ -41,7 +41,7 @@ constexpr std::string_view kAnd = "and ";
 /// Returns the line that replaces the errors that are not reported.
 FileError::Diagnostic word_of_more(std::size_t more) {
   const FileError word(std::string(kAnd) + std::to_string(more) + " more; the first " +
-                       std::to_string(Diagnostics::kMaxTold) + " are shown");
+                       std::to_string(Diagnostics::kMaxReported) + " are shown");
   return word.diagnostics().front();
 }
 
@@ -56,14 +56,14 @@ std::size_t more_in(const FileError::Diagnostic& diagnostic) {
 
 }  // namespace
 
-void Diagnostics::add(const FileError& error, const std::string& behind) {
+void Diagnostics::add(const FileError& error, const std::string& suffix) {
   for (FileError::Diagnostic diagnostic : error.diagnostics()) {
     if (const std::size_t more = more_in(diagnostic)) {
       more_ += more;
       continue;
     }
-    if (!told_.insert(diagnostic.text).second) continue;
-    diagnostic.text += behind;
+    if (!reported_.insert(diagnostic.text).second) continue;
+    diagnostic.text += suffix;
     diagnostics_.push_back(std::move(diagnostic));
   }
   if (diagnostics_.size() >= kMaxKept) throw LastError(std::vector<FileError::Diagnostic>());
@@ -80,9 +80,9 @@ void Diagnostics::throw_if_any() const {
   std::vector<FileError::Diagnostic> sorted = diagnostics_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& left, const auto& right) { return place(left) < place(right); });
-  const std::size_t more = more_ + sorted.size() - std::min(sorted.size(), kMaxTold);
+  const std::size_t more = more_ + sorted.size() - std::min(sorted.size(), kMaxReported);
   if (more > 0) {
-    sorted.resize(std::min(sorted.size(), kMaxTold));
+    sorted.resize(std::min(sorted.size(), kMaxReported));
     sorted.push_back(word_of_more(more));
   }
   throw FileError(std::move(sorted));

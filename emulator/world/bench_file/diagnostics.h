@@ -29,7 +29,7 @@ struct AlreadyReported {};
 
 class Diagnostics {
  public:
-  static constexpr std::size_t kMaxTold = 20;
+  static constexpr std::size_t kMaxReported = 20;
 
   /// Returns true if `read` succeeded. If it did not, keeps its error.
   template <typename Read>
@@ -57,7 +57,7 @@ class Diagnostics {
   }
   /// Adds an error, with `behind` appended to each line, unless it has been reported already. Throws
   /// LastError if there are too many.
-  void add(const FileError& error, const std::string& behind = "");
+  void add(const FileError& error, const std::string& suffix = "");
   std::size_t count() const { return diagnostics_.size(); }
   /// If there are errors, throws a FileError with the first ones in the order of the file; several files keep
   /// the order in which they were reported.
@@ -67,7 +67,7 @@ class Diagnostics {
   static constexpr std::size_t kMaxKept = 1000;
 
   std::vector<FileError::Diagnostic> diagnostics_;
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
   std::size_t more_ = 0;  // errors that the reports of parts left out
 };
 

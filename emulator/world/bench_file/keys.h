@@ -5,7 +5,7 @@
 #include <string>
 
 #include "emulator/world/bench_file/diagnostics.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {

@@ -16,7 +16,7 @@
 #include "emulator/world/bench_file/device_fields.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/yaml_fields.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "pty/line.h"
 
 namespace understudy::emulator::world {
@@ -36,19 +36,19 @@ pty::Timing read_timing(const YamlFields& timing) {
 
 std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
   if (const auto ppm = parse_baud_tolerance(tolerance.text())) return *ppm;
-  tolerance.fail(understudy::quoted(tolerance.text()) + " is not possible; " +
+  tolerance.fail(understudy::quoted(tolerance.text()) + " is not valid; " +
                  std::string(kBaudToleranceExpected));
 }
 
 bool read_echo(const YamlFields& echo) {
   if (echo.text() != "on" && echo.text() != "off")
-    echo.fail(understudy::quoted(echo.text()) + " is not possible; expected on or off");
+    echo.fail(understudy::quoted(echo.text()) + " is not valid; expected on or off");
   return echo.text() == "on";
 }
 
 SimTime read_byte_timeout(const YamlFields& timeout) {
   if (const auto time = parse_byte_timeout(timeout.text())) return *time;
-  timeout.fail(understudy::quoted(timeout.text()) + " is not possible; " + std::string(kByteTimeoutExpected));
+  timeout.fail(understudy::quoted(timeout.text()) + " is not valid; " + std::string(kByteTimeoutExpected));
 }
 
 void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, LineSetup& line,

@@ -10,7 +10,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/model.h"
-#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/bench_schema.h"
 #include "emulator/world/bench_file/diagnostics.h"
 #include "emulator/world/bench_file/keys.h"
 #include "emulator/world/bench_file/yaml_fields.h"

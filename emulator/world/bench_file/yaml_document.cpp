@@ -82,7 +82,7 @@ bool is_glued(std::string_view line) {
 bool is_below_glued_key(const Stop& stop) { return is_glued(stop.above); }
 bool is_glued_key(const Stop& stop) { return is_glued(stop.line); }
 /// Returns true if the line continues or closes braces or brackets after the place.
-bool goes_on(const Stop& stop) {
+bool continues(const Stop& stop) {
   return stop.line.find_first_of(",}]", stop.before.size()) != std::string_view::npos;
 }
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
@@ -120,8 +120,8 @@ constexpr std::array kPlainWords{
                "more text follows a complete value; expected quotes around all of the text"},
     PlainWords{"end of map not found", always, kOtherIndentation},
     PlainWords{"end of sequence not found", always, kOtherIndentation},
-    PlainWords{"end of map flow not found", goes_on, kMissingComma},
-    PlainWords{"end of sequence flow not found", goes_on, kMissingComma},
+    PlainWords{"end of map flow not found", continues, kMissingComma},
+    PlainWords{"end of sequence flow not found", continues, kMissingComma},
     PlainWords{"end of map flow not found", always,
                "a '{' before this is not closed; expected ',' or '}' here"},
     PlainWords{"end of sequence flow not found", always,
@@ -158,9 +158,9 @@ FileError not_yaml(const Stop& stop, const std::string& file, const std::string&
 /// Makes the nodes of a document as the parser passes through it, and detects the beginning of a second one.
 /// The library never stops making documents at a character that cannot begin one, so it must not be asked for
 /// another.
-class Passage : public YAML::EventHandler {
+class DocumentBuilder : public YAML::EventHandler {
  public:
-  explicit Passage(std::string_view text) : text_(text) {}
+  explicit DocumentBuilder(std::string_view text) : text_(text) {}
 
   struct SecondDocument {
     YAML::Mark mark;
@@ -279,12 +279,12 @@ std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::s
     const std::string read = without_first_remarks(text);
     std::istringstream input(read);
     YAML::Parser parser(input);
-    Passage passage(read);
-    while (parser.HandleNextDocument(passage)) {
+    DocumentBuilder builder(read);
+    while (parser.HandleNextDocument(builder)) {
     }
-    require_closed_quote(text, passage.last_text(), file, what);
-    return passage.root();
-  } catch (const Passage::SecondDocument& second) {
+    require_closed_quote(text, builder.last_text(), file, what);
+    return builder.root();
+  } catch (const DocumentBuilder::SecondDocument& second) {
     const Stop stop(text, second.mark);
     if (stop.line.starts_with("---") || std::string_view(text).find("\n...") != std::string_view::npos) {
       throw FileError({file, second.mark.line + 1, second.mark.column + 1},

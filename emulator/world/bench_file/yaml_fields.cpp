@@ -21,7 +21,7 @@
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
 #include "emulator/world/bench_file/diagnostics.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 #include "emulator/world/bench_file/yaml_document.h"
 
 namespace understudy::emulator::world {
@@ -318,7 +318,7 @@ std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) cons
   if (!value || *value < lowest || *value > highest) {
     const std::string range =
         "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
-    fail(understudy::quoted(digits) + " is not possible; expected " +
+    fail(understudy::quoted(digits) + " is not valid; expected " +
          (lowest == highest ? std::to_string(lowest) : range));
   }
   return *value;

@@ -14,7 +14,7 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/world/bench/inline_text.h"
-#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/schema.h"
 
 namespace understudy::emulator::world {
 
@@ -85,7 +85,7 @@ class YamlFields {
   /// Returns a path in folder(), ready for opening.
   std::string path() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
-  std::int64_t integer(const Schema& form) const { return integer(form.lowest, form.highest); }
+  std::int64_t integer(const Schema& schema) const { return integer(schema.lowest, schema.highest); }
   /// Reads "on" or "off" (or true, false, 1, 0).
   bool on_or_off() const;
   /// Reads a duration such as "120ms".

@@ -19,7 +19,7 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/outside.h"
-#include "emulator/world/speech/modbus_request.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
@@ -94,7 +94,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     void on_start_bit(SimTime /*at*/) override {}
     void on_character(const pty::TimedByte& /*character*/, bool /*is_heard*/) override {}
     void on_nothing_more() override {}
-    void on_speech(const pty::Speech& /*speech*/) override {}
+    void on_transmission(const pty::Transmission& /*transmission*/) override {}
     void on_strike(const pty::StruckMessage& message) override { counting_.struck(line_, message); }
     std::optional<SimTime> due() const override { return std::nullopt; }
     void run(SimTime /*now*/) override {}
@@ -141,7 +141,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     }
     if (packet.is_text) return take_text(packet);
     Line& line = lines_[packet.line];
-    if (packet.way == pty::Way::from_host) {
+    if (packet.direction == pty::Direction::from_host) {
       line.request.assign(packet.bytes.begin(), packet.bytes.end());
       if (line.request[0] == 0) take_reply(packet.line, {});
       return;
@@ -168,8 +168,8 @@ class ControllerCoverage::Counting final : private OutsideListener {
   /// A command counts as accepted if the next answer does not refuse it, or if another command follows.
   void take_text(const pty::CapturedPacket& packet) {
     Line& line = lines_[packet.line];
-    const bool is_of_host = packet.way == pty::Way::from_host;
-    const bool is_refusal = !is_of_host && world_.line(packet.line).speech.is_refusal(packet.bytes);
+    const bool is_of_host = packet.direction == pty::Direction::from_host;
+    const bool is_refusal = !is_of_host && world_.line(packet.line).protocol.is_refusal(packet.bytes);
     const std::vector<std::uint8_t> pending = std::exchange(line.request, {});
     const std::string_view text = without_ends(
         {reinterpret_cast<const char*>(pending.data()), pending.size()});  // NOLINT: bytes are text

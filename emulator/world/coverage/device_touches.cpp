@@ -20,7 +20,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/user_program.h"
 #include "emulator/world/faults/kinds.h"
-#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/stations/server.h"
 
 namespace understudy::emulator::world {

@@ -15,7 +15,7 @@
 #include "emulator/world/coverage/coverage_report.h"
 #include "emulator/world/coverage/touched.h"
 #include "emulator/world/faults/fault.h"
-#include "emulator/world/speech/modbus_request.h"
+#include "emulator/world/protocol/modbus_request.h"
 
 namespace understudy::emulator::world {
 

@@ -87,7 +87,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
   DeviceCounts(const DeviceCounts&) = delete;
   DeviceCounts& operator=(const DeviceCounts&) = delete;
 
-  void look(std::uint64_t mark) override {
+  void program_loaded(std::uint64_t mark) override {
     if (mark == mark_) return;
     mark_ = mark;
     program_ = nullptr;

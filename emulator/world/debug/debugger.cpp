@@ -66,7 +66,7 @@ const Breakpoint& Debugger::add(const BreakpointSetup& setup) {
     throw BreakpointError("there are " + std::to_string(kMaxBreakpoints) +
                           " breakpoints already; expected one of them to be deleted first");
   auto point = std::make_unique<Point>();
-  point->told.setup = setup;
+  point->breakpoint.setup = setup;
   if (!setup.condition.empty()) {
     point->condition = parse_expression(setup.condition, probes_);
     require_values(point->condition);
@@ -77,7 +77,7 @@ const Breakpoint& Debugger::add(const BreakpointSetup& setup) {
     case BreakpointSetup::Kind::instruction:
       require_program(world_.device(setup.device));
       if (const auto watch = watches_.find(setup.device); watch != watches_.end())
-        watch->second->look_at_program();
+        watch->second->check_program();
       locate(*point);
       require_place(*point);
       break;
@@ -92,14 +92,14 @@ const Breakpoint& Debugger::add(const BreakpointSetup& setup) {
       begin_events();
       break;
   }
-  point->told.number = ++last_number_;
+  point->breakpoint.number = ++last_number_;
   points_.push_back(std::move(point));
   settle();
-  return points_.back()->told;
+  return points_.back()->breakpoint;
 }
 
 bool Debugger::remove(int number) {
-  const auto is_it = [&](const auto& point) { return point->told.number == number; };
+  const auto is_it = [&](const auto& point) { return point->breakpoint.number == number; };
   const bool removed = std::erase_if(points_, is_it) > 0;
   settle();
   return removed;
@@ -112,7 +112,7 @@ void Debugger::remove_all() {
 
 std::vector<Breakpoint> Debugger::breakpoints() const {
   std::vector<Breakpoint> all;
-  for (const auto& point : points_) all.push_back(point->told);
+  for (const auto& point : points_) all.push_back(point->breakpoint);
   return all;
 }
 
@@ -123,7 +123,7 @@ void Debugger::require_values(const Expression& expression) const {
 
 /// Cuts a log's text at its braces: "at {feeder.Cord_A}".
 void Debugger::parse_log(Point& point) const {
-  std::string_view rest = point.told.setup.log;
+  std::string_view rest = point.breakpoint.setup.log;
   while (!rest.empty()) {
     const std::size_t open = rest.find('{');
     if (open != 0) point.log.emplace_back(std::string(rest.substr(0, open)));
@@ -139,29 +139,29 @@ void Debugger::parse_log(Point& point) const {
 }
 
 void Debugger::locate(Point& point) {
-  const BreakpointSetup& setup = point.told.setup;
+  const BreakpointSetup& setup = point.breakpoint.setup;
   const Device& device = world_.device(setup.device);
   point.places.clear();
-  point.told.line = 0;
+  point.breakpoint.line = 0;
   const auto watch = watches_.find(setup.device);
   const ProgramLines lines = watch != watches_.end() ? *watch->second->lines : ProgramLines(device);
   if (setup.kind == BreakpointSetup::Kind::line) {
-    point.told.line = lines.line_from(setup.line);
-    if (point.told.line != 0) point.places = lines.at(point.told.line);
+    point.breakpoint.line = lines.line_from(setup.line);
+    if (point.breakpoint.line != 0) point.places = lines.at(point.breakpoint.line);
     return;
   }
   const ProgramPart* const part = lines.find_part(setup.program);
   if (part == nullptr) return;
-  const ProgramLines::Told told{part->number, setup.line};
-  const auto place = lines.place(told);
+  const ProgramLines::Instruction instruction{part->number, setup.line};
+  const auto place = lines.place(instruction);
   if (!place) return;
-  point.places = {told};
-  point.told.line = place->line;
+  point.places = {instruction};
+  point.breakpoint.line = place->line;
 }
 
 void Debugger::require_place(const Point& point) const {
   if (!point.places.empty()) return;
-  const BreakpointSetup& setup = point.told.setup;
+  const BreakpointSetup& setup = point.breakpoint.setup;
   const ProgramLines lines(world_.device(setup.device));
   if (lines.last_line() == 0)
     throw BreakpointError(world_.device(setup.device).name() + " has no program; expected one to be loaded");
@@ -179,7 +179,7 @@ void Debugger::require_place(const Point& point) const {
 }
 
 void Debugger::find_write(Point& point) {
-  const std::string& name = point.told.setup.name;
+  const std::string& name = point.breakpoint.setup.name;
   if (const auto value = find_value(world_.known(), name)) {
     point.written = world_.known()[value->device].name + "." + value->name;
   } else {
@@ -279,11 +279,11 @@ bool Debugger::take_stop() { return std::exchange(is_fresh_, false); }
 
 void Debugger::wake(std::optional<DebugStop> stop) {
   sleeps_ = false;
-  begin_anew();
+  restart();
   stop_ = std::move(stop);
 }
 
-void Debugger::begin_anew() {
+void Debugger::restart() {
   stop_.reset();
   is_fresh_ = false;
   step_.reset();
@@ -291,8 +291,10 @@ void Debugger::begin_anew() {
   for (auto& [number, watch] : watches_) watch->last.reset();
   for (const auto& point : points_) {
     point->ran = 0;
-    if (point->told.setup.kind == BreakpointSetup::Kind::condition) point->was_true = holds(*point, probes_);
-    if (point->told.setup.kind == BreakpointSetup::Kind::write) point->value = probes_.value(point->handle);
+    if (point->breakpoint.setup.kind == BreakpointSetup::Kind::condition)
+      point->was_true = holds(*point, probes_);
+    if (point->breakpoint.setup.kind == BreakpointSetup::Kind::write)
+      point->value = probes_.value(point->handle);
   }
   settle();
 }

@@ -55,7 +55,7 @@ class Debugger final : private TickWatcher {
   /// Returns true once after each stop.
   bool take_stop();
   /// Called when the world was put into another state.
-  void begin_anew();
+  void restart();
   /// Until wake() it sees nothing and stops nothing, because the world is on its way to another moment.
   void sleep() { sleeps_ = true; }
   /// `stop` is the one where the world is.
@@ -67,7 +67,7 @@ class Debugger final : private TickWatcher {
   class DeviceWatch;
 
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
 
   /// States of machines and programs that are not events of the log.
   struct Sign {
@@ -89,8 +89,8 @@ class Debugger final : private TickWatcher {
   void begin_events();
   bool needs(std::size_t device) const;
   void settle();
-  void look_at_events();
-  void look_at_signs();
+  void check_events();
+  void check_signs();
   bool waits_for_events() const;
   static bool holds(Point& point, const Probes& probes);
   std::uint64_t new_hits(Point& point);

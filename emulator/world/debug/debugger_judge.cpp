@@ -126,10 +126,11 @@ std::string Debugger::text_of(const Sign& sign) const {
 }
 
 /// Adds the signs of machines and programs that are new in this tick. The event log does not have them.
-void Debugger::look_at_signs() {
+void Debugger::check_signs() {
   for (Sign& sign : signs_) {
     const auto waits_for_it = [&](const auto& point) {
-      return point->told.setup.kind == BreakpointSetup::Kind::event && point->told.setup.name == sign.what;
+      return point->breakpoint.setup.kind == BreakpointSetup::Kind::event &&
+             point->breakpoint.setup.name == sign.what;
     };
     if (std::none_of(points_.begin(), points_.end(), waits_for_it)) continue;
     const bool was_on = std::exchange(sign.is_on, shows(sign));
@@ -139,22 +140,22 @@ void Debugger::look_at_signs() {
 
 bool Debugger::waits_for_events() const {
   return std::any_of(points_.begin(), points_.end(), [](const auto& point) {
-    return point->told.setup.kind == BreakpointSetup::Kind::event ||
-           point->told.setup.kind == BreakpointSetup::Kind::write;
+    return point->breakpoint.setup.kind == BreakpointSetup::Kind::event ||
+           point->breakpoint.setup.kind == BreakpointSetup::Kind::write;
   });
 }
 
-void Debugger::look_at_events() {
+void Debugger::check_events() {
   new_events_.clear();
   if (!waits_for_events()) return;
   new_events_ = events_.since(next_event_, SIZE_MAX);
   if (!new_events_.empty()) next_event_ = new_events_.back().number + 1;
-  look_at_signs();
+  check_signs();
 }
 
 /// Returns how often the point was hit in this tick.
 std::uint64_t Debugger::new_hits(Point& point) {
-  const BreakpointSetup& setup = point.told.setup;
+  const BreakpointSetup& setup = point.breakpoint.setup;
   std::uint64_t hits = 0;
   switch (setup.kind) {
     case BreakpointSetup::Kind::line:
@@ -196,16 +197,18 @@ std::uint64_t Debugger::new_hits(Point& point) {
 void Debugger::judge(Point& point) {
   const std::uint64_t hits = new_hits(point);
   if (hits == 0) return;
-  point.told.hits += hits;
-  const BreakpointSetup& setup = point.told.setup;
-  if (point.told.hits < setup.nth) return;
+  point.breakpoint.hits += hits;
+  const BreakpointSetup& setup = point.breakpoint.setup;
+  if (point.breakpoint.hits < setup.nth) return;
   if (!setup.log.empty()) {
-    events_.note(
-        {.what = "logpoint", .by = {}, .value = std::to_string(point.told.number), .text = log_text(point)});
+    events_.note({.what = "logpoint",
+                  .by = {},
+                  .value = std::to_string(point.breakpoint.number),
+                  .text = log_text(point)});
     return;
   }
-  DebugStop stop{.reason = DebugStop::Reason::breakpoint, .breakpoint = point.told.number};
-  const std::string head = "breakpoint " + std::to_string(point.told.number) + ": ";
+  DebugStop stop{.reason = DebugStop::Reason::breakpoint, .breakpoint = point.breakpoint.number};
+  const std::string head = "breakpoint " + std::to_string(point.breakpoint.number) + ": ";
   if (setup.kind == BreakpointSetup::Kind::line || setup.kind == BreakpointSetup::Kind::instruction) {
     stop.device = world_.device(setup.device).name();
     if (const auto place = watches_.at(setup.device)->lines->place(*point.ran_last)) stop.place = *place;
@@ -273,7 +276,7 @@ void Debugger::stop_with(DebugStop stop) {
 
 void Debugger::on_tick(Tick /*tick*/) {
   if (sleeps_) return;
-  look_at_events();
+  check_events();
   for (const auto& point : points_) judge(*point);
   if (step_) judge_step();
   for (auto& [number, watch] : watches_) watch->has_changed = false;
@@ -282,14 +285,14 @@ void Debugger::on_tick(Tick /*tick*/) {
   settle();
 }
 
-Tick Debugger::next_look(Tick done) const {
+Tick Debugger::next_poll(Tick done) const {
   if (sleeps_) return kNever;
   if (!watches_.empty() || step_) return done + 1;
   if (waits_for_events() && events_.next_number() > next_event_) return done + 1;
   Tick next = kNever;
   for (const auto& point : points_) {
     next = std::min(next, probes_.next_change(point->condition, done));
-    if (point->told.setup.kind == BreakpointSetup::Kind::write)
+    if (point->breakpoint.setup.kind == BreakpointSetup::Kind::write)
       next = std::min(next, probes_.next_change(point->handle, done));
   }
   return next;

@@ -24,12 +24,12 @@ struct Debugger::Point {
   /// A piece of a log: text, or the value of an expression.
   using Piece = std::variant<std::string, Expression>;
 
-  Breakpoint told{};
+  Breakpoint breakpoint{};
   Expression condition{};
   std::vector<Piece> log{};
-  std::vector<ProgramLines::Told> places{};  // for a line or an instruction
-  std::uint64_t ran = 0;                     // how often these began in this tick
-  std::optional<ProgramLines::Told> ran_last{};
+  std::vector<ProgramLines::Instruction> places{};  // for a line or an instruction
+  std::uint64_t ran = 0;                            // how often these began in this tick
+  std::optional<ProgramLines::Instruction> ran_last{};
   std::size_t depth = 0;          // the number of callers there
   bool was_true = false;          // for a condition
   std::string written{};          // for a write: the register, as events name it
@@ -38,20 +38,20 @@ struct Debugger::Point {
   std::string who{};              // what happened at the last hit of a write or an event
   std::string no_result{};        // why the condition has none; empty if it has one
   bool is_of(std::size_t device) const {
-    return (told.setup.kind == BreakpointSetup::Kind::line ||
-            told.setup.kind == BreakpointSetup::Kind::instruction) &&
-           told.setup.device == device;
+    return (breakpoint.setup.kind == BreakpointSetup::Kind::line ||
+            breakpoint.setup.kind == BreakpointSetup::Kind::instruction) &&
+           breakpoint.setup.device == device;
   }
 };
 
 struct Debugger::Step {
   StepKind kind = StepKind::instruction;
   std::size_t device = 0;
-  std::optional<int> part{};                // the part that it steps in; none: any
-  std::string program{};                    // that part's name
-  int line = 0;                             // where it began; 0: unknown
-  std::size_t depth = 0;                    // the number of callers there; after the step: at its end
-  std::optional<ProgramLines::Told> end{};  // the instruction at which the step ends
+  std::optional<int> part{};                       // the part that it steps in; none: any
+  std::string program{};                           // that part's name
+  int line = 0;                                    // where it began; 0: unknown
+  std::size_t depth = 0;                           // the number of callers there; after the step: at its end
+  std::optional<ProgramLines::Instruction> end{};  // the instruction at which the step ends
 };
 
 /// Watches a device's program for breakpoints and steps.
@@ -65,13 +65,13 @@ class Debugger::DeviceWatch final : public ProgramWatch {
   DeviceWatch(const DeviceWatch&) = delete;
   DeviceWatch& operator=(const DeviceWatch&) = delete;
 
-  void look(std::uint64_t mark) override {
+  void program_loaded(std::uint64_t mark) override {
     if (mark_ == mark) return;
     mark_ = mark;
-    look_at_program();
+    check_program();
   }
   /// Finds the lines again if the device has a different program.
-  void look_at_program() {
+  void check_program() {
     if (device().user_program()->program_text() == text_) return;
     has_changed = true;
     find_lines();
@@ -80,24 +80,24 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     }
   }
   void runs(int part, int line, std::int64_t times) override {
-    const ProgramLines::Told told{part, line};
-    last = told;
+    const ProgramLines::Instruction instruction{part, line};
+    last = instruction;
     for (const auto& point : debugger_.points_) {
       if (!point->is_of(number_)) continue;
-      if (std::find(point->places.begin(), point->places.end(), told) == point->places.end()) continue;
+      if (std::find(point->places.begin(), point->places.end(), instruction) == point->places.end()) continue;
       point->ran += static_cast<std::uint64_t>(times);
-      point->ran_last = told;
+      point->ran_last = instruction;
       point->depth = depth_at(part);
     }
     Step* const step = debugger_.step_.get();
     if (step == nullptr || step->device != number_ || (step->part && *step->part != part)) return;
     if (step->end) return;
-    const auto place = lines->place(told);
+    const auto place = lines->place(instruction);
     if (step->kind == StepKind::line && place && place->line == step->line) return;
     const std::size_t depth = depth_at(part);
     if (step->kind == StepKind::over && depth > step->depth) return;
     if (step->kind == StepKind::out && depth >= step->depth) return;
-    step->end = told;
+    step->end = instruction;
     step->depth = depth;
   }
   void decides(int /*part*/, int /*line*/, bool /*outcome*/, std::int64_t /*times*/) override {}
@@ -115,7 +115,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
   }
 
   std::optional<ProgramLines> lines{};
-  std::optional<ProgramLines::Told> last{};
+  std::optional<ProgramLines::Instruction> last{};
   bool has_changed = false;  // the device has had another program since the last tick
 
  private:

@@ -96,8 +96,8 @@ int ProgramLines::last_line() const {
   return last;
 }
 
-std::vector<ProgramLines::Told> ProgramLines::at(int line) const {
-  std::vector<Told> all;
+std::vector<ProgramLines::Instruction> ProgramLines::at(int line) const {
+  std::vector<Instruction> all;
   for (const ProgramPart& part : parts_) {
     const auto is_there = [&](const ProgramLine& one) { return one.text_line == line; };
     const auto found = std::find_if(part.lines.begin(), part.lines.end(), is_there);
@@ -119,14 +119,16 @@ std::vector<std::string> ProgramLines::part_names() const {
   return names;
 }
 
-std::optional<InstructionPlace> ProgramLines::place(Told told) const {
+std::optional<InstructionPlace> ProgramLines::place(Instruction instruction) const {
   for (const ProgramPart& part : parts_) {
-    if (part.number != told.part) continue;
-    if (told.number < 0 || told.number >= static_cast<int>(part.lines.size())) return std::nullopt;
-    const ProgramLine& line = part.lines[static_cast<std::size_t>(told.number)];
+    if (part.number != instruction.part) continue;
+    if (instruction.number < 0 || instruction.number >= static_cast<int>(part.lines.size()))
+      return std::nullopt;
+    const ProgramLine& line = part.lines[static_cast<std::size_t>(instruction.number)];
     const auto row = static_cast<std::size_t>(line.text_line);
     const bool has_text = row > 0 && row <= texts_.size();
-    return InstructionPlace{part.name, told.number, line.text_line, has_text ? texts_[row - 1] : line.code};
+    return InstructionPlace{part.name, instruction.number, line.text_line,
+                            has_text ? texts_[row - 1] : line.code};
   }
   return std::nullopt;
 }

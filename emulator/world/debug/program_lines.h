@@ -16,10 +16,10 @@ namespace understudy::emulator::world {
 class ProgramLines {
  public:
   /// An instruction as interpreters report it (base/program_watch.h).
-  struct Told {
+  struct Instruction {
     int part = 0;
     int number = 0;
-    bool operator==(const Told&) const = default;
+    bool operator==(const Instruction&) const = default;
   };
 
   /// The device must have power and support programs.
@@ -36,13 +36,13 @@ class ProgramLines {
   /// Returns the last line that has an instruction, or 0.
   int last_line() const;
   /// Returns the first instruction of each part on that line.
-  std::vector<Told> at(int line) const;
+  std::vector<Instruction> at(int line) const;
   /// Returns the part with that name, or null. An empty name means the only part.
   const ProgramPart* find_part(const std::string& name) const;
   std::vector<std::string> part_names() const;
   /// Returns the parts, with their instructions in order.
   const std::vector<ProgramPart>& parts() const { return parts_; }
-  std::optional<InstructionPlace> place(Told told) const;
+  std::optional<InstructionPlace> place(Instruction instruction) const;
   /// Returns the source line for a line of the listing, or 0 if there is none.
   int source_line(int listing_line) const;
 

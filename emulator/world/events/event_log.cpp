@@ -21,7 +21,7 @@
 #include "emulator/world/expression/number.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/frames/frame_log.h"
-#include "emulator/world/speech/modbus_request.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
@@ -168,7 +168,7 @@ void EventLog::add(Event event) {
 }
 
 /// Adds the writes of a host's request, which a reply has confirmed, or which is a broadcast.
-void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
+void EventLog::add_writes(const FrameLog::Decoded& request, SimTime at) {
   for (std::size_t l = 0; l < world_.line_count(); ++l) {
     const WorldLine& line = world_.line(l);
     if (line.line.name() != request.line) continue;
@@ -190,8 +190,8 @@ void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
   }
 }
 
-void EventLog::take_frame(const FrameLog::Told& frame) {
-  const bool is_request = frame.way == pty::Way::from_host;
+void EventLog::take_frame(const FrameLog::Decoded& frame) {
+  const bool is_request = frame.direction == pty::Direction::from_host;
   if (!frame.remark.empty()) {
     add({.time = frame.time, .what = "dropped", .by = {}, .line = frame.line, .text = frame.remark});
     if (is_request) return;
@@ -227,7 +227,7 @@ bool EventLog::collect(std::size_t frames) {
       next_frame_ = end;
       break;
     }
-    for (const FrameLog::Told& frame : some) {
+    for (const FrameLog::Decoded& frame : some) {
       add_noted_before(frame.number);
       take_frame(frame);
       next_frame_ = frame.number + 1;
@@ -238,11 +238,11 @@ bool EventLog::collect(std::size_t frames) {
   return next_frame_ < end;
 }
 
-std::vector<Event> EventLog::since(std::uint64_t number, std::size_t most) {
+std::vector<Event> EventLog::since(std::uint64_t number, std::size_t max) {
   collect(SIZE_MAX);
   std::vector<Event> some;
   const std::uint64_t first = next_number_ - events_.size();
-  for (std::uint64_t next = std::max(number, first); next < next_number_ && some.size() < most; ++next) {
+  for (std::uint64_t next = std::max(number, first); next < next_number_ && some.size() < max; ++next) {
     some.push_back(events_[next - first]);
   }
   return some;

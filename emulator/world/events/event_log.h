@@ -58,8 +58,8 @@ class EventLog final : private OutsideListener {
   /// Makes events of the frames since the last call, at most `frames` of them. Returns true if some are
   /// left. The functions below process all of them.
   bool collect(std::size_t frames);
-  /// Returns at most `most` of the kept events, from that number on.
-  std::vector<Event> since(std::uint64_t number, std::size_t most);
+  /// Returns at most `max` of the kept events, from that number on.
+  std::vector<Event> since(std::uint64_t number, std::size_t max);
   /// Returns the number of the next event.
   std::uint64_t next_number();
 
@@ -82,8 +82,8 @@ class EventLog final : private OutsideListener {
   void on_fault(std::size_t number, bool in_force) override;
 
   void add(Event event);
-  void take_frame(const FrameLog::Told& frame);
-  void add_writes(const FrameLog::Told& request, SimTime at);
+  void take_frame(const FrameLog::Decoded& frame);
+  void add_writes(const FrameLog::Decoded& request, SimTime at);
   std::string fault_text_of(std::size_t number) const;
 
   World& world_;

@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-SimTime duration_of(const World& world, const FrameLog::Told& frame) {
+SimTime duration_of(const World& world, const FrameLog::Decoded& frame) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     if (world.line(i).line.name() != frame.line) continue;
     return world.line(i).line.options().settings.duration_of(static_cast<std::int64_t>(frame.bytes.size()));
@@ -27,7 +27,7 @@ SimTime duration_of(const World& world, const FrameLog::Told& frame) {
 }  // namespace
 
 void History::collect(const World& world, const FrameLog& frames, EventLog& events) {
-  for (const FrameLog::Told& frame : frames.since(next_frame_, SIZE_MAX)) {
+  for (const FrameLog::Decoded& frame : frames.since(next_frame_, SIZE_MAX)) {
     next_frame_ = frame.number + 1;
     take(world, frame);
   }
@@ -44,7 +44,7 @@ void History::collect(const World& world, const FrameLog& frames, EventLog& even
 }
 
 /// Returns the exchange to which a station's frame belongs, or null.
-Exchange* History::request_of(const FrameLog::Told& frame) {
+Exchange* History::request_of(const FrameLog::Decoded& frame) {
   const auto last = last_requests_.find(frame.line);
   if (last == last_requests_.end() || last->second < dropped_exchanges_) return nullptr;
   Exchange& exchange = exchanges_[last->second - dropped_exchanges_];
@@ -53,8 +53,8 @@ Exchange* History::request_of(const FrameLog::Told& frame) {
   return is_reply || frame.bytes.empty() ? &exchange : nullptr;
 }
 
-void History::take(const World& world, const FrameLog::Told& frame) {
-  const bool is_request = frame.way == pty::Way::from_host;
+void History::take(const World& world, const FrameLog::Decoded& frame) {
+  const bool is_request = frame.direction == pty::Direction::from_host;
   const SimTime end = frame.time + duration_of(world, frame);
   if (Exchange* const request = is_request ? nullptr : request_of(frame)) {
     Exchange& exchange = *request;

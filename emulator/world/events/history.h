@@ -42,8 +42,8 @@ class History {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  void take(const World& world, const FrameLog::Told& frame);
-  Exchange* request_of(const FrameLog::Told& frame);
+  void take(const World& world, const FrameLog::Decoded& frame);
+  Exchange* request_of(const FrameLog::Decoded& frame);
 
   std::deque<Exchange> exchanges_;
   std::deque<Event> events_;

@@ -105,8 +105,8 @@ Story story_of(const World& world, const RecordedFailure& failure, const std::de
            event.what == "dropped";
   };
   std::set<std::size_t> taken;
-  const auto take_last = [&](const auto& fits, std::size_t most) {
-    for (std::size_t i = events.size(); i-- > 0 && taken.size() < most;)
+  const auto take_last = [&](const auto& fits, std::size_t max) {
+    for (std::size_t i = events.size(); i-- > 0 && taken.size() < max;)
       if (events[i].time <= failure.at && fits(events[i])) taken.insert(i);
   };
   take_last(touches, kMaxTouching);

@@ -232,7 +232,7 @@ Term ExpressionParser::primary() {
   if (!skip("(")) fail_here("a name, a number or '('");
   term = expression();
   expect(")");
-  term.form = Term::Schema::other;
+  term.shape = Term::Shape::other;
   return term;
 }
 
@@ -280,7 +280,7 @@ Term ExpressionParser::call(const std::string& function, std::size_t offset) {
     code_.emit(Instruction::Kind::binary, offset, row->operation);
   }
   expect(")");
-  term.form = Term::Schema::other;
+  term.shape = Term::Shape::other;
   return term;
 }
 

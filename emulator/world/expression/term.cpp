@@ -71,19 +71,19 @@ void check_units(const Term& left, const Term& right, std::string_view sign) {
 
 Term combined(const BinaryRow& row, const Term& left, const Term& right) {
   const std::string sign(row.sign);
-  const auto either_is = [&](Term::Schema form) { return left.form == form || right.form == form; };
+  const auto either_is = [&](Term::Shape shape) { return left.shape == shape || right.shape == shape; };
   Term term;
   switch (row.level) {
     case Level::comparison:
-      if (left.form == Term::Schema::comparison) {
+      if (left.shape == Term::Shape::comparison) {
         throw MisfitError("comparisons do not chain; write a " + sign + " b && b " + sign + " c");
       }
-      if (either_is(Term::Schema::negation)) {
+      if (either_is(Term::Shape::negation)) {
         throw MisfitError("'!' next to '" + sign + "' needs parentheses: !(a " + sign + " b), or (!a) " +
                           sign + " b");
       }
       check_units(left, right, sign);
-      term.form = Term::Schema::comparison;
+      term.shape = Term::Shape::comparison;
       break;
     case Level::sum:
       check_units(left, right, sign);
@@ -98,7 +98,7 @@ Term combined(const BinaryRow& row, const Term& left, const Term& right) {
       term.is_real = left.is_real || right.is_real;
       break;
     default:
-      if (either_is(Term::Schema::comparison)) {
+      if (either_is(Term::Shape::comparison)) {
         throw MisfitError("'" + sign +
                           "' next to a comparison needs parentheses, because the comparison comes " +
                           "first: (a " + sign + " b) == c");
@@ -120,7 +120,7 @@ Term either_of(const Term& left, const Term& right, std::string_view sign) {
 Term negated(Operator operation, const Term& term) {
   Term result;
   if (operation == Operator::logical_not) {
-    result.form = Term::Schema::negation;
+    result.shape = Term::Shape::negation;
     return result;
   }
   if (operation == Operator::bit_not) {
@@ -128,7 +128,7 @@ Term negated(Operator operation, const Term& term) {
     return result;
   }
   result = term;
-  result.form = Term::Schema::other;
+  result.shape = Term::Shape::other;
   return result;
 }
 

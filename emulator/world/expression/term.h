@@ -9,11 +9,11 @@
 namespace understudy::emulator::world {
 
 struct Term {
-  enum class Schema : std::uint8_t {
+  enum class Shape : std::uint8_t {
     other,
     comparison,
     negation
-  } form = Schema::other;  // without parentheses
+  } shape = Shape::other;  // without parentheses
   Unit unit = Unit::none;
   bool is_zero = false;  // a literal 0, which has every unit
   bool is_real = false;  // certainly; the value of a name may be real too

@@ -24,7 +24,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-using Schema = FaultFieldRow::Schema;
+using ValueType = FaultFieldRow::ValueType;
 using At = FaultKindRow::Place;
 
 constexpr std::array<std::string_view, 3> kSides{"reply", "request", "both"};  // in the order of Fault::Side
@@ -120,49 +120,50 @@ void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::
 }
 
 void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) {
-  switch (row.form) {
-    case Schema::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
-    case Schema::level: fault.*row.number = field_level(row.name, text); break;
-    case Schema::duration:
+  switch (row.type) {
+    case ValueType::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
+    case ValueType::level: fault.*row.number = field_level(row.name, text); break;
+    case ValueType::duration:
       fault.*row.number = field_duration(row.name, text, SimTime{row.lowest}).count();
       break;
-    case Schema::ticks:
-    case Schema::even_ticks: {
+    case ValueType::ticks:
+    case ValueType::even_ticks: {
       const SimTime time = field_duration(row.name, text, row.lowest * kTickLength);
-      const bool is_even = row.form == Schema::even_ticks;
+      const bool is_even = row.type == ValueType::even_ticks;
       if (time % ((is_even ? 2 : 1) * kTickLength) != SimTime{0}) {
-        throw NameError(std::string(row.name) + ": " + quoted(text) + " is not possible; expected " +
+        throw NameError(std::string(row.name) + ": " + quoted(text) + " is not valid; expected " +
                         (is_even ? "an even number of milliseconds" : "whole milliseconds"));
       }
       fault.*row.number = time / kTickLength;
       break;
     }
-    case Schema::bytes: fault.*row.bytes = field_bytes(row.name, text); break;
-    case Schema::side: fault.side = static_cast<Fault::Side>(field_word(row.name, text, kSides)); break;
+    case ValueType::bytes: fault.*row.bytes = field_bytes(row.name, text); break;
+    case ValueType::side: fault.side = static_cast<Fault::Side>(field_word(row.name, text, kSides)); break;
   }
 }
 
 std::string expected_of(const FaultFieldRow& row) {
-  switch (row.form) {
-    case Schema::level: return "on or off";
-    case Schema::duration:
-    case Schema::ticks:
-    case Schema::even_ticks: return "a duration such as 250ms";
+  switch (row.type) {
+    case ValueType::level: return "on or off";
+    case ValueType::duration:
+    case ValueType::ticks:
+    case ValueType::even_ticks: return "a duration such as 250ms";
     default: return std::to_string(row.lowest) + " to " + std::to_string(row.highest);
   }
 }
 
 /// Returns the text of a field, or an empty text if the value is the default.
 std::string text_of(const FaultFieldRow& row, const Fault& fault) {
-  switch (row.form) {
-    case Schema::number:
-    case Schema::level: return std::to_string(fault.*row.number);
-    case Schema::duration:
+  switch (row.type) {
+    case ValueType::number:
+    case ValueType::level: return std::to_string(fault.*row.number);
+    case ValueType::duration:
       return row.required || fault.*row.number != 0 ? format_duration(SimTime{fault.*row.number}) : "";
-    case Schema::ticks:
-    case Schema::even_ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
-    case Schema::bytes: return hex_text(fault.*row.bytes);
-    case Schema::side: {
+    case ValueType::ticks:
+    case ValueType::even_ticks:
+      return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
+    case ValueType::bytes: return hex_text(fault.*row.bytes);
+    case ValueType::side: {
       const auto side = static_cast<std::size_t>(fault.side);
       return fault.side == Fault::Side::reply ? "" : std::string(kSides[side]);
     }
@@ -229,7 +230,7 @@ void set_all_fields(const KnownDevices& devices, const FaultKindRow& row, const 
                     Fault& fault) {
   try {
     set_fields(devices, row, text, fault);
-    validate_rows(fault.trigger);
+    validate_trigger(fault.trigger);
     if (fault.kind == Fault::Kind::noise && fault.before.empty() && fault.after.empty()) {
       throw NameError("before and after are missing; expected one of them");
     }

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxBytes = 256;
 constexpr std::int64_t kOnePercent = kAlways / 100;
 
 [[noreturn]] void not_possible(std::string_view name, const std::string& text, const std::string& expected) {
-  throw NameError(std::string(name) + ": " + quoted(text) + " is not possible; expected " + expected);
+  throw NameError(std::string(name) + ": " + quoted(text) + " is not valid; expected " + expected);
 }
 
 std::int64_t in_range(std::string_view name, std::int64_t value, std::int64_t lowest, std::int64_t highest) {

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-using Schema = FaultFieldRow::Schema;
+using ValueType = FaultFieldRow::ValueType;
 using Kind = Fault::Kind;
 using Where = FaultKindRow::Place;
 
@@ -24,37 +24,41 @@ constexpr std::int64_t kMaxCounts = 1'000'000;
 constexpr std::int64_t kLongestMessage = 256;
 
 constexpr FaultFieldRow bytes_row(std::string_view name, std::vector<std::uint8_t> Fault::*bytes) {
-  return {.name = name, .form = Schema::bytes, .required = false, .bytes = bytes};
+  return {.name = name, .type = ValueType::bytes, .required = false, .bytes = bytes};
 }
 
-constexpr FaultFieldRow kOf{.name = "of", .form = Schema::side, .required = false};
-constexpr FaultFieldRow kBy{.name = "by", .form = Schema::duration};
+constexpr FaultFieldRow kOf{.name = "of", .type = ValueType::side, .required = false};
+constexpr FaultFieldRow kBy{.name = "by", .type = ValueType::duration};
 constexpr std::array kLostSteps{FaultFieldRow{.name = "one_in", .lowest = 1, .highest = kFar}};
 constexpr std::array kSlip{
     FaultFieldRow{.name = "pulses", .lowest = -kFarthestSlip, .highest = kFarthestSlip}};
 constexpr std::array kTurn{
     FaultFieldRow{.name = "counts", .lowest = -kFarthestSlip, .highest = kFarthestSlip},
-    FaultFieldRow{
-        .name = "in", .form = Schema::ticks, .required = false, .lowest = 1, .number = &Fault::over_ticks}};
-constexpr std::array kStuck{FaultFieldRow{.name = "level", .form = Schema::level, .highest = 1}};
+    FaultFieldRow{.name = "in",
+                  .type = ValueType::ticks,
+                  .required = false,
+                  .lowest = 1,
+                  .number = &Fault::over_ticks}};
+constexpr std::array kStuck{FaultFieldRow{.name = "level", .type = ValueType::level, .highest = 1}};
 constexpr std::array kEncoderNoise{
     FaultFieldRow{.name = "counts", .lowest = -kMaxCounts, .highest = kMaxCounts},
     FaultFieldRow{.name = "period",
-                  .form = Schema::even_ticks,
+                  .type = ValueType::even_ticks,
                   .required = false,
                   .lowest = 2,
                   .number = &Fault::period_ticks}};
-constexpr std::array kLumps{FaultFieldRow{.name = "by", .form = Schema::duration, .lowest = 1}};
-constexpr std::array kSplit{FaultFieldRow{.name = "keep", .highest = kLongestMessage},
-                            FaultFieldRow{.name = "by", .form = Schema::ticks, .number = &Fault::over_ticks}};
+constexpr std::array kLumps{FaultFieldRow{.name = "by", .type = ValueType::duration, .lowest = 1}};
+constexpr std::array kSplit{
+    FaultFieldRow{.name = "keep", .highest = kLongestMessage},
+    FaultFieldRow{.name = "by", .type = ValueType::ticks, .number = &Fault::over_ticks}};
 constexpr std::array kHangUp{FaultFieldRow{.name = "keep", .highest = kLongestMessage}};
 constexpr std::array kSlow{kBy};
 constexpr std::array kException{FaultFieldRow{.name = "code", .lowest = 1, .highest = 255}};
 constexpr std::array kSided{kOf};
 constexpr std::array kDelay{kBy, kOf};
 constexpr std::array kTruncate{FaultFieldRow{.name = "keep", .highest = kLongestMessage}, kOf};
-constexpr std::array kDuplicate{FaultFieldRow{.name = "after", .form = Schema::duration, .required = false},
-                                kOf};
+constexpr std::array kDuplicate{
+    FaultFieldRow{.name = "after", .type = ValueType::duration, .required = false}, kOf};
 constexpr std::array kNoise{bytes_row("before", &Fault::before), bytes_row("after", &Fault::after), kOf};
 constexpr std::array kCollision{bytes_row("with", &Fault::before), kOf};
 

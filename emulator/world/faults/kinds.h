@@ -13,9 +13,9 @@ namespace understudy::emulator::world {
 
 /// A field that a kind has besides its trigger, and the member that it sets.
 struct FaultFieldRow {
-  enum class Schema : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
+  enum class ValueType : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
   std::string_view name;
-  Schema form = Schema::number;
+  ValueType type = ValueType::number;
   bool required = true;
   std::int64_t lowest = 0;
   std::int64_t highest = 0;

@@ -120,7 +120,7 @@ SimTime next_moment(const FaultTrigger& trigger, const FaultCourse& course) {
   return next;
 }
 
-Tick next_look(const FaultTrigger& trigger, const FaultCourse& course, Tick done) {
+Tick next_poll(const FaultTrigger& trigger, const FaultCourse& course, Tick done) {
   if (is_of_time_alone(trigger)) return kNever;
   const SimTime now = time_of(done);
   Tick next = kNever;

@@ -94,7 +94,7 @@ bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now,
 SimTime next_moment(const FaultTrigger& trigger, const FaultCourse& course);
 /// For other triggers: returns the first tick after `done` whose end may change something, or kNever if only
 /// a frame can.
-Tick next_look(const FaultTrigger& trigger, const FaultCourse& course, Tick done);
+Tick next_poll(const FaultTrigger& trigger, const FaultCourse& course, Tick done);
 
 /// Returns the `n`th number, from 1, of the splitmix64 stream that begins at `seed`.
 std::uint64_t draw(std::uint64_t seed, std::uint64_t n);

@@ -83,7 +83,7 @@ bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::
     trigger.chance = field_chance(name, text);
   } else if (name == "when") {
     if (text.empty() || text.size() > kLongestCondition) {
-      throw NameError("when: " + quoted(text) + " is not possible; expected a condition of at most " +
+      throw NameError("when: " + quoted(text) + " is not valid; expected a condition of at most " +
                       std::to_string(kLongestCondition) + " bytes");
     }
     trigger.when = text;
@@ -93,7 +93,7 @@ bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::
   return true;
 }
 
-void validate_rows(const FaultTrigger& trigger) {
+void validate_trigger(const FaultTrigger& trigger) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw NameError(what);
   };

@@ -16,7 +16,7 @@ std::vector<std::string> trigger_fields();
 /// must be a number here; names in `when` are not looked up.
 bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::string& text);
 /// Throws NameError for fields that contradict each other.
-void validate_rows(const FaultTrigger& trigger);
+void validate_trigger(const FaultTrigger& trigger);
 /// Returns the fields that are set.
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger);
 

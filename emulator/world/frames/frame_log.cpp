@@ -30,21 +30,21 @@ void FrameLog::ignore() {
   framers_.clear();
 }
 
-void FrameLog::begin_anew() {
+void FrameLog::restart() {
   ignore();
   frames_.clear();
   watch();
 }
 
-std::vector<FrameLog::Frame> FrameLog::kept_since(std::uint64_t number, std::size_t most) const {
+std::vector<FrameLog::Frame> FrameLog::kept_since(std::uint64_t number, std::size_t max) const {
   const std::uint64_t first = next_number_ - frames_.size();
   const std::uint64_t from = std::clamp(number, first, next_number_);
-  const auto count = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(next_number_ - from, most));
+  const auto count = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(next_number_ - from, max));
   return {frames_.end() - count, frames_.end()};
 }
 
-void FrameLog::begin_anew_after(std::vector<Frame> frames) {
-  begin_anew();
+void FrameLog::restart_after(std::vector<Frame> frames) {
+  restart();
   next_number_ += frames.size();
   frames_.assign(std::move_iterator(frames.begin()), std::move_iterator(frames.end()));
   while (frames_.size() > kept_) frames_.pop_front();
@@ -60,7 +60,7 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   }
   Frame& frame = frames_.back();
   frame.line = packet.line;
-  frame.way = packet.way;
+  frame.direction = packet.direction;
   frame.time = packet.time;
   frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
   frame.comment.clear();
@@ -72,62 +72,62 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
 const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {
   for (std::size_t i = reply; i-- > 0;) {
     if (frames_[i].line != frames_[reply].line || frames_[i].bytes.empty()) continue;
-    return frames_[i].way == pty::Way::from_host ? &frames_[i] : nullptr;
+    return frames_[i].direction == pty::Direction::from_host ? &frames_[i] : nullptr;
   }
   return nullptr;
 }
 
-FrameLog::Told FrameLog::told(std::size_t place) const {
+FrameLog::Decoded FrameLog::decode(std::size_t place) const {
   const Frame& frame = frames_[place];
   const WorldLine& line = world_.line(frame.line);
-  Told told{.number = next_number_ - frames_.size() + place,
-            .time = frame.time,
-            .line = line.line.name(),
-            .way = frame.way,
-            .text = {},
-            .remark = frame.comment,
-            .bytes = frame.bytes};
-  if (frame.bytes.empty()) return told;  // the entry only reports what a fault did
-  if (frame.way == pty::Way::from_host) {
-    told.text = line.request_text(frame.bytes);
-    return told;
+  Decoded decoded{.number = next_number_ - frames_.size() + place,
+                  .time = frame.time,
+                  .line = line.line.name(),
+                  .direction = frame.direction,
+                  .text = {},
+                  .remark = frame.comment,
+                  .bytes = frame.bytes};
+  if (frame.bytes.empty()) return decoded;  // the entry only reports what a fault did
+  if (frame.direction == pty::Direction::from_host) {
+    decoded.text = line.request_text(frame.bytes);
+    return decoded;
   }
   const Frame* const request = request_before(place);
   const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
-  told.is_refusal = line.speech.refuses(line.stations, frame.bytes);
-  if (request != nullptr) told.latency = frame.time - request->time;
-  told.text = line.reply_text(bytes, frame.bytes);
-  return told;
+  decoded.is_refusal = line.protocol.refuses(line.stations, frame.bytes);
+  if (request != nullptr) decoded.latency = frame.time - request->time;
+  decoded.text = line.reply_text(bytes, frame.bytes);
+  return decoded;
 }
 
-std::vector<FrameLog::Told> FrameLog::since(std::uint64_t number, std::size_t most) const {
+std::vector<FrameLog::Decoded> FrameLog::since(std::uint64_t number, std::size_t max) const {
   const std::uint64_t first = next_number_ - frames_.size();
-  std::vector<Told> all;
-  for (std::uint64_t next = std::max(number, first); next < next_number_ && all.size() < most; ++next) {
-    all.push_back(told(next - first));
+  std::vector<Decoded> all;
+  for (std::uint64_t next = std::max(number, first); next < next_number_ && all.size() < max; ++next) {
+    all.push_back(decode(next - first));
   }
   return all;
 }
 
-std::optional<FrameLog::Told> FrameLog::request_of(std::uint64_t number) const {
+std::optional<FrameLog::Decoded> FrameLog::request_of(std::uint64_t number) const {
   const std::uint64_t first = next_number_ - frames_.size();
   if (number < first || number >= next_number_) return std::nullopt;
   const std::size_t place = number - first;
-  if (frames_[place].way == pty::Way::from_host) return std::nullopt;
+  if (frames_[place].direction == pty::Direction::from_host) return std::nullopt;
   const Frame* const request = request_before(place);
   for (std::size_t i = place; request != nullptr && i-- > 0;) {
-    if (&frames_[i] == request) return told(i);
+    if (&frames_[i] == request) return decode(i);
   }
   return std::nullopt;
 }
 
-std::vector<std::string> FrameLog::last(std::size_t most) {
+std::vector<std::string> FrameLog::last(std::size_t max) {
   for (const auto& framer : framers_) framer->finish();
   std::vector<std::string> texts;
-  for (std::size_t i = frames_.size() - std::min(most, frames_.size()); i < frames_.size(); ++i) {
-    const Told frame = told(i);
+  for (std::size_t i = frames_.size() - std::min(max, frames_.size()); i < frames_.size(); ++i) {
+    const Decoded frame = decode(i);
     std::string text = format_duration(frame.time) + " " + frame.line +
-                       (frame.way == pty::Way::from_host ? " -> " : " <- ") + frame.text;
+                       (frame.direction == pty::Direction::from_host ? " -> " : " <- ") + frame.text;
     if (!frame.remark.empty()) text += (frame.text.empty() ? "(" : "  (") + frame.remark + ")";
     texts.push_back(std::move(text));
   }

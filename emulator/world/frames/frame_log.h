@@ -25,46 +25,48 @@ class FrameLog {
   FrameLog& operator=(const FrameLog&) = delete;
 
   /// Passes each frame to `observer` as well.
-  void tell(std::function<void(const pty::CapturedPacket&)> observer) { observer_ = std::move(observer); }
+  void set_observer(std::function<void(const pty::CapturedPacket&)> observer) {
+    observer_ = std::move(observer);
+  }
 
-  /// Returns the last `most` frames, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
-  std::vector<std::string> last(std::size_t most);
+  /// Returns the last `max` frames, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
+  std::vector<std::string> last(std::size_t max);
 
   /// A frame in words. Frames are numbered from 1.
-  struct Told {
+  struct Decoded {
     std::uint64_t number = 0;
     SimTime time{0};
     std::string line;
-    pty::Way way = pty::Way::from_host;
+    pty::Direction direction = pty::Direction::from_host;
     std::string text;
     std::string remark;                     // why it was dropped, and the like
     std::span<const std::uint8_t> bytes{};  // valid until the next frame is added
     bool is_refusal = false;                // a reply that refuses the request
     std::optional<SimTime> latency{};       // for a reply: since its request began
   };
-  /// Returns at most `most` of the kept frames, from that number on.
-  std::vector<Told> since(std::uint64_t number, std::size_t most) const;
+  /// Returns at most `max` of the kept frames, from that number on.
+  std::vector<Decoded> since(std::uint64_t number, std::size_t max) const;
   /// Returns the request that a kept frame answers, or nothing if it answers none or the request is no
   /// longer kept.
-  std::optional<Told> request_of(std::uint64_t number) const;
+  std::optional<Decoded> request_of(std::uint64_t number) const;
   /// Returns the number of the next frame.
   std::uint64_t next_number() const { return next_number_; }
 
   /// Forgets partly received frames, after the lines were put into another state.
-  void begin_anew();
+  void restart();
 
   /// A frame in the form in which it is kept.
   struct Frame {
     std::size_t line = 0;
-    pty::Way way = pty::Way::from_host;
+    pty::Direction direction = pty::Direction::from_host;
     SimTime time{0};
     std::vector<std::uint8_t> bytes;
     std::string comment{};
   };
-  /// Returns the last `most` of the kept frames from that number on.
-  std::vector<Frame> kept_since(std::uint64_t number, std::size_t most) const;
+  /// Returns the last `max` of the kept frames from that number on.
+  std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
   /// Like begin_anew(), after these frames, the oldest first, which get new numbers.
-  void begin_anew_after(std::vector<Frame> frames);
+  void restart_after(std::vector<Frame> frames);
 
  private:
   // A reply is decoded with its request, which may lie several frames of other stations before it.
@@ -74,7 +76,7 @@ class FrameLog {
   void ignore();
   void add(const pty::CapturedPacket& packet);
   const Frame* request_before(std::size_t reply) const;
-  Told told(std::size_t place) const;
+  Decoded decode(std::size_t place) const;
 
   World& world_;
   std::size_t kept_;

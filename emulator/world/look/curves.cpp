@@ -17,8 +17,8 @@ Curves::Curves(World& world, const std::vector<std::string>& names, SimTime from
     : world_(world), probes_(world), from_(from), to_(to), dots_(dots) {
   for (const std::string& name : names) {
     Row row{.handle = probes_.resolve(name).handle,
-            .least = std::vector<double>(dots),
-            .greatest = std::vector<double>(dots)};
+            .min = std::vector<double>(dots),
+            .max = std::vector<double>(dots)};
     static_cast<void>(probes_.value(row.handle));  // throws for a name that only scenarios have
     rows_.push_back(std::move(row));
   }
@@ -32,7 +32,7 @@ void Curves::stop() {
   if (std::exchange(is_watching_, false)) world_.remove_watcher(*this);
 }
 
-Tick Curves::next_look(Tick done) const {
+Tick Curves::next_poll(Tick done) const {
   Tick next = kNever;
   for (const Row& row : rows_) next = std::min(next, probes_.next_change(row.handle, done));
   return next;
@@ -47,7 +47,7 @@ std::size_t Curves::dot_of(SimTime time) const {
 /// Repeats the last values in all dots up to this one, which may get others as well.
 void Curves::last_until(std::size_t dot) {
   for (; dot_ < dot; ++dot_) {
-    for (Row& row : rows_) row.least[dot_ + 1] = row.greatest[dot_ + 1] = row.last;
+    for (Row& row : rows_) row.min[dot_ + 1] = row.max[dot_ + 1] = row.last;
   }
 }
 
@@ -58,8 +58,8 @@ void Curves::take(SimTime time) {
   if (has_values_) last_until(dot);
   for (Row& row : rows_) {
     row.last = probes_.value(row.handle).real();
-    row.least[dot] = has_values_ ? std::min(row.least[dot], row.last) : row.last;
-    row.greatest[dot] = has_values_ ? std::max(row.greatest[dot], row.last) : row.last;
+    row.min[dot] = has_values_ ? std::min(row.min[dot], row.last) : row.last;
+    row.max[dot] = has_values_ ? std::max(row.max[dot], row.last) : row.last;
   }
   if (!has_values_) dot_ = dot;
   has_values_ = true;

@@ -30,18 +30,18 @@ class Curves final : private TickWatcher {
   void finish();
 
   /// Return the values by dot. A device without power reads as 0.
-  const std::vector<double>& least(std::size_t name) const { return rows_[name].least; }
-  const std::vector<double>& greatest(std::size_t name) const { return rows_[name].greatest; }
+  const std::vector<double>& min(std::size_t name) const { return rows_[name].min; }
+  const std::vector<double>& max(std::size_t name) const { return rows_[name].max; }
 
  private:
   struct Row {
     std::int32_t handle = 0;
     double last = 0;
-    std::vector<double> least;
-    std::vector<double> greatest;
+    std::vector<double> min;
+    std::vector<double> max;
   };
   void on_tick(Tick tick) override { take(time_of(tick)); }
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
   void take(SimTime time);
   std::size_t dot_of(SimTime time) const;
   void last_until(std::size_t dot);

@@ -38,7 +38,7 @@ class ProgramSpans final : private TickWatcher {
 
  private:
   void on_tick(Tick tick) override { take(time_of(tick)); }
-  Tick next_look(Tick) const override { return kNever; }
+  Tick next_poll(Tick) const override { return kNever; }
   void take(SimTime time);
 
   World& world_;

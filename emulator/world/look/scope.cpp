@@ -33,7 +33,7 @@ void Scope::end() {
   if (std::exchange(is_watching_, false)) world_.remove_watcher(*this);
 }
 
-void Scope::begin_anew() {
+void Scope::restart() {
   if (!is_watching_) return;
   state_ = State::armed;
   count_ = 0;
@@ -50,9 +50,9 @@ void Scope::push(Tick tick) {
   std::copy(present_.begin(), present_.end(),
             ring_.begin() + static_cast<std::ptrdiff_t>(row * handles_.size()));
   next_tick_ = tick + 1;
-  const auto most =
+  const auto max =
       static_cast<std::size_t>(state_ == State::armed ? setup_.before + 1 : setup_.before + setup_.after + 1);
-  count_ = std::min(count_ + 1, most);
+  count_ = std::min(count_ + 1, max);
   if (state_ == State::triggered && tick >= trigger_tick_ + setup_.after) {
     state_ = State::done;
     end();
@@ -60,7 +60,7 @@ void Scope::push(Tick tick) {
 }
 
 /// Returns true if the condition holds. A condition without a result triggers too, with a diagnostic.
-bool Scope::is_there() {
+bool Scope::is_met() {
   if (condition_.code.empty()) return true;
   try {
     return is_true(condition_, probes_);
@@ -72,14 +72,14 @@ bool Scope::is_there() {
 
 void Scope::on_tick(Tick tick) {
   for (std::size_t i = 0; i < handles_.size(); ++i) present_[i] = probes_.value(handles_[i]).real();
-  if (state_ == State::armed && is_there()) {
+  if (state_ == State::armed && is_met()) {
     state_ = State::triggered;
     trigger_tick_ = tick;
   }
   push(tick);
 }
 
-Tick Scope::next_look(Tick done) const {
+Tick Scope::next_poll(Tick done) const {
   Tick next = probes_.next_change(condition_, done);
   for (const std::int32_t handle : handles_) next = std::min(next, probes_.next_change(handle, done));
   return next;

@@ -35,7 +35,7 @@ class Scope final : private TickWatcher {
 
   /// Called when the world was put into another state: drops earlier samples, because they did not lead
   /// there. Has no effect once the scope is done.
-  void begin_anew();
+  void restart();
 
   const ScopeSetup& setup() const { return setup_; }
   State state() const { return state_; }
@@ -51,10 +51,10 @@ class Scope final : private TickWatcher {
 
  private:
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
   void on_rest(Tick last) override;
   void push(Tick tick);
-  bool is_there();
+  bool is_met();
   void end();
 
   World& world_;

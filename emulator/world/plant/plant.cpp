@@ -176,44 +176,44 @@ bool PlantAxis::at_index() const {
   return setup_.index && index_phase(*setup_.index, state_.position_pulses) < setup_.index->width;
 }
 
-std::optional<SwitchSetup> PlantAxis::way_of(Contact which) const {
+std::optional<SwitchSetup> PlantAxis::switch_of(Contact which) const {
   if (!has_contact(which)) return std::nullopt;
-  SwitchSetup way;
+  SwitchSetup found;
   bool is_on = false;
   switch (which) {
     case Contact::home:
-      way = home_switch();
+      found = home_switch();
       is_on = state_.at_home;
       break;
     case Contact::near_home:
-      way = *setup_.near_home;
+      found = *setup_.near_home;
       is_on = state_.at_near_home;
       break;
     case Contact::mark:
-      way = *setup_.mark;
+      found = *setup_.mark;
       is_on = state_.at_mark;
       break;
     case Contact::lower_limit:
-      way = {{-kFarthest_pulses, *setup_.lower_limit}, setup_.limit_hysteresis_pulses, setup_.limits_open};
+      found = {{-kFarthest_pulses, *setup_.lower_limit}, setup_.limit_hysteresis_pulses, setup_.limits_open};
       is_on = state_.at_lower_limit;
       break;
     case Contact::upper_limit:
-      way = {{*setup_.upper_limit, kFarthest_pulses}, setup_.limit_hysteresis_pulses, setup_.limits_open};
+      found = {{*setup_.upper_limit, kFarthest_pulses}, setup_.limit_hysteresis_pulses, setup_.limits_open};
       is_on = state_.at_upper_limit;
       break;
     default: return std::nullopt;
   }
   // A switch that is on beyond its span releases at the end of its hysteresis.
-  if (is_on && !holds(way.on, state_.position_pulses)) {
-    way.on = wider(way.on, way.hysteresis_pulses);
-    way.hysteresis_pulses = 0;
+  if (is_on && !holds(found.on, state_.position_pulses)) {
+    found.on = wider(found.on, found.hysteresis_pulses);
+    found.hysteresis_pulses = 0;
   }
   // A switch that is on at a stop never releases there, because the machine does not pass its stops.
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
-  if (way.on.last < stops.first || way.on.first > stops.last) return std::nullopt;
-  if (way.on.first <= stops.first) way.on.first = -kFarthest_pulses;
-  if (way.on.last >= stops.last) way.on.last = kFarthest_pulses;
-  return way;
+  if (found.on.last < stops.first || found.on.first > stops.last) return std::nullopt;
+  if (found.on.first <= stops.first) found.on.first = -kFarthest_pulses;
+  if (found.on.last >= stops.last) found.on.last = kFarthest_pulses;
+  return found;
 }
 
 bool PlantAxis::contact(Contact which) const {
@@ -246,21 +246,21 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
 void PlantAxis::move_switches(std::int64_t from) {
   const std::int64_t at = state_.position_pulses;
   // The positions that can operate a switch: the whole travel, or only its end.
-  const PulseSpan way =
-      looks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
+  const PulseSpan swept =
+      checks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
   const auto move = [&](const SwitchSetup& setup, bool& is_on) {
-    is_on = is_on || (way.first <= setup.on.last && way.last >= setup.on.first);
+    is_on = is_on || (swept.first <= setup.on.last && swept.last >= setup.on.first);
     is_on = holds(span_of(setup, is_on), at);
   };
   if (setup_.home) move(home_switch(), state_.at_home);
   if (setup_.near_home) move(*setup_.near_home, state_.at_near_home);
   if (setup_.mark) move(*setup_.mark, state_.at_mark);
   if (setup_.lower_limit) {
-    state_.at_lower_limit = state_.at_lower_limit || way.first <= *setup_.lower_limit;
+    state_.at_lower_limit = state_.at_lower_limit || swept.first <= *setup_.lower_limit;
     state_.at_lower_limit = at <= lower_limit_end();
   }
   if (setup_.upper_limit) {
-    state_.at_upper_limit = state_.at_upper_limit || way.last >= *setup_.upper_limit;
+    state_.at_upper_limit = state_.at_upper_limit || swept.last >= *setup_.upper_limit;
     state_.at_upper_limit = at >= upper_limit_end();
   }
 }

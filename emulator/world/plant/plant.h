@@ -141,10 +141,10 @@ class alignas(64) PlantAxis {
   /// controller's outputs stay the same. Empty if each pulse must be checked.
   PulseSpan places_alike() const;
   /// Moves by this many pulses at once, within places_alike(), as that many quiet ticks would.
-  void cross(std::int64_t pulses) { state_.position_pulses += pulses; }
+  void fast_forward(std::int64_t pulses) { state_.position_pulses += pulses; }
   /// From now on a switch that the machine passes within a tick counts as having been on. (Otherwise only
   /// positions at the ends of ticks count, as for a controller that samples levels.)
-  void look_between_ticks() { looks_between_ = true; }
+  void check_between_ticks() { checks_between_ = true; }
   /// From now on disabling the drive clears its alarm, because nothing is wired to its alarm-clear input.
   void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
   /// Sets the level that wires give to an input of the drive. Returns true if the level has changed.
@@ -158,7 +158,7 @@ class alignas(64) PlantAxis {
   }
   /// Returns the positions at which a switch is on, given its current state, or nothing if it is never on or
   /// does not move with the machine. The index is not among these switches, because it repeats.
-  std::optional<SwitchSetup> way_of(Contact which) const;
+  std::optional<SwitchSetup> switch_of(Contact which) const;
   /// Turns the encoder's wheel evenly over this many ticks, beginning with the next. The rest of an earlier
   /// turn is added.
   void turn(std::int64_t counts, Tick ticks);
@@ -282,7 +282,7 @@ class alignas(64) PlantAxis {
   State state_;
   PlantSetup setup_;
   // Settings that depend on the controller and on the bench's wires.
-  bool looks_between_ = false;
+  bool checks_between_ = false;
   bool clears_by_disabling_ = false;
 };
 

@@ -23,7 +23,7 @@ class Peaks final : public TickWatcher {
   explicit Peaks(const WorldView& view);
 
   void on_tick(Tick tick) override;
-  Tick next_look(Tick) const override { return kNever; }
+  Tick next_poll(Tick) const override { return kNever; }
   /// Starts again. The speed at this moment does not count.
   void reset();
 

@@ -71,7 +71,9 @@ class Recorder::LineRecorder final : public pty::LineObserver {
     event.host = settings;
     recorder_.take(std::move(event));
   }
-  void on_speech(const pty::Speech& speech) override { note(What::said, speech.bytes); }
+  void on_transmission(const pty::Transmission& transmission) override {
+    note(What::said, transmission.bytes);
+  }
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}
 

@@ -62,9 +62,10 @@ class Speeches {
     void on_start_bit(SimTime) override {}
     void on_character(const pty::TimedByte&, bool) override {}
     void on_nothing_more() override {}
-    void on_speech(const pty::Speech& speech) override {
-      all_.waiting_.push_back(
-          {.line = line_, .at = all_.world_.now(), .bytes = {speech.bytes.begin(), speech.bytes.end()}});
+    void on_transmission(const pty::Transmission& transmission) override {
+      all_.waiting_.push_back({.line = line_,
+                               .at = all_.world_.now(),
+                               .bytes = {transmission.bytes.begin(), transmission.bytes.end()}});
     }
     std::optional<SimTime> due() const override { return std::nullopt; }
     void run(SimTime) override {}
@@ -216,8 +217,8 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     world.advance_to(event.at);
     ++result.events;
     if (event.what == What::said) {
-      result.difference = compare(world, speeches, event, result.bytes_said);
-      result.bytes_said += event.bytes.size();
+      result.difference = compare(world, speeches, event, result.bytes_sent);
+      result.bytes_sent += event.bytes.size();
       continue;
     }
     // Everything that is due is sent before the next input from outside.

@@ -20,7 +20,7 @@ struct ReplayResult {
   std::string difference;  // one line
   SimTime reached{0};
   std::uint64_t events = 0;
-  std::uint64_t bytes_said = 0;
+  std::uint64_t bytes_sent = 0;
   bool has_end = false;  // false: the recording breaks off, because its program was killed
 };
 

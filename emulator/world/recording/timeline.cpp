@@ -63,7 +63,7 @@ void Timeline::play_on(SimTime until, const std::function<bool()>& is_stopped) {
 }
 
 void Timeline::go_to(SimTime time,
-                     const std::function<void(const WorldState&, std::size_t keyframe)>& take_back) {
+                     const std::function<void(const WorldState&, std::size_t keyframe)>& set_state) {
   time = std::clamp(time, begin(), end_);
   const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
                                       [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
@@ -71,7 +71,7 @@ void Timeline::go_to(SimTime time,
   // moment.
   const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
   const Keyframe& from = *(later - (has_near ? 2 : 1));
-  take_back(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
+  set_state(from.state, static_cast<std::size_t>(&from - keyframes_.data()));
   restore(world_, from.state);  // restores the hosts of that time as well, instead of the current ones
   next_event_ = play(world_, from.next_event, time);
 }

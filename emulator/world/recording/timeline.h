@@ -32,9 +32,9 @@ class Timeline {
   std::size_t keyframes() const { return keyframes_.size(); }
   SimTime time_of_keyframe(std::size_t number) const { return keyframes_[number].at; }
 
-  /// Moves the world to that time, after all events of that moment. `take_back` puts it into the state of a
+  /// Moves the world to that time, after all events of that moment. `set_state` puts it into the state of a
   /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls up to it.
-  void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& take_back);
+  void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& set_state);
   /// Plays on from where the world is up to that time, or until the world has been stopped. All events of the
   /// moment have then happened.
   void play_on(SimTime until, const std::function<bool()>& is_stopped);

@@ -15,16 +15,16 @@
 
 namespace understudy::emulator::world {
 
-void FaultyWire::look_at_completed(const HeardFrame& frame) {
+void FaultyWire::check_completed(const ReceivedFrame& frame) {
   if (is_early_ || faults_ == nullptr || !frame.is_for_device) return;
-  is_early_ = faults_->is_early(told(frame));
+  is_early_ = faults_->is_early(stamped(frame));
 }
 
 bool FaultyWire::take_early_frame() { return std::exchange(is_early_, false); }
 
-bool FaultyWire::passes(const HeardFrame& request, pty::Transmitter& out) {
+bool FaultyWire::passes(const ReceivedFrame& request, pty::Transmitter& out) {
   if (faults_ == nullptr) return true;
-  const std::vector<pty::WireFault> stages = faults_->on_request(told(request));
+  const std::vector<pty::WireFault> stages = faults_->on_request(stamped(request));
   if (stages.empty()) return true;
   for (pty::WirePiece& piece : pty::through_faults(request.bytes, stages)) {
     if (piece.late == pty::SimTime{0}) {
@@ -36,18 +36,18 @@ bool FaultyWire::passes(const HeardFrame& request, pty::Transmitter& out) {
   return false;
 }
 
-FrameFaults::Treatment FaultyWire::treatment_of(const HeardFrame& request) {
-  return faults_ == nullptr ? FrameFaults::Treatment{} : faults_->on_serving(told(request));
+FrameFaults::Treatment FaultyWire::treatment_of(const ReceivedFrame& request) {
+  return faults_ == nullptr ? FrameFaults::Treatment{} : faults_->on_serving(stamped(request));
 }
 
-void FaultyWire::answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
-                        pty::SimTime delay) {
+void FaultyWire::answer(const ReceivedFrame& request, std::span<const std::uint8_t> bytes,
+                        pty::Transmitter& out, pty::SimTime delay) {
   const auto send = [&](std::span<const std::uint8_t> piece, pty::SimTime late) {
-    if (late == pty::SimTime{0}) return end_.say(piece, request.last_character, out);
+    if (late == pty::SimTime{0}) return end_.transmit(piece, request.last_character, out);
     keep({request.now + late, true, request.last_character, {piece.begin(), piece.end()}});
   };
   if (faults_ == nullptr) return send(bytes, delay);
-  const std::vector<pty::WireFault> stages = faults_->on_reply(told(request));
+  const std::vector<pty::WireFault> stages = faults_->on_reply(stamped(request));
   if (stages.empty()) return send(bytes, delay);
   for (const pty::WirePiece& piece : pty::through_faults(bytes, stages))
     send(piece.bytes, piece.late + delay);
@@ -64,7 +64,7 @@ void FaultyWire::run(pty::SimTime now, pty::Transmitter& out) {
     const Late message = std::move(late_.front());
     late_.erase(late_.begin());
     if (message.is_reply) {
-      end_.say(message.bytes, message.last_character, out);
+      end_.transmit(message.bytes, message.last_character, out);
     } else {
       end_.serve_piece(message.bytes, message.last_character, now, out);
     }

@@ -2,8 +2,8 @@
 // station passes it everything that it receives and sends; the wire returns the remains to the station (End)
 // at the right time.
 //
-//   heard ──passes()──> whole: the station serves it          said ──answer()──> End::say()
-//              └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
+//   received ──passes()──> whole: the station serves it       sent ──answer()──> End::transmit()
+//                 └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ class FaultyWire {
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
     /// Sends the remains of an answer to the request with that last character.
-    virtual void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
-                     pty::Transmitter& out) = 0;
+    virtual void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                          pty::Transmitter& out) = 0;
 
    protected:
     ~End() = default;
@@ -56,24 +56,24 @@ class FaultyWire {
     line_ = line;
   }
 
-  // --- what the station hears ------------------------------------------------------------------
+  // --- what the station receives ------------------------------------------------------------------
   /// Returns true if there may be faults. Without them no frame is served early.
   bool is_broken() const { return faults_ != nullptr; }
   /// Called when a character has completed that frame, which a fault may treat as complete at once.
-  void look_at_completed(const HeardFrame& frame);
+  void check_completed(const ReceivedFrame& frame);
   /// Called when the completed frame no longer exists.
   void forget_early_frame() { is_early_ = false; }
   /// Returns true once for a frame that must be served before the silence after it ends.
   bool take_early_frame();
   /// Called when a request is complete. Returns true if it arrived whole; otherwise its remains arrive as
   /// pieces.
-  bool passes(const HeardFrame& request, pty::Transmitter& out);
+  bool passes(const ReceivedFrame& request, pty::Transmitter& out);
 
-  // --- what it does and says -------------------------------------------------------------------
+  // --- what it does and sends -------------------------------------------------------------------
   /// Returns how a fault makes the device treat a request.
-  FrameFaults::Treatment treatment_of(const HeardFrame& request);
+  FrameFaults::Treatment treatment_of(const ReceivedFrame& request);
   /// Sends an answer. `delay` is that of the device itself.
-  void answer(const HeardFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
+  void answer(const ReceivedFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
               pty::SimTime delay = pty::SimTime{0});
 
   // --- time ------------------------------------------------------------------------------------
@@ -84,7 +84,7 @@ class FaultyWire {
   void reset();
 
  private:
-  HeardFrame told(HeardFrame frame) const {
+  ReceivedFrame stamped(ReceivedFrame frame) const {
     frame.device = device_;
     frame.line = line_;
     return frame;

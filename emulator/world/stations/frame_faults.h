@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 /// A received request: a frame with its checksum, or a text line, with its line end only for questions about
 /// the wire.
-struct HeardFrame {
+struct ReceivedFrame {
   std::size_t device = 0;  // the device of the station
   std::size_t line = 0;    // the line on which it was received
   std::span<const std::uint8_t> bytes;
@@ -26,18 +26,18 @@ class FrameFaults {
  public:
   /// Called when the last character of a frame has arrived. Returns true if the device treats the frame as
   /// complete at once.
-  virtual bool is_early(const HeardFrame& frame) = 0;
+  virtual bool is_early(const ReceivedFrame& frame) = 0;
   /// Called when a request is complete. Returns the faults of the wire for it.
-  virtual std::vector<pty::WireFault> on_request(const HeardFrame& frame) = 0;
+  virtual std::vector<pty::WireFault> on_request(const ReceivedFrame& frame) = 0;
 
   struct Treatment {
     int exception = 0;        // it is refused with this exception; 0: it is executed
     bool is_answered = true;  // false: the power fails as soon as it has been executed
   };
   /// Called before the device executes a request.
-  virtual Treatment on_serving(const HeardFrame& frame) = 0;
+  virtual Treatment on_serving(const ReceivedFrame& frame) = 0;
   /// Called when a request was answered. Returns the faults of the wire for the reply.
-  virtual std::vector<pty::WireFault> on_reply(const HeardFrame& frame) = 0;
+  virtual std::vector<pty::WireFault> on_reply(const ReceivedFrame& frame) = 0;
 
  protected:
   ~FrameFaults() = default;

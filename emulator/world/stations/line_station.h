@@ -36,7 +36,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
 
   /// Called when the device may have something to send unasked. Returns true if it has; due() has changed
   /// then.
-  virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
+  virtual bool poll_text(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
   /// Returns the device's port that is connected to the line.
@@ -45,7 +45,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Counts received bytes that were ignored.
   virtual std::uint64_t dropped_bytes() const = 0;
 
-  // --- its state: what it hears and has counted; the device's is its own ---------------------------
+  // --- its state: what it receives and has counted; the device's is its own ---------------------------
   virtual void write_state(StateWriter& writer) const = 0;
   /// Reads a state. Calling the result puts it into effect, which does not throw. Throws StateError or
   /// std::invalid_argument for a state that this station cannot have.

@@ -63,7 +63,7 @@ void RtuStation::tell_each_error(pty::RtuFramer& framer) {
   while (const auto error = framer.take_error()) device_.modbus()->receive_failed(port_, *error);
 }
 
-HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const {
+ReceivedFrame RtuStation::received_frame(const pty::RtuFrame& frame, pty::SimTime now) const {
   return {.bytes = std::span(frame.bytes).first(frame.size),
           .last_character = frame.last_character,
           .is_for_device = device_.modbus()->addressing(frame.bytes[0]) != Addressing::ignore,
@@ -71,13 +71,13 @@ HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const
 }
 
 /// Checks the frame if the character with that number completes one.
-void RtuStation::look_at_completed(std::uint64_t last_character, pty::SimTime now) {
+void RtuStation::check_completed(std::uint64_t last_character, pty::SimTime now) {
   const auto frame = state_.framer.peek();
-  if (frame && frame->last_character == last_character) wire_.look_at_completed(heard(*frame, now));
+  if (frame && frame->last_character == last_character) wire_.check_completed(received_frame(*frame, now));
 }
 
 void RtuStation::take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out) {
-  if (wire_.passes(heard(frame, now), out)) serve_frame(frame, now, out);
+  if (wire_.passes(received_frame(frame, now), out)) serve_frame(frame, now, out);
 }
 
 void RtuStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
@@ -97,12 +97,12 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
   const Addressing addressing = device_.modbus()->addressing(address);
   if (addressing == Addressing::ignore) return;
   ++counters_.requests;
-  const HeardFrame request = heard(frame, now);
+  const ReceivedFrame request = received_frame(frame, now);
   const FrameFaults::Treatment treatment = wire_.treatment_of(request);
   const ModbusReply reply = treatment.exception != 0
                                 ? refusal(frame.bytes[1], treatment.exception)
                                 : serve(device_, std::span(frame.bytes).subspan(1, frame.size - 3));
-  if (addressing == Addressing::obey_silently || !treatment.is_answered) return;
+  if (addressing == Addressing::execute_silently || !treatment.is_answered) return;
 
   const bool refuses = (reply.pdu[0] & 0x80) != 0;
   if (refuses && treatment.exception == 0 && !device_.modbus()->answers_refusals()) return;
@@ -117,8 +117,8 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
                device_.modbus()->reply_delay());
 }
 
-void RtuStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
-                     pty::Transmitter& out) {
+void RtuStation::transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                          pty::Transmitter& out) {
   out.answer(bytes, last_character);
 }
 

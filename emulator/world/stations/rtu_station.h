@@ -15,18 +15,18 @@ class RtuStation final : public LineStation {
         state_{.framer = pty::RtuFramer(framing), .counters = {}} {}
 
   // Without power a station receives nothing.
-  void hear_start_bit(pty::SimTime at) override {
+  void on_start_bit(pty::SimTime at) override {
     if (!device_.powered()) return;
     state_.framer.start_bit(at);
     tell_errors(state_.framer);
   }
-  void hear(const pty::TimedByte& byte) override {
+  void receive(const pty::TimedByte& byte) override {
     if (!device_.powered()) return;
     state_.framer.push(byte);
     tell_errors(state_.framer);
-    if (wire_.is_broken()) look_at_completed(byte.number, byte.end);
+    if (wire_.is_broken()) check_completed(byte.number, byte.end);
   }
-  void hear_other_station() override {
+  void on_other_station() override {
     state_.framer.reset();
     wire_.forget_early_frame();
   }
@@ -60,13 +60,14 @@ class RtuStation final : public LineStation {
     if (framer.has_errors()) tell_each_error(framer);
   }
   void tell_each_error(pty::RtuFramer& framer);
-  HeardFrame heard(const pty::RtuFrame& frame, pty::SimTime now) const;
-  void look_at_completed(std::uint64_t last_character, pty::SimTime now);
+  ReceivedFrame received_frame(const pty::RtuFrame& frame, pty::SimTime now) const;
+  void check_completed(std::uint64_t last_character, pty::SimTime now);
   void take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);
   void serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);
   void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime now,
                    pty::Transmitter& out) override;
-  void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter& out) override;
+  void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                pty::Transmitter& out) override;
 
   State state_;
 };

@@ -75,7 +75,7 @@ Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
 struct Service {
   const FunctionRow& row;
   Table table;
-  std::size_t most;
+  std::size_t max;
 
   bool is_of_bits() const { return is_table_of_bits(table); }
   std::size_t bytes_for(std::size_t quantity) const {
@@ -95,7 +95,7 @@ ModbusReply read(RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   const std::uint16_t first = pdu_word(pdu, 1);
   const std::size_t quantity = pdu_word(pdu, 3);
-  if (quantity < 1 || quantity > service.most)
+  if (quantity < 1 || quantity > service.max)
     return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
   ModbusReply reply;
@@ -132,7 +132,7 @@ ModbusReply write_one(RegisterBank& bank, const Service& service, Pdu pdu) {
 ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   if (pdu.size() < 6) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   const std::size_t quantity = pdu_word(pdu, 3);
-  if (quantity < 1 || quantity > service.most)
+  if (quantity < 1 || quantity > service.max)
     return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
   if (pdu[5] != bytes || pdu.size() != 6 + bytes)
@@ -157,11 +157,11 @@ const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
 }
 
 Service service_of(const FunctionRow& row, const RtuRules& rules, const RegisterMap& map) {
-  Service service{.row = row, .table = row.table, .most = static_cast<std::size_t>(row.most)};
+  Service service{.row = row, .table = row.table, .max = static_cast<std::size_t>(row.max)};
   // A model without input registers serves its holding registers instead.
   if (row.table == Table::input && !map.has(Table::input)) service.table = Table::holding;
   for (const FunctionLimit& limit : rules.limits) {
-    if (limit.code == row.code) service.most = std::min(service.most, static_cast<std::size_t>(limit.most));
+    if (limit.code == row.code) service.max = std::min(service.max, static_cast<std::size_t>(limit.max));
   }
   return service;
 }
@@ -179,9 +179,9 @@ ModbusReply return_query(Pdu pdu) {
 
 ModbusReply report_server_id(const RtuRules& rules, Pdu pdu) {
   if (pdu.size() != 1) return exception(pdu, nullptr, bad_value(Cause::bad_length));
-  constexpr std::size_t kMost = 200;
+  constexpr std::size_t kMax = 200;
   constexpr std::uint8_t kRuns = 0xFF;
-  const std::string_view id = rules.server_id.substr(0, kMost);
+  const std::string_view id = rules.server_id.substr(0, kMax);
   ModbusReply reply;
   reply.pdu[0] = pdu[0];
   reply.pdu[1] = static_cast<std::uint8_t>(id.size() + 1);
@@ -213,7 +213,7 @@ ModbusReply mask_write(RegisterBank& bank, Pdu pdu) {
 /// reading part cannot be served.
 ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
   constexpr std::size_t kBeforeData = 10;
-  constexpr std::size_t kMostWritten = 121;
+  constexpr std::size_t kMaxWords = 121;
   const FunctionRow& reading = *function_for(Table::holding, FunctionRow::Kind::read);
   const auto refuse = [&](const Objection& objection, std::size_t part) {
     ModbusReply reply = exception(pdu, &reading, objection);
@@ -226,12 +226,12 @@ ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
   if (pdu.size() < kBeforeData) return refuse(bad_value(Cause::bad_length), 1);
   const std::size_t count = pdu_word(pdu, 3);
   const std::size_t written = pdu_word(pdu, 7);
-  std::size_t most = kMaxWordsRead;
+  std::size_t max = kMaxWordsRead;
   for (const FunctionLimit& limit : rules.limits) {
-    if (limit.code == pdu[0]) most = static_cast<std::size_t>(limit.most);
+    if (limit.code == pdu[0]) max = static_cast<std::size_t>(limit.max);
   }
-  if (count < 1 || count > most) return refuse(bad_value(Cause::bad_count), 1);
-  if (written < 1 || written > std::min(most, kMostWritten)) return refuse(bad_value(Cause::bad_count), 5);
+  if (count < 1 || count > max) return refuse(bad_value(Cause::bad_count), 1);
+  if (written < 1 || written > std::min(max, kMaxWords)) return refuse(bad_value(Cause::bad_count), 5);
   if (pdu[9] != 2 * written || pdu.size() != kBeforeData + 2 * written)
     return refuse(bad_value(Cause::bad_length), 5);
   std::array<std::uint16_t, kMaxWordsRead> words;
@@ -239,7 +239,7 @@ ModbusReply read_and_write(RegisterBank& bank, const RtuRules& rules, Pdu pdu) {
   const std::uint16_t first = pdu_word(pdu, 1);
   if (const Objection refused = read_request(bank, Table::holding, first, read_words))
     return refuse(refused, 1);
-  std::array<std::uint16_t, kMostWritten> values;
+  std::array<std::uint16_t, kMaxWords> values;
   for (std::size_t i = 0; i < written; ++i) values[i] = pdu_word(pdu, kBeforeData + 2 * i);
   const Objection refused =
       write_request(bank, Table::holding, pdu_word(pdu, 5), std::span(values).first(written));

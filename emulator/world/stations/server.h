@@ -26,7 +26,7 @@ struct FunctionRow {
   std::uint8_t code = 0;
   Table table = Table::holding;
   Kind kind = Kind::read;
-  int most = 1;  // in bits or registers; a model may allow fewer (RtuRules::limits)
+  int max = 1;  // in bits or registers; a model may allow fewer (RtuRules::limits)
 };
 
 /// All supported functions; a model knows some of them.
@@ -51,7 +51,7 @@ enum class OtherFunction : std::uint8_t {
 };
 struct OtherFunctionRow {
   OtherFunction code;
-  int most = 1;  // in registers to read; to write, the standard allows 121
+  int max = 1;  // in registers to read; to write, the standard allows 121
 };
 inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::diagnostics},
                                                              {OtherFunction::server_id},

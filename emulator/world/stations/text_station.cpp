@@ -27,9 +27,9 @@ namespace understudy {
 
 void StateOf<emulator::world::TextStation::State>::check(const emulator::world::TextStation::State& state) {
   emulator::world::FaultyWire::check(state.late);
-  const auto require = [](bool holds) { require_state(holds, "the texts of a station are not possible"); };
+  const auto require = [](bool holds) { require_state(holds, "the texts of a station are not valid"); };
   require(state.waiting.size() <= 1);
-  for (const auto& waiting : state.waiting) require(pty::is_within_reach(waiting.heard.end));
+  for (const auto& waiting : state.waiting) require(pty::is_within_reach(waiting.received.end));
   for (const auto& outgoing : state.outgoing) require(!outgoing.text.empty());
   require(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
   require(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
@@ -39,7 +39,7 @@ void StateOf<emulator::world::TextStation::State>::check(const emulator::world::
 
 namespace understudy::emulator::world {
 
-using Heard = pty::HeardText::What;
+using Received = pty::ReceivedText::What;
 
 namespace {
 
@@ -48,12 +48,12 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
 }
 
 /// Returns a line as a frame. The wire gets it with its line end, the device without.
-HeardFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
+ReceivedFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
   return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
 }
 
-pty::TextLineRules rules_of(const TextProtocol& speaker) {
-  const TextRules rules = speaker.text_rules();
+pty::TextLineRules rules_of(const TextProtocol& protocol) {
+  const TextRules rules = protocol.text_rules();
   return {.longest = rules.longest_line,
           .echoes = rules.echo,
           .line_feed_ends = rules.line_feed_ends,
@@ -61,33 +61,33 @@ pty::TextLineRules rules_of(const TextProtocol& speaker) {
           .echoed_end = rules.echoed_end};
 }
 
-TextProtocol& speaker_of(Device& device) {
-  if (device.speaker() == nullptr) throw std::logic_error(device.name() + ": does not speak text");
-  return *device.speaker();
+TextProtocol& text_protocol_of(Device& device) {
+  if (device.text_protocol() == nullptr) throw std::logic_error(device.name() + ": does not speak text");
+  return *device.text_protocol();
 }
 
 }  // namespace
 
 TextStation::TextStation(Device& device, std::size_t port, bool is_instant)
     : LineStation(device, port, state_.counters, state_.late),
-      speaker_(speaker_of(device)),
+      protocol_(text_protocol_of(device)),
       is_instant_(is_instant) {}
 
-void TextStation::hear(const pty::TimedByte& byte) {
+void TextStation::receive(const pty::TimedByte& byte) {
   if (!device_.powered()) return;
-  const pty::TextLineRules rules = rules_of(speaker_);
+  const pty::TextLineRules rules = rules_of(protocol_);
   pty::TextLines::Outcome outcome = state_.lines.push(byte, rules);
   if (!rules.echoes) outcome.echo.clear();
-  if (!outcome.heard && outcome.echo.empty()) return;
-  pty::HeardText heard{.end = byte.end, .last_character = byte.number};
-  if (outcome.heard) heard = std::move(*outcome.heard);
-  state_.waiting.push_back({outcome.heard.has_value(), std::move(heard), std::move(outcome.echo)});
+  if (!outcome.received && outcome.echo.empty()) return;
+  pty::ReceivedText received{.end = byte.end, .last_character = byte.number};
+  if (outcome.received) received = std::move(*outcome.received);
+  state_.waiting.push_back({outcome.received.has_value(), std::move(received), std::move(outcome.echo)});
 }
 
 std::optional<pty::SimTime> TextStation::due() const {
   std::optional<pty::SimTime> due = wire_.due();
   const auto offer = [&](pty::SimTime at) { due = std::min(due.value_or(at), at); };
-  if (!state_.waiting.empty()) offer(state_.waiting.front().heard.end);
+  if (!state_.waiting.empty()) offer(state_.waiting.front().received.end);
   if (state_.is_held) return due;
   if (!state_.outgoing.empty()) offer(state_.free_at);
   if (state_.speaks_at) offer(*state_.speaks_at);
@@ -98,15 +98,15 @@ void TextStation::run(pty::SimTime now, pty::Transmitter& out) {
   wire_.run(now, out);
   for (const Waiting& waiting : std::exchange(state_.waiting, {})) {
     if (!waiting.echo.empty()) echo(waiting, out);
-    if (waiting.has_heard) carry_out(waiting.heard, now, out);
+    if (waiting.has_received) carry_out(waiting.received, now, out);
   }
   send(now, out);
   if (state_.is_held || !state_.speaks_at || *state_.speaks_at > now) return;
   state_.speaks_at.reset();
   if (!state_.outgoing.empty() || state_.free_at > now) {
     state_.speaks_at = state_.free_at;
-  } else if (speaker_.has_speech()) {
-    state_.outgoing.push_back({.text = speaker_.take_speech()});
+  } else if (protocol_.has_text()) {
+    state_.outgoing.push_back({.text = protocol_.take_text()});
     send(now, out);
   }
 }
@@ -121,8 +121,8 @@ void TextStation::reset() {
   state_.is_held = false;
 }
 
-bool TextStation::look_for_speech(pty::SimTime now) {
-  if (state_.speaks_at || !device_.powered() || !speaker_.has_speech()) return false;
+bool TextStation::poll_text(pty::SimTime now) {
+  if (state_.speaks_at || !device_.powered() || !protocol_.has_text()) return false;
   state_.speaks_at = std::max(now, state_.free_at);
   return true;
 }
@@ -130,41 +130,42 @@ bool TextStation::look_for_speech(pty::SimTime now) {
 // --- receiving -----------------------------------------------------------------------------------
 
 void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
-  if (!state_.is_held) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
-  if (outgoing_size() < kMaxOutgoing) state_.outgoing.push_back({waiting.heard.last_character, waiting.echo});
+  if (!state_.is_held) return out.answer(bytes_of(waiting.echo), waiting.received.last_character);
+  if (outgoing_size() < kMaxOutgoing)
+    state_.outgoing.push_back({waiting.received.last_character, waiting.echo});
 }
 
-void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
-  const bool is_whole =
-      heard.what != Heard::line || wire_.passes(frame_of(heard.text + '\r', heard.last_character, now), out);
-  if (is_whole) serve(heard, now, out);
+void TextStation::carry_out(const pty::ReceivedText& received, pty::SimTime now, pty::Transmitter& out) {
+  const bool is_whole = received.what != Received::line ||
+                        wire_.passes(frame_of(received.text + '\r', received.last_character, now), out);
+  if (is_whole) serve(received, now, out);
 }
 
 void TextStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                               pty::SimTime now, pty::Transmitter& out) {
   for (const std::uint8_t value : bytes) {
     auto outcome = state_.lines.push({.start = now, .end = now, .value = value, .number = last_character},
-                                     rules_of(speaker_));
-    if (outcome.heard) serve(*outcome.heard, now, out);
+                                     rules_of(protocol_));
+    if (outcome.received) serve(*outcome.received, now, out);
   }
 }
 
-void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
-  const HeardFrame request = frame_of(heard.text, heard.last_character, now);
+void TextStation::serve(const pty::ReceivedText& received, pty::SimTime now, pty::Transmitter& out) {
+  const ReceivedFrame request = frame_of(received.text, received.last_character, now);
   FrameFaults::Treatment treatment;
-  switch (heard.what) {
-    case Heard::line:
+  switch (received.what) {
+    case Received::line:
       ++counters_.requests;
       treatment = wire_.treatment_of(request);
-      speaker_.hear_line(heard.text);
+      protocol_.receive_line(received.text);
       break;
-    case Heard::overlong: speaker_.hear_overlong(); break;
-    case Heard::escape: speaker_.hear_escape(); break;
-    case Heard::hold: state_.is_held = true; return;
-    case Heard::go_on: state_.is_held = false; return;
+    case Received::overlong: protocol_.receive_overlong(); break;
+    case Received::escape: protocol_.receive_escape(); break;
+    case Received::hold: state_.is_held = true; return;
+    case Received::release: state_.is_held = false; return;
   }
-  if (!speaker_.has_speech() || outgoing_size() >= kMaxOutgoing) return;
-  const std::string text = speaker_.take_speech();
+  if (!protocol_.has_text() || outgoing_size() >= kMaxOutgoing) return;
+  const std::string text = protocol_.take_text();
   if (!treatment.is_answered || text.empty()) return;
   ++counters_.replies;
   wire_.answer(request, bytes_of(text), out);
@@ -172,14 +173,14 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Tran
 
 // --- sending -------------------------------------------------------------------------------------
 
-void TextStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
-                      pty::Transmitter& /*out*/) {
+void TextStation::transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                           pty::Transmitter& /*out*/) {
   state_.outgoing.push_back({last_character, {bytes.begin(), bytes.end()}});
 }
 
 void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
   const std::size_t piece =
-      is_instant_ || !speaker_.text_rules().has_flow_control ? kPiece : kPieceThatCanBeHeld;
+      is_instant_ || !protocol_.text_rules().has_flow_control ? kPiece : kPieceThatCanBeHeld;
   while (!state_.is_held && !state_.outgoing.empty() && state_.free_at <= now) {
     Outgoing& first = state_.outgoing.front();
     const std::size_t size = std::min(first.text.size(), piece);

@@ -30,13 +30,13 @@ class TextStation final : public LineStation {
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
   TextStation(Device& device, std::size_t port, bool is_instant);
 
-  void hear(const pty::TimedByte& byte) override;
-  void hear_other_station() override {}  // not needed
+  void receive(const pty::TimedByte& byte) override;
+  void on_other_station() override {}  // not needed
   std::optional<pty::SimTime> due() const override;
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
   void reset() override;
-  bool look_for_speech(pty::SimTime now) override;
+  bool poll_text(pty::SimTime now) override;
   std::uint64_t dropped_bytes() const override { return state_.lines.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
@@ -44,8 +44,8 @@ class TextStation final : public LineStation {
 
   /// A received line that is still to be executed: at its time, within the event that completed it.
   struct Waiting {
-    bool has_heard = false;  // false: the character is only echoed
-    pty::HeardText heard;
+    bool has_received = false;  // false: the character is only echoed
+    pty::ReceivedText received;
     std::string echo{};
   };
   struct Outgoing {
@@ -66,15 +66,16 @@ class TextStation final : public LineStation {
 
  private:
   void echo(const Waiting& waiting, pty::Transmitter& out);
-  void carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out);
-  void serve(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out);
+  void carry_out(const pty::ReceivedText& received, pty::SimTime now, pty::Transmitter& out);
+  void serve(const pty::ReceivedText& received, pty::SimTime now, pty::Transmitter& out);
   void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime now,
                    pty::Transmitter& out) override;
-  void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter& out) override;
+  void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                pty::Transmitter& out) override;
   void send(pty::SimTime now, pty::Transmitter& out);
   std::size_t outgoing_size() const;
 
-  TextProtocol& speaker_;
+  TextProtocol& protocol_;
   bool is_instant_;
   State state_;
 };

@@ -54,11 +54,11 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
                world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(),
                world.machine(d, static_cast<int>(a)), signals);
     }
-    for (const TerminalSight& sight : terminal_sights(world.device(d))) {
-      if (sight.kind == TerminalRow::Kind::dip_switch) continue;
-      const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
+    for (const TerminalView& view : terminal_views(world.device(d))) {
+      if (view.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = view.what == TerminalView::What::level && has_two_levels(view.kind);
       signals.push_back(
-          {.name = device.name + "." + sight.name, .kind = is_bit ? SignalKind::bit : SignalKind::whole});
+          {.name = device.name + "." + view.name, .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
     for (const std::string_view word : device.model->state_registers) {
       const std::string name = device.name + "." + std::string(word);
@@ -97,7 +97,7 @@ Trace::~Trace() {
 
 void Trace::on_tick(Tick tick) { look(time_of(tick)); }
 
-Tick Trace::next_look(Tick done) const {
+Tick Trace::next_poll(Tick done) const {
   Tick next = kNever;
   for (const std::int32_t handle : handles_) next = std::min(next, probes_.next_change(handle, done));
   return next;

@@ -51,7 +51,7 @@ class Trace final : private TickWatcher {
 
  private:
   void on_tick(Tick tick) override;
-  Tick next_look(Tick done) const override;
+  Tick next_poll(Tick done) const override;
   void on_rest(Tick) override {}  // it writes only changes
   void look(SimTime at);
 

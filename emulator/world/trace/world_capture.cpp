@@ -48,11 +48,12 @@ void WorldCapture::begin() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     const WorldLine& line = world_.line(i);
     lines_.push_back(line.packets(i, [this, &line](const pty::CapturedPacket& packet) {
-      const bool is_request = packet.way == pty::Way::from_host && packet.remark == pty::Remark::none;
+      const bool is_request =
+          packet.direction == pty::Direction::from_host && packet.remark == pty::Remark::none;
       const std::string command = is_request ? line.command_text(packet.bytes) : std::string();
-      pty::CapturedPacket told = packet;
-      told.command = command;
-      file_.add(told);
+      pty::CapturedPacket with_command = packet;
+      with_command.command = command;
+      file_.add(with_command);
     }));
     world_.add_observer(i, *lines_.back());
   }

@@ -10,7 +10,7 @@
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
 #include "emulator/world/plant/plant.h"
-#include "emulator/world/speech/line_protocol.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/view/inventory.h"
 #include "pty/line.h"
@@ -21,22 +21,22 @@ namespace understudy::emulator::world {
 /// A line with its stations.
 struct WorldLine {
   pty::Line line;
-  const LineProtocol& speech;
+  const LineProtocol& protocol;
   LineStations stations;
   pty::RtuFraming framing{};  // from its stations; the shortest silence if they differ
 
   /// These functions use `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
-    return speech.request_text(stations, request);
+    return protocol.request_text(stations, request);
   }
   std::string command_text(std::span<const std::uint8_t> request) const {
-    return speech.command_text(stations, request);
+    return protocol.command_text(stations, request);
   }
   std::string reply_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) const {
-    return speech.reply_text(stations, request, reply);
+    return protocol.reply_text(stations, request, reply);
   }
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t number, pty::CaptureFrames::Sink sink) const {
-    return speech.packets(number, framing, std::move(sink));
+    return protocol.packets(number, framing, std::move(sink));
   }
 };
 
@@ -64,7 +64,7 @@ class TickWatcher {
   /// Returns the first tick after `done` that it must see even if nothing happens: `done` + 1 if it needs
   /// every tick, kNever if it does not need unchanged ticks. The first tick at which nothing happens is shown
   /// to all observers.
-  virtual Tick next_look(Tick done) const { return done + 1; }
+  virtual Tick next_poll(Tick done) const { return done + 1; }
   /// Called when nothing has changed since the tick that it saw last, and nothing changes up to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }
 };

@@ -35,8 +35,8 @@ Line without_flag(const Line& line) {
 bool holds(const Execution& execution) { return execution.held.command != 0; }
 
 /// Returns true if the current line waits and has been replaced in the meantime.
-bool must_be_read_anew(const Execution& execution, const Program& program, const Dialect& dialect) {
-  return dialect.rewritten_line == Dialect::RewrittenLine::read_anew && holds(execution) &&
+bool must_be_reread(const Execution& execution, const Program& program, const Dialect& dialect) {
+  return dialect.rewritten_line == Dialect::RewrittenLine::reread && holds(execution) &&
          without_flag(program.line(execution.now_line)) != execution.held;
 }
 
@@ -81,7 +81,7 @@ bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
 }
 
 /// Reports what the line has decided.
-void tell_decision(ProgramWatch& watch, int number, const Line& line, Then then) {
+void report_decision(ProgramWatch& watch, int number, const Line& line, Then then) {
   if (const auto outcome = outcome_of(decision_of(line.command), then)) {
     watch.decides(0, number, *outcome, 1);
   }
@@ -113,7 +113,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
             .dialect = dialect,
             .machine = machine};
   const Then then = action(step);
-  if (watch != nullptr) tell_decision(*watch, number, line, then);
+  if (watch != nullptr) report_decision(*watch, number, line, then);
   if (then == Then::same_line || execution.phase != Phase::line) execution.held = without_flag(line);
   switch (then) {
     case Then::next_line: return go_on_at(execution, number + 1, dialect);
@@ -134,7 +134,7 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
                    const MachineView& machine) {
   if (execution.next_line != execution.now_line) return false;
   if (dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it && !execution.waits) return false;
-  if (!holds(execution) || must_be_read_anew(execution, program, dialect)) return false;
+  if (!holds(execution) || must_be_reread(execution, program, dialect)) return false;
   const Line& line = line_to_run(execution, program, dialect);
   if (ends_for_an_operand(line, dialect)) return false;
   // The line also waits for an axis that has begun to move in the meantime.
@@ -169,7 +169,7 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
           Machine& machine) {
   if (!execution.running) return;
   const bool next_line_runs_at_once = dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it;
-  if (must_be_read_anew(execution, program, dialect)) {
+  if (must_be_reread(execution, program, dialect)) {
     execution = {.running = true,
                  .now_line = execution.now_line,
                  .next_line = execution.now_line,
@@ -209,7 +209,7 @@ std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_m
   if (!execution.running) return kNoSlot;
   const auto first_slot_from = [](std::int64_t ms) { return (ms + kSlotMs - 1) / kSlotMs * kSlotMs; };
   const std::int64_t next = first_slot_from(done_ms + 1);
-  if (must_be_read_anew(execution, program, dialect)) return next;
+  if (must_be_reread(execution, program, dialect)) return next;
   switch (execution.phase) {
     case Phase::delay: return std::max(next, first_slot_from(execution.delay_until_ms));
     case Phase::move: return waited_for_move_goes_on(execution, dialect, machine) ? kNoSlot : next;

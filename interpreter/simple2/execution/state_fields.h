@@ -11,7 +11,7 @@
 namespace understudy::interpreter::simple2 {
 
 /// The parts of a program that describe its differences from another one.
-struct ToldProgram {
+struct ReportedProgram {
   Lines lines{};
   FlagRules flag_rules{};
   FlagLines flag_lines{};
@@ -43,7 +43,7 @@ struct StateOf<interpreter::simple2::FlagRules::AfterEnd> {
 
 template <>
 struct StateOf<interpreter::simple2::FlagRules::Found> {
-  static constexpr auto last = interpreter::simple2::FlagRules::Found::when_told;
+  static constexpr auto last = interpreter::simple2::FlagRules::Found::on_request;
 };
 
 template <>
@@ -80,8 +80,8 @@ struct StateOf<interpreter::simple2::Execution> {
 
 /// A program's lines, and the flags that do not follow from them.
 template <>
-struct StateOf<interpreter::simple2::ToldProgram> {
-  using Value = interpreter::simple2::ToldProgram;
+struct StateOf<interpreter::simple2::ReportedProgram> {
+  using Value = interpreter::simple2::ReportedProgram;
   static constexpr auto fields =
       FieldList{field<&Value::lines>(), field<&Value::flag_rules>(), field<&Value::flag_lines>()};
 };
@@ -90,7 +90,7 @@ template <>
 struct StateOf<interpreter::simple2::Program> {
   static void write(const interpreter::simple2::Program& program, StateWriter& writer);
   static void read(interpreter::simple2::Program& program, StateReader& reader);
-  static interpreter::simple2::ToldProgram told(const interpreter::simple2::Program& program) {
+  static interpreter::simple2::ReportedProgram reported(const interpreter::simple2::Program& program) {
     return {program.lines(), program.flag_rules(), program.flag_lines()};
   }
 };

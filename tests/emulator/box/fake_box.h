@@ -8,7 +8,7 @@
 
 #include "emulator/box/capture/capture.h"
 #include "emulator/models/models.h"
-#include "emulator/play/stages/free_executor.h"
+#include "emulator/play/executors/free_executor.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "pty/rtu_crc.h"
 
@@ -65,10 +65,10 @@ class FakeBox : private pty::LineObserver {
   }
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
-  void on_speech(const pty::Speech& speech) override {
+  void on_transmission(const pty::Transmission& transmission) override {
     Exchange& exchange = capture_.exchanges.back();
-    if (!exchange.replied_at) exchange.replied_at = speech.start;
-    exchange.reply.insert(exchange.reply.end(), speech.bytes.begin(), speech.bytes.end());
+    if (!exchange.replied_at) exchange.replied_at = transmission.start;
+    exchange.reply.insert(exchange.reply.end(), transmission.bytes.begin(), transmission.bytes.end());
   }
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}

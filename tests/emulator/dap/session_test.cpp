@@ -168,7 +168,7 @@ TEST(DapSession, RefusesWrongArgumentsInASentence) {
       for (const Json& value : wrong) {
         client.ask(command, {{key, value}});
         if (client.session().is_running()) client.ask("pause");
-        while (client.session().is_running()) client.session().look();
+        while (client.session().is_running()) client.session().poll();
       }
     }
   }
@@ -204,7 +204,7 @@ TEST(DapSession, EndsWithItsBench) {
   bring_to(client, 'S');
   running.reset();
   EXPECT_NE(client.refusal_of("evaluate", {{"expression", "time"}}).find("control"), std::string::npos);
-  client.session().look();
+  client.session().poll();
   ASSERT_FALSE(client.heard().empty());
   EXPECT_EQ(client.heard().back()["event"], "terminated");
   EXPECT_EQ(client.refusal_of("threads"), "threads: the bench has ended; expected `disconnect`");

@@ -24,7 +24,7 @@ TEST(Facets, AreThoseThatTheDeviceHas) {
   EXPECT_NE(simple2->memory(), nullptr);
   EXPECT_NE(simple2->user_program(), nullptr);
   EXPECT_NE(simple2->axes(), nullptr);
-  EXPECT_EQ(simple2->speaker(), nullptr);
+  EXPECT_EQ(simple2->text_protocol(), nullptr);
   EXPECT_EQ(simple2->named_values(), nullptr);
 
   const auto slim = made(models::slim::model());
@@ -33,7 +33,7 @@ TEST(Facets, AreThoseThatTheDeviceHas) {
   EXPECT_NE(slim->memory(), nullptr);
   EXPECT_NE(slim->user_program(), nullptr);
   EXPECT_NE(slim->axes(), nullptr);
-  EXPECT_NE(slim->speaker(), nullptr);
+  EXPECT_NE(slim->text_protocol(), nullptr);
   EXPECT_NE(slim->named_values(), nullptr);
 }
 

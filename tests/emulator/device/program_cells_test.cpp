@@ -9,7 +9,7 @@ namespace understudy::emulator {
 namespace program_cells_test {
 
 constexpr CellForm kForm{
-    .row = "CODE A B", .fewest = 2, .most = 3, .lowest = -5, .highest = 300, .most_rows = 3};
+    .row = "CODE A B", .fewest = 2, .max = 3, .lowest = -5, .highest = 300, .max_rows = 3};
 
 TEST(ProgramCells, AreReadAsTheyArePrinted) {
   const std::vector<CellRow> rows = read_cells("\n 1\t-5 300\r\n\n0 0\n7 8 9", kForm);

@@ -152,8 +152,8 @@ TEST(Course, WhatIsDrawnAndChangedStaysPossible) {
 )";
   auto scenario = std::make_shared<const play::Scenario>(
       play::parse_scenarios(models::all_models(), text, "scenario.yaml").at(0));
-  Stage stage(scenario, models::all_models(), {});
-  const Ground ground{.plan = stage.plan(), .undisturbed = stage.undisturbed()};
+  CoursePlayer course_player(scenario, models::all_models(), {});
+  const Ground ground{.plan = course_player.plan(), .undisturbed = course_player.undisturbed()};
   for (std::uint64_t number = 0; number < 200; ++number) {
     Dice dice(1, number);
     auto course = draw_disturbances(ground, dice);

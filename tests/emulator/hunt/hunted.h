@@ -82,7 +82,7 @@ inline std::vector<Found> hunted(const HuntFolder& folder, const HuntOptions& op
   std::vector<Found> all;
   hunt.run([&](const Finding& finding) {
     all.push_back({.kind = finding.shrunk.outcome.kind,
-                   .text = text_of_finding(*finding.stage, finding.shrunk, {}, folder / "found"),
+                   .text = text_of_finding(*finding.course_player, finding.shrunk, {}, folder / "found"),
                    .course = finding.course,
                    .shrunk = finding.shrunk.course,
                    .is_minimal = finding.shrunk.is_minimal});

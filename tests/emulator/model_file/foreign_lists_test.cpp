@@ -35,7 +35,7 @@ std::string line_of(const ListedRegister& listed) {
   if (listed.access == Access::read) text += " r";
   if (listed.access == Access::write) text += " w";
   if (listed.ranged)
-    text += " " + value_text(listed.least, listed.type) + ".." + value_text(listed.most, listed.type);
+    text += " " + value_text(listed.min, listed.type) + ".." + value_text(listed.max, listed.type);
   if (listed.factory != 0) text += " =" + value_text(listed.factory, listed.type);
   if (!listed.unit.empty()) text += " " + listed.unit;
   if (listed.persistent) text += " kept";
@@ -290,7 +290,7 @@ TEST(ForeignList, IsReadAgainByItsModel) {
   EXPECT_NE(text.find("list:\n  columns: { name: Tag }\n  addresses: modicon"), std::string::npos) << text;
   EXPECT_EQ(diagnostic_about(model_with(list, "list: { addresses: modicon }\n")), "");
   EXPECT_EQ(diagnostic_about(model_with(list, "list: { addresses: modicn }\n")),
-            "m.yaml:6:20: list.addresses: 'modicn' is not possible; the nearest is 'modicon'");
+            "m.yaml:6:20: list.addresses: 'modicn' is not valid; the nearest is 'modicon'");
   EXPECT_EQ(diagnostic_about(model_with(list, "list: { columns: { nam: Tag } }\n")),
             "m.yaml:6:25: list.columns.nam: 'nam' is not a column; the nearest is 'name'");
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/model_file/model_form.h"
+#include "emulator/model_file/model_schema.h"
 #include "emulator/play/schema/json_schema.h"
 #include "emulator/world/bench/bench_text.h"
 #include "tests/emulator/model_file/described.h"
@@ -94,15 +94,15 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"acceleration_time: RAMP, acceleration: 5", 27,
        "axes.A.acceleration_time: cannot be combined with `acceleration`; expected one of the two"},
       {"pulses_per_count: 0", 26,
-       "axes.A.pulses_per_count: '0' is not possible; expected a whole number above 0, or two as in 25/4"},
+       "axes.A.pulses_per_count: '0' is not valid; expected a whole number above 0, or two as in 25/4"},
       {"pps_per_count: -1", 23,
-       "axes.A.pps_per_count: '-1' is not possible; expected a number above 0, up to 1e9"},
+       "axes.A.pps_per_count: '-1' is not valid; expected a number above 0, up to 1e9"},
       {"home: CONTROL.2, speed: 5", 14,
        "axes.A.home: needs a switch; expected `inputs: { home: ... }` as well"},
       {"inputs: { home: DI1 }", 24,
        "axes.A.inputs.home: 'DI1' is not an input; `inputs` of the model has none"},
       {"while_busy: wait", 20,
-       "axes.A.while_busy: 'wait' is not possible; expected one of replace, ignore, refuse"},
+       "axes.A.while_busy: 'wait' is not valid; expected one of replace, ignore, refuse"},
       {"while_disabled: refuse", 24, "axes.A.while_disabled: has no effect alone; expected `enable` as well"},
   };
   for (const WrongAxis& wrong : kWrong) {
@@ -124,11 +124,11 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
   const WrongPart kWrong[] = {
       {"lines: { }\n", 1, 8, "lines: is not a key here; expected one of understudy, model,"},
       {"line: { baud: 0 }\n", 1, 15,
-       "line.baud: '0' is not possible; expected a whole number from 50 to 4000000"},
+       "line.baud: '0' is not valid; expected a whole number from 50 to 4000000"},
       {"line: { parity: mark }\n", 1, 17,
-       "line.parity: 'mark' is not possible; expected one of none, even, odd"},
+       "line.parity: 'mark' is not valid; expected one of none, even, odd"},
       {"line: { silence: 2s }\n", 1, 18,
-       "line.silence: '2s' is not possible; expected more than 0, up to 1s"},
+       "line.silence: '2s' is not valid; expected more than 0, up to 1s"},
       {"line: { stations: [5, 1] }\n", 1, 19, "line.stations: ends before it begins; expected [1, 247]"},
       {"line: { functions: [3, 7] }\n", 1, 24,
        "line.functions[1]: 7 is not a function that can be served; expected one of 1, 2, 3, 4, 5, 6, "},
@@ -139,7 +139,7 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"line: { most: { 6: 2 } }\n", 1, 20,
        "line.most.6: 2 is more than function 6 can have; expected 1 or fewer"},
       {"line: { silence: 0ms }\n", 1, 18,
-       "line.silence: '0ms' is not possible; expected more than 0, up to 1s"},
+       "line.silence: '0ms' is not valid; expected more than 0, up to 1s"},
       {"outputs: { DO1: STATUS.3 }\nshows: { STATUS.2: SPEED > 5 }\n", 1, 17,
        "outputs.DO1: 'STATUS.3' never changes; expected a register that hosts write, or that shows a value"},
       {"axes: { A: { stop: SPEED == 9001 } }\n", 1, 20,
@@ -148,7 +148,7 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "line.station_in: 'TARGET' cannot hold it; expected a holding register of 16 bits"},
       {"line: { station_in: CONTROL }\n", 1, 21,
        "line.station_in: 'CONTROL' has the default 0; expected one from 1 to 247 (`stations`)"},
-      {"map: { holes: none }\n", 1, 15, "map.holes: 'none' is not possible; expected one of refused, zero"},
+      {"map: { holes: none }\n", 1, 15, "map.holes: 'none' is not valid; expected one of refused, zero"},
       {"bits: { STATUSS: { A: 0 } }\n", 1, 18,
        "bits.STATUSS: 'STATUSS' is not a register of the list; the nearest is "
        "'STATUS'"},
@@ -171,9 +171,9 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"follows: { TEMPERATURE: { of: SPEED, rest: 5 } }\n", 1, 44,
        "follows.TEMPERATURE.rest: has no effect alone; expected `while` as well"},
       {"follows: { TEMPERATURE: { of: SPEED, rate: 0 } }\n", 1, 44,
-       "follows.TEMPERATURE.rate: '0' is not possible; expected a number above 0"},
+       "follows.TEMPERATURE.rate: '0' is not valid; expected a number above 0"},
       {"follows: { TEMPERATURE: { of: SPEED, every: 0ms } }\n", 1, 45,
-       "follows.TEMPERATURE.every: '0ms' is not possible; expected 1ms to 60s"},
+       "follows.TEMPERATURE.every: '0ms' is not valid; expected 1ms to 60s"},
       {"follows: { SPEED: { of: 5 } }\n", 1, 19,
        "follows.SPEED: 'SPEED' is written by hosts; expected a register that they only read (R)"},
       {"shows: { STATUS.1: TEMPERATURE>5 }\n", 1, 20,

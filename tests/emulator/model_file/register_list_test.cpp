@@ -62,9 +62,9 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,table,access\n0,A,input,R/W\n",
        "l.csv:2:11: access: hosts cannot write the table input; expected R"},
       {"address,name,width\n0,A,8\n",
-       "l.csv:2:5: width: '8' is not possible; expected 16 or 32, and 1 in coil and discrete"},
+       "l.csv:2:5: width: '8' is not valid; expected 16 or 32, and 1 in coil and discrete"},
       {"address,name,table,width\n0,A,coil,16\n",
-       "l.csv:2:10: width: '16' is not possible there; expected 1"},
+       "l.csv:2:10: width: '16' is not valid there; expected 1"},
       {"address,name,type\n0,A,u12\n",
        "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another of "
        "docs/import.md"},
@@ -77,12 +77,12 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,min,max\n0,A,5,1\n",
        "l.csv:2:7: max: '1' is below 5; expected a maximum that is not below the minimum"},
       {"address,name,min,max\n0,A,0,65536\n",
-       "l.csv:2:7: max: '65536' is not possible; expected a whole number from 0 to 65535"},
+       "l.csv:2:7: max: '65536' is not valid; expected a whole number from 0 to 65535"},
       {"address,name,range\n0,A,many\n", "l.csv:2:5: range: 'many' is not a range; expected 0..3000"},
       {"address,name,range,min\n0,A,0..3,0\n",
        "l.csv:2:5: range: cannot be combined with min and max; expected one of the two"},
       {"address,name,default\n0,A,x\n",
-       "l.csv:2:5: default: 'x' is not possible; expected a whole number from 0 to 65535"},
+       "l.csv:2:5: default: 'x' is not valid; expected a whole number from 0 to 65535"},
       {"address,name,width,real\n0,A,16,1\n",
        "l.csv:2:8: real: a real number has 32 bits; expected the width 32"},
       {"address,name,type,default\n0,A,f32,x\n", "l.csv:2:9: default: 'x' is not a number; expected one"},
@@ -115,7 +115,7 @@ TEST(RegisterList, TellsAllThatIsWrongAtOnce) {
   EXPECT_EQ(diagnostic_about_list("address,name,access,default\nx,A,R,0\n1,B,Q,y\n2,C,R,0\n"),
             "l.csv:2:1: address: 'x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
             "l.csv:3:5: access: 'Q' is unknown; expected R, W or R/W\n"
-            "l.csv:3:7: default: 'y' is not possible; expected a whole number from 0 to 65535");
+            "l.csv:3:7: default: 'y' is not valid; expected a whole number from 0 to 65535");
 }
 
 TEST(RegisterList, MayBeWrittenInSeveralWays) {
@@ -138,7 +138,7 @@ TEST(RegisterList, MayBeWrittenInSeveralWays) {
     EXPECT_EQ(only.name, "A") << list;
     EXPECT_EQ(only.type, Type::s16) << list;
     EXPECT_EQ(only.access, Access::read_write) << list;
-    EXPECT_TRUE(only.ranged && only.least == -5 && only.most == 5) << list;
+    EXPECT_TRUE(only.ranged && only.min == -5 && only.max == 5) << list;
     EXPECT_EQ(only.factory, 1) << list;
   }
 }

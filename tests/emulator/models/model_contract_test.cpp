@@ -100,8 +100,8 @@ TEST_P(ModelContract, NeverAnswersABroadcast) {
     if (!kept_in.empty()) settings.set = {{std::string(kept_in), 5}};
     const std::unique_ptr<Device> device = make_device(model(), settings);
     ASSERT_EQ(device->station_number(), 5) << firmware;
-    EXPECT_EQ(device->modbus()->addressing(5), Addressing::obey_and_reply) << firmware;
-    EXPECT_NE(device->modbus()->addressing(0), Addressing::obey_and_reply) << firmware;
+    EXPECT_EQ(device->modbus()->addressing(5), Addressing::execute_and_reply) << firmware;
+    EXPECT_NE(device->modbus()->addressing(0), Addressing::execute_and_reply) << firmware;
   }
 }
 

@@ -143,10 +143,10 @@ class Living {
       write_something(*device.register_bank());
     }
   }
-  void live(int acts, std::size_t most_ms) {
+  void live(int acts, std::size_t max_ms) {
     for (int i = 0; i < acts; ++i) {
       act();
-      world.advance_to(world.now() + std::chrono::milliseconds(between(1, most_ms)));
+      world.advance_to(world.now() + std::chrono::milliseconds(between(1, max_ms)));
     }
   }
 

@@ -260,9 +260,9 @@ TEST(PageLooks, AskForNamesByTheNumberThatTheBenchGaveThem) {
   const auto browser = rig.browser();
   browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"it"}}});
   EXPECT_EQ(browser->hear_one("look")["values"]["it"], 5);
-  const auto wait_for = [](const std::atomic<int>& count, int least) {
-    for (int i = 0; i < 300 && count < least; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_GE(count, least);
+  const auto wait_for = [](const std::atomic<int>& count, int min) {
+    for (int i = 0; i < 300 && count < min; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_GE(count, min);
   };
   wait_for(by_number, 5);
   EXPECT_EQ(spelt_out, 1);
@@ -380,21 +380,21 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   const std::string next_key = key == "frames" ? "next_frame" : "next_event";
   PageRig rig;
   std::atomic<int> asked = 0;
-  std::atomic<int> most = 1;
+  std::atomic<int> max = 1;
   const auto answer = [&](const TestJson& message) {
     if (message["do"] != "look" || !message.contains(key)) return std::string(R"({"ok":true})");
     constexpr int kBegin[] = {5, 20, 23, 40};
     constexpr int kEnd[] = {9, 23, 24, 41};
     const int at = asked;
-    const bool is_restored = most == 4;
-    const int begin = at < most ? kBegin[at] : 0;
-    const int end = at < most ? kEnd[at] : 0;
+    const bool is_restored = max == 4;
+    const int begin = at < max ? kBegin[at] : 0;
+    const int end = at < max ? kEnd[at] : 0;
     TestJson reply{
         {"ok", true},     {"pid", 7},        {"simulated_time_ns", at}, {"restores", is_restored ? 1 : 0},
         {"paused", true}, {"speed", "real"}, {"advancing", false},      {key, TestJson::array()}};
     for (int number = begin; number < end; ++number) reply[key].push_back({{"number", number}});
-    reply[next_key] = at < most ? end : kEnd[at - 1];
-    if (at < most) asked = at + 1;
+    reply[next_key] = at < max ? end : kEnd[at - 1];
+    if (at < max) asked = at + 1;
     return reply.dump();
   };
   MadeUpBench bench(rig.socket(), answer);
@@ -412,16 +412,16 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   const auto browser = rig.browser();
   browser->say({{"do", "watch"}, {"bench", 0}, {key, true}});
   EXPECT_EQ(wait_for(*browser, 8), Told({5, 6, 7, 8}, 0)) << "frames before its first look are not missed";
-  most = 2;
+  max = 2;
   EXPECT_EQ(wait_for(*browser, 22), Told({20, 21, 22}, 11));
   // There is also a gap within the frames that the page has stored.
   const auto later = rig.browser();
   later->say({{"do", "watch"}, {"bench", 0}, {key, true}});
   EXPECT_EQ(wait_for(*later, 22), Told({5, 6, 7, 8, 20, 21, 22}, 11));
-  most = 3;
+  max = 3;
   EXPECT_EQ(wait_for(*browser, 23), Told({23}, 0));
   // Events that did not happen, because the world was restored, are not missed.
-  most = 4;
+  max = 4;
   EXPECT_EQ(wait_for(*browser, 40), Told({40}, 0));
 }
 

@@ -27,8 +27,8 @@ class Course {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
   }
   bool one_in(std::int64_t many) { return between(1, many) == 1; }
-  std::int64_t of_any_size(std::int64_t most) {
-    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(most)));
+  std::int64_t of_any_size(std::int64_t max) {
+    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(max)));
     return std::llround(std::exp2(exponent(random_)));
   }
 
@@ -83,7 +83,7 @@ class Course {
       case 4:
       case 5: {
         const auto program = motion::rsm8194h_homing(
-            {.ways = {direction, direction, -direction, 0}, .drive = speed, .home = speed});
+            {.directions = {direction, direction, -direction, 0}, .drive = speed, .home = speed});
         return [=](World& world) { axis(world).home(program, now(world)); };
       }
       case 6: {

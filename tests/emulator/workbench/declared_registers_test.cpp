@@ -98,7 +98,7 @@ Value seen(const Declared& device, Cell cell) {
 void take(Declared& device, Cell cell, Value value) {
   device.views.at(cell.argument)[static_cast<std::size_t>(cell.index)] = value;
 }
-DeviceAnswer hear(Declared& device, Cell, std::span<const std::uint16_t> words) {
+DeviceAnswer receive(Declared& device, Cell, std::span<const std::uint16_t> words) {
   device.messages.emplace_back(words.begin(), words.end());
   return Refusal::none;
 }
@@ -106,7 +106,7 @@ DeviceAnswer hear(Declared& device, Cell, std::span<const std::uint16_t> words) 
 RegisterRow row_of(const Declaration& fact, int number) {
   const auto address = static_cast<std::uint16_t>(fact.address);
   if (fact.held == "window")
-    return emulator::window<hear>(address, fact.name, fact.count).also("Sub_Function_Code");
+    return emulator::window<receive>(address, fact.name, fact.count).also("Sub_Function_Code");
   const Access access = fact.access == "R"   ? Access::read
                         : fact.access == "W" ? Access::write
                                              : Access::read_write;

@@ -97,7 +97,7 @@ int sense(std::size_t motor) { return motor == Motors::kReversed ? -1 : +1; }
 motion::HomingProgram four_steps(std::size_t motor, double pps) {
   const int direction = sense(motor);
   return motion::rsm8194h_homing(
-      {.ways = {-direction, -direction, direction, 0}, .drive = law(pps), .home = law(pps)});
+      {.directions = {-direction, -direction, direction, 0}, .drive = law(pps), .home = law(pps)});
 }
 
 motion::HomingProgram by_mode(std::size_t motor, int mode, double pps) {
@@ -295,7 +295,7 @@ TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
       rig.axis(motor).settings.at_limit_plus = motion::Reaction::ignore;
       rig.axis(motor).settings.at_limit_minus = motion::Reaction::ignore;
       const motion::HomingProgram program = motion::rsm8194h_homing(
-          {.ways = {0, 0, sense(motor) * direction, 0}, .drive = law(4e6), .home = law(4e6)});
+          {.directions = {0, 0, sense(motor) * direction, 0}, .drive = law(4e6), .home = law(4e6)});
       ASSERT_EQ(rig.axis(motor).home(program, rig.device().now()), motion::Cause::none);
       rig.advance(20);
       EXPECT_EQ(rig.place(motor), stop);

@@ -216,13 +216,13 @@ class ProgramReader {
       const bool is_spelled_well = !is_register || word.text.starts_with('D');
       const std::optional<std::int64_t> number =
           parse_integer(std::string_view(word.text).substr(is_register && is_spelled_well ? 1 : 0));
-      const std::int64_t least = row.name == "target" ? -1'000'000 : 0;
-      const std::int64_t most = is_register            ? 124
-                                : row.name == "target" ? 1'000'000
-                                : row.name == "ms"     ? 60'000
-                                                       : 65'535;
+      const std::int64_t min = row.name == "target" ? -1'000'000 : 0;
+      const std::int64_t max = is_register            ? 124
+                               : row.name == "target" ? 1'000'000
+                               : row.name == "ms"     ? 60'000
+                                                      : 65'535;
       const std::int64_t value = number.value_or(INT64_MIN);
-      if (is_spelled_well && value >= least && value <= most) return value;
+      if (is_spelled_well && value >= min && value <= max) return value;
     }
     fail(word.column, std::string(row.name) + ": " + quoted(word.text) + " is not one; expected " +
                           std::string(row.values));
@@ -297,10 +297,10 @@ class WorkbenchLanguage final : public ProgramLanguage, public ProgramCells {
   CellForm cell_form() const override {
     return {.row = "AREA CODE OPERANDS",
             .fewest = 2,
-            .most = 4,
+            .max = 4,
             .lowest = INT32_MIN,
             .highest = INT32_MAX,
-            .most_rows = 16};
+            .max_rows = 16};
   }
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const override {
     const ProgramReader reader = read(text, settings);

@@ -87,7 +87,7 @@ class Motors {
     environment = now;
   }
 
-  void look_at_inputs(const Device& device) {
+  void check_inputs(const Device& device) {
     for (std::size_t i = 0; i < kMotorCount; ++i) update_environment(device, i);
     const std::int32_t turned = difference(device.input(kHandWheel), state.wheel_seen);
     state.wheel_seen = device.input(kHandWheel);
@@ -120,15 +120,14 @@ class Motors {
     });
   }
 
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
-    Tick last = most;
+  Tick next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const {
+    Tick last = max;
     for (std::size_t i = 0; i < kMotorCount && last > done; ++i) {
       const motion::Axis& axis = state.motors[i].axis;
       PulseRoom room = ahead.room(static_cast<int>(i));
-      if (i == kReversed) room = {.least = -room.most, .most = -room.least};
-      last =
-          axis.quiet_until(done + 1, last, state.motors[i].environment,
-                           {.low = axis.travel_pulses + room.least, .high = axis.travel_pulses + room.most});
+      if (i == kReversed) room = {.min = -room.max, .max = -room.min};
+      last = axis.quiet_until(done + 1, last, state.motors[i].environment,
+                              {.low = axis.travel_pulses + room.min, .high = axis.travel_pulses + room.max});
     }
     return last + 1;
   }

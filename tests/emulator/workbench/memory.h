@@ -35,9 +35,9 @@ inline std::string why_not_area(const std::string& name) {
 
 inline constexpr std::size_t kLongestFile = 8192;
 inline constexpr BlockKind kBlocks[] = {
-    {.name = "files", .most = 100, .longest = kLongestFile, .why_not_called = why_not_number},
-    {.name = "recipes", .most = 10, .longest = 200, .why_not_called = why_not_number},
-    {.name = "areas", .most = 2, .longest = 4096, .why_not_called = why_not_area}};
+    {.name = "files", .max = 100, .longest = kLongestFile, .why_not_called = why_not_number},
+    {.name = "recipes", .max = 10, .longest = 200, .why_not_called = why_not_number},
+    {.name = "areas", .max = 2, .longest = 4096, .why_not_called = why_not_area}};
 
 struct Kept {
   Eeprom eeprom;

@@ -35,7 +35,7 @@ struct OneStation final : pty::Transmitter {
     pty::append_rtu_crc(frame);
     said.clear();
     for (const std::uint8_t value : frame) {
-      station->hear({.start = now, .end = now + kCharacter, .value = value});
+      station->receive({.start = now, .end = now + kCharacter, .value = value});
       now += kCharacter;
     }
     for (int runs = 0; station->due() && runs < 100; ++runs) {

@@ -6,13 +6,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "emulator/play/executors/modbus_host.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/performance_recorder.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/recording/replay.h"
@@ -138,7 +138,7 @@ TEST(Plays, AreRecordedAndReplayed) {
     };
     const world::Replayed replayed = world::replay(kModels, file, result.recording, {}, {}, look);
     EXPECT_EQ(replayed.result.verdict, world::ReplayResult::Verdict::same) << replayed.result.difference;
-    EXPECT_GT(replayed.result.bytes_said, 10U);
+    EXPECT_GT(replayed.result.bytes_sent, 10U);
   }
   std::filesystem::remove_all(folder);
 }

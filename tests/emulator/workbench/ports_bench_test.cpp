@@ -121,7 +121,7 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
        "bench.yaml:4:56: lines.b.stations[0].address: the device has one station number, and on another line "
        "it is 5; expected the same"},
       {lines_ab(mill, "{ device: mill, port: HMI, address: 248 }", one),
-       "bench.yaml:4:56: lines.b.stations[0].address: '248' is not possible; expected a whole number from 0 "
+       "bench.yaml:4:56: lines.b.stations[0].address: '248' is not valid; expected a whole number from 0 "
        "to 247"},
       {lines_ab(mill, "{ device: mill, port: HMI }, { device: lathe, address: 2 }", devices),
        "bench.yaml:4:49: lines.b.stations[1]: 'mill' is on this line with HMI, an RS232 port, and must be "

@@ -195,7 +195,7 @@ TEST(TwoHosts, AreRecordedAndPlayedAgain) {
                                      [&](world::World& played) { hash = world::hash(played); });
     EXPECT_EQ(again.result.verdict, world::ReplayResult::Verdict::same) << again.result.difference;
     EXPECT_EQ(hash, world::hash(busy.two.world)) << "seed " << seed;
-    EXPECT_GT(again.result.bytes_said, 500U);
+    EXPECT_GT(again.result.bytes_sent, 500U);
     EXPECT_GT(busy.two.mill().state.receive_errors[0], 3U);
     EXPECT_GT(busy.two.mill().state.receive_errors[1], 3U);
   }

@@ -1,10 +1,10 @@
 // Scenarios of a device on two lines: `via`, in virtual time and over real ports.
 #include <gtest/gtest.h>
 
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/real_executor.h"
 #include "tests/emulator/workbench/two_lines.h"
 
 namespace understudy::emulator::workbench {

@@ -74,8 +74,8 @@ const Case kCases[] = {
     {word().shows<last_cause, Varies::in_ticks>(),
      "is a view that can be written, but nothing handles the write"},
     {word().always(1), "is a view that can be written, but nothing handles the write"},
-    {with(command(), [](RegisterRow& row) { row.least_words = 6; }), "is not a window of words"},
-    {with(command(), [](RegisterRow& row) { row.least_words = 0; }), "is not a window of words"},
+    {with(command(), [](RegisterRow& row) { row.min_words = 6; }), "is not a window of words"},
+    {with(command(), [](RegisterRow& row) { row.min_words = 0; }), "is not a window of words"},
     {with(command(), [](RegisterRow& row) { row.stride = 2; }), "is not a window of words"},
     {with(command(), [](RegisterRow& row) { row.access = Access::read_write; }),
      "is a window, which only takes messages"},
@@ -127,7 +127,7 @@ TEST(RowSense, WhatIsAtTheEdgeIsTaken) {
       reg(2, "Axis_{}", Type::u16, Access::read_write).each(kTwo, 1, 2),
       word("Logic Position 3").holding_bits(1),
       command().also("Code"),
-      with(command(), [](RegisterRow& row) { row.least_words = 5; }),  // all of it, and no less
+      with(command(), [](RegisterRow& row) { row.min_words = 5; }),  // all of it, and no less
       word().range(7, 7).from_factory(7),
   };
   for (const RegisterRow& row : rows) EXPECT_NO_THROW(RegisterMap(std::span(&row, 1), {})) << row.name;

@@ -7,7 +7,7 @@
 #include "emulator/serve/control/messages.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench_file/bench_file.h"
-#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "pty/rtu_crc.h"
 #include "tests/emulator/workbench/workbench.h"
 #include "tests/emulator/world/stations/pdus.h"

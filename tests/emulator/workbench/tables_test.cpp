@@ -153,33 +153,33 @@ TEST(Tables, CountsGoFromOneToTheLimitOfTheFunction) {
   struct Limit {
     int code;
     std::size_t address;
-    std::size_t most;
+    std::size_t max;
     std::size_t bytes;  // of this many
   };
   for (const Limit& limit : {Limit{0x01, 0x1000, 2000, 250}, Limit{0x03, 0x64, 125, 250}}) {
     const std::string name = head(limit.code, 0, 0).substr(0, 2);
-    const std::string most = world::answer(*device, world::hex(head(limit.code, limit.address, limit.most)));
-    EXPECT_EQ(most.size(), 3 * (2 + limit.bytes) - 1) << name;
-    EXPECT_EQ(most.substr(0, 5), name + " FA");
+    const std::string max = world::answer(*device, world::hex(head(limit.code, limit.address, limit.max)));
+    EXPECT_EQ(max.size(), 3 * (2 + limit.bytes) - 1) << name;
+    EXPECT_EQ(max.substr(0, 5), name + " FA");
   }
   for (const Limit& limit : {Limit{0x01, 0x1000, 2000, 0}, Limit{0x02, 0, 2000, 0}, Limit{0x03, 0, 125, 0},
                              Limit{0x04, 0, 125, 0}}) {
     const std::string refused = world::text(Bytes{static_cast<std::uint8_t>(limit.code | 0x80)});
     for (const std::size_t address : {limit.address, std::size_t{0xFFFF}}) {
-      for (const std::size_t count : {std::size_t{0}, limit.most + 1, std::size_t{0xFFFF}}) {
+      for (const std::size_t count : {std::size_t{0}, limit.max + 1, std::size_t{0xFFFF}}) {
         EXPECT_EQ(world::answer(*device, world::hex(head(limit.code, address, count))), refused + " 03");
       }
-      EXPECT_EQ(world::answer(*device, world::hex(head(limit.code, 0xFFFF, limit.most))), refused + " 02");
+      EXPECT_EQ(world::answer(*device, world::hex(head(limit.code, 0xFFFF, limit.max))), refused + " 02");
     }
   }
   for (const Limit& limit : {Limit{0x0F, 0x1000, 1968, 246}, Limit{0x10, 0x64, 123, 246}}) {
-    const std::string good = write_of(limit.code, limit.address, limit.most, limit.bytes, limit.bytes);
+    const std::string good = write_of(limit.code, limit.address, limit.max, limit.bytes, limit.bytes);
     EXPECT_EQ(world::answer(*device, world::hex(good)), good.substr(0, 14));
     const std::string refused = world::text(Bytes{static_cast<std::uint8_t>(limit.code | 0x80)});
     const std::size_t beyond = limit.code == 0x0F ? 247 : 248;
     for (const std::string& request :
          {write_of(limit.code, limit.address, 0, 0, 0), write_of(limit.code, 0xFFFF, 0, 0, 0),
-          write_of(limit.code, limit.address, limit.most + 1, beyond, 246)}) {
+          write_of(limit.code, limit.address, limit.max + 1, beyond, 246)}) {
       EXPECT_EQ(world::answer(*device, world::hex(request)), refused + " 03") << request;
     }
   }

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "emulator/device/command_window.h"
+#include "emulator/play/executors/modbus_host.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/real_executor.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/frames/frame_log.h"
 #include "pty/rtu_crc.h"

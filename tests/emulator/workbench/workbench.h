@@ -144,8 +144,8 @@ class Workbench final : public DeviceOf<Workbench>,
     Device::warn_not_implemented(row.name, row.not_implemented);
   }
   Addressing addressing(std::uint8_t address) const override {
-    if (address == stored(station_)) return Addressing::obey_and_reply;
-    return address == 0 ? Addressing::obey_silently : Addressing::ignore;
+    if (address == stored(station_)) return Addressing::execute_and_reply;
+    return address == 0 ? Addressing::execute_silently : Addressing::ignore;
   }
   void receive_failed(std::size_t port, pty::ReceiveError error) override {
     ++state.receive_errors[port];
@@ -192,12 +192,12 @@ class Workbench final : public DeviceOf<Workbench>,
     motors_.set_edges(*this, static_cast<std::size_t>(axis), edges);
   }
   void sample_inputs(Tick) override {
-    if (take_inputs_changed()) motors_.look_at_inputs(*this);
+    if (take_inputs_changed()) motors_.check_inputs(*this);
   }
   void step_motion(Tick tick) override { motors_.step(tick); }
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const override {
+  Tick next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const override {
     if (module_moves() || inputs_changed()) return done + 1;
-    return std::min(motors_.next_event_tick(done, most, ahead), next_kept_tick(done));
+    return std::min(motors_.next_event_tick(done, max, ahead), next_kept_tick(done));
   }
   void fast_forward_to(Tick, Tick tick, const ClearTravel&, std::span<std::int64_t> pulses) override {
     motors_.fast_forward_to(tick, pulses);

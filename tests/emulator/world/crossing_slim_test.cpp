@@ -88,7 +88,7 @@ class RandomDialogue {
   }
 
  private:
-  std::string number(std::int64_t most) { return std::to_string(between(0, most)); }
+  std::string number(std::int64_t max) { return std::to_string(between(0, max)); }
 
   std::string line() {
     const std::string module = one_in(2) ? "" : one_in(2) ? "T1" : "T2";

@@ -185,9 +185,9 @@ class Course {
   /// "3-9"
   std::string answer(std::string_view asked) {
     const std::size_t dash = asked.find('-');
-    const int least = std::stoi(std::string(asked.substr(0, dash)));
-    const int most = std::stoi(std::string(asked.substr(dash + 1)));
-    return std::to_string(least + below(most - least + 1));
+    const int min = std::stoi(std::string(asked.substr(0, dash)));
+    const int max = std::stoi(std::string(asked.substr(dash + 1)));
+    return std::to_string(min + below(max - min + 1));
   }
 
   /// One in four is not the default.
@@ -246,7 +246,7 @@ class Course {
   void say() {
     const std::string text = any(language_.said);
     Device& device = world_.device(0);
-    if (device.speaker() != nullptr && below(2) == 0) {
+    if (device.text_protocol() != nullptr && below(2) == 0) {
       const std::string line = text + "\r";
       world_.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
     } else if (text.size() > 1) {
@@ -266,7 +266,7 @@ class Course {
       case 3:
         if (!kept_ || below(2) != 0) break;
         restore(world_, *kept_);
-        if (debugging_) debugging_->debugger.begin_anew();
+        if (debugging_) debugging_->debugger.restart();
         break;
       case 4: {
         const std::string terminal = any(language_.inputs);

@@ -146,7 +146,7 @@ TEST(RestingWatchers, SeeAllNamesOfASlimAsByTicks) {
 TEST(RestingWatchers, OfAnIdleDayCostAFewLooks) {
   struct Count final : TickWatcher {
     void on_tick(Tick) override { ++looks; }
-    Tick next_look(Tick) const override { return kNever; }
+    Tick next_poll(Tick) const override { return kNever; }
     int looks = 0;
   };
   World world = make_world();
@@ -180,7 +180,7 @@ TEST(RestingWatchers, SeeWhatOneOfThemDoes) {
     void on_tick(Tick tick) override {
       if (tick == 1000) world.set_external_input(0, 3, 1);
     }
-    Tick next_look(Tick done) const override { return done < 1000 ? 1000 : kNever; }
+    Tick next_poll(Tick done) const override { return done < 1000 ? 1000 : kNever; }
     World& world;
   };
   std::string texts[2];

@@ -68,8 +68,8 @@ TEST(RsM8194hCommands, HaveTheParametersOfTheManual) {
                                                    {"F32", Width::real}};
       EXPECT_EQ(parameter.width, widths.at(one.type)) << one.name;
       if (!one.has_range()) continue;
-      EXPECT_EQ(parameter.least, one.least) << one.name;
-      EXPECT_EQ(parameter.most, one.most) << one.name;
+      EXPECT_EQ(parameter.min, one.min) << one.name;
+      EXPECT_EQ(parameter.max, one.max) << one.name;
       ++count;
     }
   }

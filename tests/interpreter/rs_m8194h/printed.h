@@ -27,8 +27,8 @@ struct Allowed {
   int registers = 1;
   std::string type;
   std::string rule;
-  std::int64_t least = 0;
-  std::int64_t most = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
   std::vector<std::int64_t> list = {};
 
   bool has_range() const { return rule == "number" && list.empty(); }
@@ -42,8 +42,8 @@ inline std::map<int, std::vector<Allowed>> allowed() {
                 .registers = std::stoi(fact.at("registers")),
                 .type = fact.at("type"),
                 .rule = fact.at("rule")};
-    if (!fact.at("least").empty()) one.least = std::stoll(fact.at("least"));
-    if (!fact.at("most").empty()) one.most = std::stoll(fact.at("most"));
+    if (!fact.at("least").empty()) one.min = std::stoll(fact.at("least"));
+    if (!fact.at("most").empty()) one.max = std::stoll(fact.at("most"));
     std::string list = fact.at("list");
     while (!list.empty()) {
       std::size_t used = 0;
@@ -92,14 +92,14 @@ inline std::vector<std::uint16_t> good_registers(std::uint16_t code, const std::
   std::vector<std::uint16_t> registers = {code};
   std::int64_t axis = 1;
   for (const Allowed& one : parameters) {
-    std::int64_t value = one.list.empty() ? one.least : one.list.front();
+    std::int64_t value = one.list.empty() ? one.min : one.list.front();
     if (one.rule.starts_with("one axis")) {
       value = axis;
       axis *= 2;
     }
     if (one.rule == "operator") value = one.type == "W" ? 0x3C : '+';
     if (one.rule == "any" || one.rule == "if used") value = 1;
-    if (one.name == "Lp" || one.name == "Wp") value = one.most;
+    if (one.name == "Lp" || one.name == "Wp") value = one.max;
     const auto bits = static_cast<std::uint32_t>(value);
     if (one.registers == 2) registers.push_back(static_cast<std::uint16_t>(bits >> 16U));
     registers.push_back(static_cast<std::uint16_t>(bits));

@@ -71,9 +71,9 @@ class RandomMacros {
   int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   bool is_one_in(int count) { return below(count) == 0; }
 
-  Macro make(const MacroName& name, int most_lines) {
+  Macro make(const MacroName& name, int max_lines) {
     Download download{.name = name};
-    const int count = 1 + below(most_lines);
+    const int count = 1 + below(max_lines);
     for (int i = 0; i < count; ++i) {
       const Command command = any_line(name.is_isr);
       const bool is_allowed = name.is_isr ? command.row().use.in_isr : command.row().use.in_mp;
@@ -99,9 +99,7 @@ class RandomMacros {
   }
   static std::uint32_t variable(int number) { return 0x7FFF0000U + static_cast<std::uint32_t>(number); }
   std::uint32_t any_variable() { return variable(below(6)); }
-  std::uint32_t small(int least, int most) {
-    return static_cast<std::uint32_t>(least + below(most - least + 1));
-  }
+  std::uint32_t small(int min, int max) { return static_cast<std::uint32_t>(min + below(max - min + 1)); }
   std::uint32_t operand() {
     if (is_one_in(2)) return any_variable();
     return is_one_in(12) ? small(1'999'999'990, 2'000'000'000) : small(-4, 9);

@@ -137,14 +137,14 @@ TEST(RsM8194hWindow, RangesEndWhereTheManualSays) {
         const Fault beyond = (code & 0xFF) == 0xD4 ? Fault::none : Fault::parameter;
         const bool is_side = one.name == "Lp" || one.name == "Wp";
         const bool is_radius = one.name == "Rp";
-        EXPECT_EQ(fault(one.least), is_side ? Fault::parameter : Fault::none);
-        EXPECT_EQ(fault(one.most), is_radius ? Fault::parameter : Fault::none);
+        EXPECT_EQ(fault(one.min), is_side ? Fault::parameter : Fault::none);
+        EXPECT_EQ(fault(one.max), is_radius ? Fault::parameter : Fault::none);
         const std::int64_t limit = one.registers == 1 ? 0xFFFF : one.type == "U32" ? 0xFFFFFFFF : INT32_MAX;
-        if (one.most < limit) {
-          EXPECT_EQ(fault(one.most + 1), beyond);
+        if (one.max < limit) {
+          EXPECT_EQ(fault(one.max + 1), beyond);
         }
-        if (one.type == "I32" || one.least > 0) {
-          EXPECT_EQ(fault(one.least - 1), beyond);
+        if (one.type == "I32" || one.min > 0) {
+          EXPECT_EQ(fault(one.min - 1), beyond);
         }
         ++count;
       });
@@ -175,7 +175,7 @@ TEST(RsM8194hWindow, AxesAreTheMasksOfTheManualsTables) {
         }
         for (int value = 0; value <= 0x12F; ++value) {
           registers[at] = static_cast<std::uint16_t>(value);
-          bool is_good = is_mask && value >= 1 && value <= one.most;
+          bool is_good = is_mask && value >= 1 && value <= one.max;
           if (is_setting && value > 0x10 && value < 0x20) is_good = true;
           if (is_one && (value == 1 || value == 2 || value == 4 || value == 8)) {
             // The others of the command are 1, 2 and so on, in its first registers.
@@ -239,7 +239,7 @@ TEST(RsM8194hWindow, ReferencesStandInMacroLinesOnly) {
         const bool takes = is_macro_code(code) && !is_structure;
         const std::int64_t reference = one.registers == 1 ? 0x80 + 127 : 0x7FFF0000 + 511;
         printed::put(registers, at, one.registers, reference);
-        if (one.rule == "any" || one.most > reference) {
+        if (one.rule == "any" || one.max > reference) {
           EXPECT_EQ(fault_of(registers), Fault::none);
         } else {
           EXPECT_EQ(fault_of(registers), takes ? Fault::none : Fault::parameter);

@@ -135,14 +135,14 @@ ProgramRun waiting_run(const Line& line, Dialect::RewrittenLine reading) {
 TEST(Simple2OtherReadings, ARewrittenLineIsReadAnewOrWaitsOn) {
   using enum Dialect::RewrittenLine;
   for (const Line& line : kWaitingLines) {
-    for (const auto reading : {read_anew, waits_on}) {
+    for (const auto reading : {reread, waits_on}) {
       ProgramRun run = waiting_run(line, reading);
       run.program.set_cell(0, 0x00);  // NOP
       const auto next = next_active_slot_ms(run.execution, 18, run.program, run.dialect, run.machine);
-      EXPECT_EQ(next == 20, reading == read_anew) << int{line.command};
+      EXPECT_EQ(next == 20, reading == reread) << int{line.command};
       run.until(40);
       EXPECT_EQ(run.execution.running, reading == waits_on) << int{line.command};
-      EXPECT_EQ(run.machine.parameters[0], reading == read_anew ? 1 : 0) << int{line.command};
+      EXPECT_EQ(run.machine.parameters[0], reading == reread ? 1 : 0) << int{line.command};
       // The end of its wait: DIN_10, the end of the move, the end of the delay.
       run.machine.inputs = 1 << 10;
       run.machine.moving_a = false;
@@ -155,7 +155,7 @@ TEST(Simple2OtherReadings, ARewrittenLineIsReadAnewOrWaitsOn) {
 
 TEST(Simple2OtherReadings, AFlagGivenToAWaitingLineDoesNotEndIt) {
   for (const Line& line : kWaitingLines) {
-    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::read_anew);
+    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::reread);
     run.program.set_cell(3, 7);
     run.until(40);
     EXPECT_EQ(run.execution.now_line, 0) << int{line.command};
@@ -165,7 +165,7 @@ TEST(Simple2OtherReadings, AFlagGivenToAWaitingLineDoesNotEndIt) {
 
 TEST(Simple2OtherReadings, ALineInPlaceOfAWaitingOneRuns) {
   for (const Line& line : kWaitingLines) {
-    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::read_anew);
+    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::reread);
     run.program.set_cell(0, 0xFF);
     run.until(22);
     EXPECT_EQ(run.execution.ending, Ending::end_instruction) << int{line.command};

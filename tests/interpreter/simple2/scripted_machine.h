@@ -121,9 +121,9 @@ struct ProgramRun {
   void until(std::int64_t ms) {
     while (next_slot_ms < ms) slot();
   }
-  /// Runs slots until the program ends, but at most `most`.
-  void to_the_end(int most = 10000) {
-    while (execution.running && most-- > 0) slot();
+  /// Runs slots until the program ends, but at most `max`.
+  void to_the_end(int max = 10000) {
+    while (execution.running && max-- > 0) slot();
     EXPECT_FALSE(execution.running) << "still in line " << int{execution.now_line};
   }
 };

@@ -26,8 +26,8 @@ std::int64_t next_line_after_delay_ms(int amount_ms, Dialect::DelayCounts counts
                   {0x00, 0, 0, 0},
                   {0xFF, 0, 0, 0}}));
   run.dialect.delay_counts = counts;
-  int most = 50000;
-  while (run.execution.now_line == 0 && most-- > 0) run.slot();
+  int max = 50000;
+  while (run.execution.now_line == 0 && max-- > 0) run.slot();
   return run.next_slot_ms - kSlotMs;
 }
 

@@ -8,7 +8,7 @@ namespace editor_test {
 
 using Lines = std::vector<std::string>;
 
-struct Desk {
+struct EditRig {
   Error give(std::string_view text) {
     if (is_editing(editor)) return enter_line(editor, program, text);
     const ParseResult result = parse_line(text);
@@ -24,116 +24,116 @@ struct Desk {
 
 TEST(SlimEditor, NewProgramsAndFurtherLines) {
   for (const std::string end : {"", "  ", "EXIT", "exit ", "\x1B", "MA 5\x1B"}) {
-    Desk desk;
-    desk.give_all({"PG", " MA 100 ", "$a wt 5", end});
-    EXPECT_FALSE(is_editing(desk.editor)) << end;
-    EXPECT_EQ(desk.program.texts(), (Lines{"MA 100", "$a wt 5"}));
-    desk.give_all({"PA", "DN", end});
-    EXPECT_EQ(desk.program.texts(), (Lines{"MA 100", "$a wt 5", "DN"}));
-    desk.give_all({"PG", end});
-    EXPECT_EQ(desk.program.size(), 0);
+    EditRig rig;
+    rig.give_all({"PG", " MA 100 ", "$a wt 5", end});
+    EXPECT_FALSE(is_editing(rig.editor)) << end;
+    EXPECT_EQ(rig.program.texts(), (Lines{"MA 100", "$a wt 5"}));
+    rig.give_all({"PA", "DN", end});
+    EXPECT_EQ(rig.program.texts(), (Lines{"MA 100", "$a wt 5", "DN"}));
+    rig.give_all({"PG", end});
+    EXPECT_EQ(rig.program.size(), 0);
   }
 }
 
 TEST(SlimEditor, SingleLines) {
-  Desk desk;
-  desk.give_all({"PG", "SET P1", "SET P2", "SET P3", ""});
-  desk.give_all({"PE 1", "CLR P2"});
-  EXPECT_FALSE(is_editing(desk.editor));
-  EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
-  desk.give_all({"PI 0", "DN", "PI 4", "RET"});
-  EXPECT_EQ(desk.program.texts(), (Lines{"DN", "SET P1", "CLR P2", "SET P3", "RET"}));
-  desk.give_all({"PD 0", "PD 3"});
-  EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
-  desk.give_all({"PE 0", ""});  // unchanged
-  EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
-  EXPECT_EQ(desk.program.listing(), (Lines{"0: SET P1", "1: CLR P2", "2: SET P3"}));
+  EditRig rig;
+  rig.give_all({"PG", "SET P1", "SET P2", "SET P3", ""});
+  rig.give_all({"PE 1", "CLR P2"});
+  EXPECT_FALSE(is_editing(rig.editor));
+  EXPECT_EQ(rig.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
+  rig.give_all({"PI 0", "DN", "PI 4", "RET"});
+  EXPECT_EQ(rig.program.texts(), (Lines{"DN", "SET P1", "CLR P2", "SET P3", "RET"}));
+  rig.give_all({"PD 0", "PD 3"});
+  EXPECT_EQ(rig.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
+  rig.give_all({"PE 0", ""});  // unchanged
+  EXPECT_EQ(rig.program.texts(), (Lines{"SET P1", "CLR P2", "SET P3"}));
+  EXPECT_EQ(rig.program.listing(), (Lines{"0: SET P1", "1: CLR P2", "2: SET P3"}));
   for (const std::string_view wrong : {"PE 3", "PI 4", "PD 3", "PD 1000"}) {
-    EXPECT_EQ(desk.give(wrong), Error::range) << wrong;
-    EXPECT_FALSE(is_editing(desk.editor)) << wrong;
+    EXPECT_EQ(rig.give(wrong), Error::range) << wrong;
+    EXPECT_FALSE(is_editing(rig.editor)) << wrong;
   }
 }
 
 TEST(SlimEditor, LabelsAreFoundWhereTheyAreAfterChanges) {
-  Desk desk;
-  desk.give_all({"PG", "JP $B", "$A SET P1", "$B SET P2", ""});
+  EditRig rig;
+  rig.give_all({"PG", "JP $B", "$A SET P1", "$B SET P2", ""});
   const Operand label = parse_line("JP $b").line.command->operands[0];
-  EXPECT_EQ(desk.program.find(label), 2);
-  desk.give_all({"PI 0", "WT 5"});
-  EXPECT_EQ(desk.program.find(label), 3);
-  desk.give_all({"PD 3"});
-  EXPECT_EQ(desk.program.find(label), std::nullopt);
+  EXPECT_EQ(rig.program.find(label), 2);
+  rig.give_all({"PI 0", "WT 5"});
+  EXPECT_EQ(rig.program.find(label), 3);
+  rig.give_all({"PD 3"});
+  EXPECT_EQ(rig.program.find(label), std::nullopt);
 }
 
 TEST(SlimEditor, WrongLinesAreNotStored) {
-  Desk desk;
-  desk.give_all({"PG", "SET P1"});
-  EXPECT_EQ(desk.give("SET P5"), Error::range);
-  EXPECT_EQ(desk.give("NONSENSE"), Error::syntax);
-  EXPECT_EQ(desk.give("?PE"), Error::not_allowed);
-  EXPECT_EQ(desk.give("G"), Error::not_allowed);
-  EXPECT_EQ(desk.give("PL"), Error::not_allowed);
-  EXPECT_EQ(desk.give("END"), Error::syntax);
-  desk.give_all({"SET P2", ""});
-  EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "SET P2"}));
-  desk.give_all({"PE 0"});
-  EXPECT_EQ(desk.give("SET P5"), Error::range);
-  EXPECT_TRUE(is_editing(desk.editor));
-  EXPECT_EQ(desk.give("PE 1"), Error::not_allowed);
-  desk.give_all({"EXIT", "PI 1"});
-  EXPECT_EQ(desk.give("SET P5"), Error::range);
-  desk.give_all({""});
-  EXPECT_FALSE(is_editing(desk.editor));
-  EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "SET P2"}));
+  EditRig rig;
+  rig.give_all({"PG", "SET P1"});
+  EXPECT_EQ(rig.give("SET P5"), Error::range);
+  EXPECT_EQ(rig.give("NONSENSE"), Error::syntax);
+  EXPECT_EQ(rig.give("?PE"), Error::not_allowed);
+  EXPECT_EQ(rig.give("G"), Error::not_allowed);
+  EXPECT_EQ(rig.give("PL"), Error::not_allowed);
+  EXPECT_EQ(rig.give("END"), Error::syntax);
+  rig.give_all({"SET P2", ""});
+  EXPECT_EQ(rig.program.texts(), (Lines{"SET P1", "SET P2"}));
+  rig.give_all({"PE 0"});
+  EXPECT_EQ(rig.give("SET P5"), Error::range);
+  EXPECT_TRUE(is_editing(rig.editor));
+  EXPECT_EQ(rig.give("PE 1"), Error::not_allowed);
+  rig.give_all({"EXIT", "PI 1"});
+  EXPECT_EQ(rig.give("SET P5"), Error::range);
+  rig.give_all({""});
+  EXPECT_FALSE(is_editing(rig.editor));
+  EXPECT_EQ(rig.program.texts(), (Lines{"SET P1", "SET P2"}));
 }
 
 TEST(SlimEditor, UploadAndDownloadAreInverse) {
-  Desk desk;
-  desk.give_all({"PG", "$A SET P1", "OUT \"END\"", "JP $A", ""});
-  const Lines sent = desk.program.upload();
+  EditRig rig;
+  rig.give_all({"PG", "$A SET P1", "OUT \"END\"", "JP $A", ""});
+  const Lines sent = rig.program.upload();
   EXPECT_EQ(sent, (Lines{"$A SET P1", "OUT \"END\"", "JP $A", "END"}));
 
-  Desk other;
+  EditRig other;
   other.give_all({"PG", "DN", "", "DLP"});
   EXPECT_EQ(other.program.size(), 0);
   other.give_all({"", "  "});  // empty lines of a file
   other.give_all(sent);
   EXPECT_FALSE(is_editing(other.editor));
-  EXPECT_EQ(other.program, desk.program);
+  EXPECT_EQ(other.program, rig.program);
   other.give_all({"DLP", "SET P1", "exit"});
   EXPECT_EQ(other.program.texts(), (Lines{"SET P1"}));
 }
 
 TEST(SlimEditor, AThousandLinesFit) {
-  Desk desk;
-  desk.give_all({"PG"});
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(desk.give("DN"), Error::none);
-  EXPECT_EQ(desk.give("DN"), Error::buffer_full);
-  EXPECT_EQ(desk.program.size(), 1000);
-  desk.give_all({""});
-  EXPECT_EQ(desk.give("PI 0"), Error::buffer_full);
-  desk.give_all({"PE 999", "RET"});
-  EXPECT_EQ(desk.program.line(999).text, "RET");
+  EditRig rig;
+  rig.give_all({"PG"});
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(rig.give("DN"), Error::none);
+  EXPECT_EQ(rig.give("DN"), Error::buffer_full);
+  EXPECT_EQ(rig.program.size(), 1000);
+  rig.give_all({""});
+  EXPECT_EQ(rig.give("PI 0"), Error::buffer_full);
+  rig.give_all({"PE 999", "RET"});
+  EXPECT_EQ(rig.program.line(999).text, "RET");
 }
 
 TEST(SlimEditor, TellsTheNextLinesNumber) {
-  Desk desk;
-  EXPECT_EQ(next_line_number(desk.editor, desk.program), std::nullopt);
-  desk.give_all({"PG", "DN"});
-  EXPECT_EQ(next_line_number(desk.editor, desk.program), 1);
-  desk.give_all({"", "PI 0"});
-  EXPECT_EQ(next_line_number(desk.editor, desk.program), 0);
+  EditRig rig;
+  EXPECT_EQ(next_line_number(rig.editor, rig.program), std::nullopt);
+  rig.give_all({"PG", "DN"});
+  EXPECT_EQ(next_line_number(rig.editor, rig.program), 1);
+  rig.give_all({"", "PI 0"});
+  EXPECT_EQ(next_line_number(rig.editor, rig.program), 0);
 }
 
 TEST(SlimProgram, IsRestoredFromItsTexts) {
-  Desk desk;
-  desk.give_all({"PG", "$A SET P1", "JP $A", ""});
+  EditRig rig;
+  rig.give_all({"PG", "$A SET P1", "JP $A", ""});
   Program restored;
-  EXPECT_TRUE(restored.set_texts(desk.program.texts()));
-  EXPECT_EQ(restored, desk.program);
+  EXPECT_TRUE(restored.set_texts(rig.program.texts()));
+  EXPECT_EQ(restored, rig.program);
   EXPECT_FALSE(restored.set_texts({"DN", "NONSENSE"}));
   EXPECT_FALSE(restored.set_texts(Lines(1001, "DN")));
-  EXPECT_EQ(restored, desk.program);
+  EXPECT_EQ(restored, rig.program);
 }
 
 }  // namespace editor_test

@@ -24,7 +24,7 @@ TEST(SlimEvents, InterruptAWaitForTimeWhichBeginsAgain) {
 }
 
 TEST(SlimEvents, InterruptAWaitForTimeWhichGoesOnWhereThatIsChosen) {
-  ProgramRun run(interrupted("WT 100"), {.interrupted_timer = InterruptedTimer::goes_on});
+  ProgramRun run(interrupted("WT 100"), {.interrupted_timer = InterruptedTimer::continues});
   run.begin();
   run.until(49);
   run.machine.inputs = {8};
@@ -74,12 +74,12 @@ TEST(SlimEvents, InterruptATimedJump) {
   // JTI at 3, event at 50, RET at 51, JTI again at 52: it checks until 152, then SET P1 at 153.
   EXPECT_EQ(again.machine.log, (Log{"50 ISET P4", "153 SET P1"}));
 
-  ProgramRun goes_on(interrupted("JTI 1,100,$PPZ"), {.interrupted_timer = InterruptedTimer::goes_on});
-  goes_on.begin();
-  goes_on.until(49);
-  goes_on.machine.inputs = {8};
-  goes_on.until(200);
-  EXPECT_EQ(goes_on.machine.log, (Log{"50 ISET P4", "104 SET P1"}));  // checks until 103
+  ProgramRun continues(interrupted("JTI 1,100,$PPZ"), {.interrupted_timer = InterruptedTimer::continues});
+  continues.begin();
+  continues.until(49);
+  continues.machine.inputs = {8};
+  continues.until(200);
+  EXPECT_EQ(continues.machine.log, (Log{"50 ISET P4", "104 SET P1"}));  // checks until 103
 }
 
 TEST(SlimEvents, InterruptAWaitForANumber) {

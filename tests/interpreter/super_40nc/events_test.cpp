@@ -311,8 +311,8 @@ TEST(Super40ncEvents, AStartElsewhereKeepsTheOldModes) {
 
 /// The calls to the machine about a motion outside the lines, and about the wheel: they are the same.
 TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
-  for (std::size_t i = 0; i < kBeside.size(); ++i) {
-    const BesideRow& row = kBeside[i];
+  for (std::size_t i = 0; i < kOutsideEffects.size(); ++i) {
+    const OutsideEffectRow& row = kOutsideEffects[i];
     EXPECT_EQ(static_cast<std::size_t>(row.event), i);
     Running running("AREA X\nCHK K0\nDRV K1\nMPG K1\nWAT X40\nEND\n");
     running.machine.registers[named::kOwnedAxes] = 0;
@@ -324,10 +324,10 @@ TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
     running.take(row.event, Area::x);
     std::string told;
     for (const std::string& line : running.machine.log) told += line;
-    const bool is_held = row.motion == Beside::is_held;
-    const bool is_stopped = row.motion == Beside::is_stopped;
+    const bool is_held = row.motion == OutsideEffect::is_held;
+    const bool is_stopped = row.motion == OutsideEffect::is_stopped;
     EXPECT_EQ(told, is_held ? "X: hold" : is_stopped ? "X: stop" : "") << i;
-    EXPECT_EQ(row.wheel == Beside::is_stopped, is_stopped) << i;  // hold() does not affect the wheel
+    EXPECT_EQ(row.wheel == OutsideEffect::is_stopped, is_stopped) << i;  // hold() does not affect the wheel
   }
 }
 

@@ -214,7 +214,7 @@ TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
   stands.machine.set_special_contact(named::kMotionInhibit, true);
   stands.tick(100);
   EXPECT_EQ(stands.state(Area::x).left_ms, 10);
-  stands.programs().cross(Area::x, 5);
+  stands.programs().fast_forward(Area::x, 5);
   EXPECT_EQ(stands.state(Area::x).left_ms, 10);
   stands.machine.set_special_contact(named::kMotionInhibit, false);
   stands.tick(10);

@@ -10,15 +10,15 @@ namespace instructions_test {
 
 std::vector<Fact> facts() { return read_facts(TEST_FACTS "/super_40nc/instructions.csv"); }
 
-std::string in_plc(InPlc how) {
+std::string in_plc(ConditionUse how) {
   switch (how) {
-    case InPlc::nothing: return "";
-    case InPlc::contact: return "contact";
-    case InPlc::every_scan: return "every_scan";
-    case InPlc::every_scan_on_or_off: return "every_scan_on_or_off";
-    case InPlc::rising_edge: return "rising_edge";
-    case InPlc::falling_edge: return "falling_edge";
-    case InPlc::level: return "level";
+    case ConditionUse::nothing: return "";
+    case ConditionUse::contact: return "contact";
+    case ConditionUse::every_scan: return "every_scan";
+    case ConditionUse::every_scan_on_or_off: return "every_scan_on_or_off";
+    case ConditionUse::rising_edge: return "rising_edge";
+    case ConditionUse::falling_edge: return "falling_edge";
+    case ConditionUse::level: return "level";
   }
   return "";
 }

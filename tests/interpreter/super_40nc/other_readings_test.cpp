@@ -74,7 +74,7 @@ TEST(Super40ncOtherReadings, OfWritesToTimers) {
     write(500);
     plc.scan();
     EXPECT_EQ(plc.machine.value(value), is_ignored ? 11 : 501);
-    cross(plc.plc, plc.ladder, plc.machine, 20, plc.options);
+    fast_forward(plc.plc, plc.ladder, plc.machine, 20, plc.options);
     EXPECT_EQ(plc.machine.value(value), is_ignored ? 31 : 521);
     write(5);
     plc.scan();

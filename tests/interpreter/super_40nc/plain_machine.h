@@ -46,7 +46,7 @@ class PlainMachine : public Machine {
   Begun begin(Area, const WheelRatios&) override { return Begun::done; }
   bool is_running(Area) const override { return false; }
   void hold(Area) override {}
-  void go_on(Area) override {}
+  void resume_motions(Area) override {}
   void drop_held(Area) override {}
   Areas stop(Area) override { return 0; }
   void waits_no_more(Area) override {}

@@ -483,7 +483,7 @@ TEST(Super40ncPlc, CrossesScansOfTimersAsIfItHadRunThem) {
     ASSERT_EQ(one.plc, other.plc) << ms;
     if (scanned.has_changed) continue;
     const std::int64_t quiet = std::min<std::int64_t>(scanned.quiet_scans, 2000 - ms);
-    cross(other.plc, other.ladder, other.machine, quiet, {});
+    fast_forward(other.plc, other.ladder, other.machine, quiet, {});
     for (std::int64_t i = 0; i < quiet; ++i) one.scan();
     ms += static_cast<int>(quiet);
     crossed += static_cast<int>(quiet);

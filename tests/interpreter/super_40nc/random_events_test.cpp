@@ -181,7 +181,7 @@ TEST(Super40ncRandomEvents, CrossedScansAreAsIfTheyHadBeenRun) {
       ASSERT_EQ(all.plc, some.plc) << seed << " at " << ms << "\n" << text;
       const std::int64_t quiet = std::min(scanned.has_changed ? 0 : scanned.quiet_scans, change_at - ms);
       if (quiet <= 0) continue;
-      cross(some.plc, some.ladder, some.machine, quiet, some.options);
+      fast_forward(some.plc, some.ladder, some.machine, quiet, some.options);
       for (std::int64_t i = 0; i < quiet; ++i) all.scan();
       ms += quiet;
       crossed += quiet;

@@ -107,7 +107,7 @@ class ScriptedMachine : public Machine {
     say(by, "hold");
     holds.insert(by);
   }
-  void go_on(Area by) override {
+  void resume_motions(Area by) override {
     say(by, "go on");
     holds.erase(by);
   }

@@ -402,7 +402,7 @@ TEST(Super40ncStep, CrossesTicksAsIfItHadRunThem) {
     const std::int64_t room = moves ? 0 : (ms + 99) / 100 * 100 - ms;
     const std::int64_t quiet = std::min(other.programs().quiet_ms(Area::x), room);
     if (quiet <= 0) continue;
-    other.programs().cross(Area::x, quiet);
+    other.programs().fast_forward(Area::x, quiet);
     one.tick(static_cast<int>(quiet));
     ms += static_cast<int>(quiet);
     crossed += static_cast<int>(quiet);

@@ -121,7 +121,7 @@ void set_external_levels(AxisUnit& axis) {
   axis.external.minus_high = (axis.external_seen[1] & 1U) == 0;
 }
 
-void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
+void update_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
   if (!axis.has_encoder) {
     // The encoder continues from the count that the pulses have reached.
     const std::int32_t count = encoder_count(axis, motor);

@@ -176,7 +176,7 @@ void enter_ring(AxisUnit& axis, const motion::Axis& motor);
 /// Sets the levels of EXP+ and EXP- by the edges seen so far: a line is low after each odd edge.
 void set_external_levels(AxisUnit& axis);
 /// Sets the bench's encoder to this count of edges.
-void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
+void update_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
 /// Applies the basic settings, also to a running motion.
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,

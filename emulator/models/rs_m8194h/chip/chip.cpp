@@ -69,7 +69,7 @@ void Chip::connect_encoder(std::size_t axis, std::int64_t counts) {
 
 void Chip::set_encoder(std::size_t axis, std::int64_t counts) {
   const bool is_first = !state_.units[axis].has_encoder;
-  tell_encoder(state_.units[axis], state_.motors[axis], counts * machine_options().edges_per_encoder_count);
+  update_encoder(state_.units[axis], state_.motors[axis], counts * machine_options().edges_per_encoder_count);
   if (is_first) rearm(axis);
 }
 

@@ -58,9 +58,9 @@ void Scans::step(Tick tick) {
     if (!scan.running) continue;
     const std::int64_t passed = std::abs(travel(a) - scan.begin) / spacing(scan);
     if (passed > scan.triggered) {
-      const std::int64_t most =
+      const std::int64_t max =
           machine_options().all_scan_triggers_are_given ? INT64_MAX : kMaxTriggersOfATick;
-      const std::int64_t given = std::min(passed - scan.triggered, most);
+      const std::int64_t given = std::min(passed - scan.triggered, max);
       chip_.give_pulse(a, tick, given);
       scan.triggered = passed;
     }

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
+int direction_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
 
 /// Options about homing that the manual leaves open.
 struct HomingOptions {
@@ -32,7 +32,8 @@ struct HomingOptions {
 
 motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, const HomingOptions& options) {
   motion::Rsm8194hHoming how;
-  for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
+  for (std::size_t i = 0; i < how.directions.size(); ++i)
+    how.directions[i] = direction_of_step(unit.homing.steps[i]);
   how.drive = law_of(unit, rules);
   how.home = law_at(unit, unit.homing.home_pps, rules);
   how.offset_pulses = unit.homing.offset_pulses;
@@ -40,7 +41,7 @@ motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules, c
   how.limit_is_near_home = unit.homing.limit_is_home && options.limit_is_near_home;
   how.soft_limits_lead_on = options.turns_at_soft_limits;
   motion::HomingProgram program = motion::rsm8194h_homing(how);
-  const bool has_step_1 = how.ways[0] != 0;
+  const bool has_step_1 = how.directions[0] != 0;
   if (has_step_1 && options.fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
   return program;
 }
@@ -114,7 +115,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
   AxisUnit& unit = chip_.unit(axis);
   motion::Axis& motor = chip_.motor(axis);
   streams_.on_single_drive(axis);
-  take_off(axis, WayOut::other_drive);
+  take_off(axis, DiscardEvent::other_drive);
   unit.began_pulses = motor.travel_pulses;
   // A command sees its pins as they are now.
   motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
@@ -186,14 +187,14 @@ void Drives::change_speed(std::size_t axis, motion::Instant at) {
   }
 }
 
-void Drives::take_off(std::size_t axis, WayOut way) {
+void Drives::take_off(std::size_t axis, DiscardEvent event) {
   AxisUnit& unit = chip_.unit(axis);
-  if (takes_off(way, Mark::paused_drive)) unit.paused_drive = {};
-  if (takes_off(way, Mark::external_drive)) {
+  if (takes_off(event, Mark::paused_drive)) unit.paused_drive = {};
+  if (takes_off(event, Mark::external_drive)) {
     unit.external.running = 0;
     unit.external_waiting = unit.external_free_ns = 0;
   }
-  if (!takes_off(way, Mark::trigger_hold)) return;
+  if (!takes_off(event, Mark::trigger_hold)) return;
   for (AxisMask& held : state_.trigger_holds) held &= static_cast<AxisMask>(~mask_of(axis));
 }
 
@@ -211,7 +212,7 @@ void Drives::check_paused(std::size_t axis) {
   const motion::Cause why = rest == 0 ? motor.forbidden_anywhere() : motor.forbidden(rest < 0 ? -1 : +1);
   if (why == motion::Cause::none) return;
   unit.error_code |= error_of(why);
-  take_off(axis, WayOut::cause);
+  take_off(axis, DiscardEvent::cause);
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -59,7 +59,7 @@ class Drives final : public Part {
   /// Applies a changed V: a T-shaped drive continues at the new speed, an S-shaped one keeps its own (7.1).
   void change_speed(std::size_t axis, motion::Instant at);
   /// Discards what this event removes of an axis's remaining work (transitions.h).
-  void take_off(std::size_t axis, WayOut way);
+  void take_off(std::size_t axis, DiscardEvent event);
   /// Forgets the errors of earlier motions, for a drive that starts.
   void forget_errors(std::size_t axis);
   /// Checks the rest of a drive that a pause holds. Anything that would have ended the drive ends the rest.

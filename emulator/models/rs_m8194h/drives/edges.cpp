@@ -64,7 +64,7 @@ void Edges::act_together(motion::SharedTick& tick, std::size_t trigger, motion::
     if (!has(activated, a)) continue;
     AxisUnit& unit = chip_.unit(a);
     if (begins[a]) {
-      drives_.take_off(a, WayOut::other_drive);
+      drives_.take_off(a, DiscardEvent::other_drive);
       unit.began_pulses = chip_.motor(a).travel_pulses;
     }
     const motion::SyncAction& action = chip_.sync().actions[a];

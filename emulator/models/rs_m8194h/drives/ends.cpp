@@ -113,7 +113,7 @@ motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
   if ((events & motion::bit(motion::Event::ended)) == 0) return events;
   motion::Cause cause = motor.cause;
   if (cause != motion::Cause::arrived && cause != motion::Cause::stopped)
-    drives_.take_off(axis, WayOut::cause);
+    drives_.take_off(axis, DiscardEvent::cause);
   if (!machine_options().axis.homing_obeys_soft_limits) chip_.rearm(axis);
   if (!machine_options().d_end_after_stops && cause != motion::Cause::arrived && !homed) {
     events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));

@@ -63,13 +63,13 @@ void External::watch(std::size_t axis, Tick tick) {
     std::int64_t at_ns = time_of(tick).count() + half_ns * place(i);
     ++done[i];
     // Among edges of the other input, the exact time is not known.
-    const std::int64_t most_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
-    at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + most_ns);
+    const std::int64_t max_ns = edges[0] != 0 && edges[1] != 0 ? half_ns : 0;
+    at_ns = std::clamp(unit.external_free_ns, at_ns, at_ns + max_ns);
     // A line is high while it does not conduct; each edge inverts it.
     const bool plus = is_plus ? !unit.external.plus_high : unit.external.plus_high;
     const bool minus = is_plus ? unit.external.minus_high : !unit.external.minus_high;
     const bool is_busy = chip_.is_driving(axis) && !is_free(axis, at_ns);
-    obey(axis, motion::watch_inputs(unit.external, plus, minus, is_busy), at_ns);
+    apply(axis, motion::watch_inputs(unit.external, plus, minus, is_busy), at_ns);
   }
 }
 
@@ -82,7 +82,7 @@ bool External::is_free(std::size_t axis, std::int64_t at_ns) const {
   return is_its && !motor.slowing && !motor.settling && at_ns >= unit.external_free_ns;
 }
 
-void External::obey(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns) {
+void External::apply(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns) {
   using What = motion::DriveOrder::What;
   AxisUnit& unit = chip_.unit(axis);
   if (order.what == What::nothing) return;

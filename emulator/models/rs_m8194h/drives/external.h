@@ -30,7 +30,7 @@ class External final : public Part {
  private:
   std::uint32_t edges_of(std::size_t axis, std::size_t which);
   bool is_free(std::size_t axis, std::int64_t at_ns) const;
-  void obey(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns);
+  void apply(std::size_t axis, const motion::DriveOrder& order, std::int64_t at_ns);
   motion::SpeedLaw law_of(std::size_t axis) const;
   bool start(std::size_t axis, const motion::DriveOrder& order);
 

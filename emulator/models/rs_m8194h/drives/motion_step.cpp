@@ -114,9 +114,8 @@ Tick MotionStep::quiet_until(Tick done, Tick last, const ClearTravel& ahead) con
     if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done;
     const PulseRoom room = ahead.room(static_cast<int>(a));
-    last =
-        motor.quiet_until(done + 1, last, chip_.environment(a),
-                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+    last = motor.quiet_until(done + 1, last, chip_.environment(a),
+                             {.low = motor.travel_pulses + room.min, .high = motor.travel_pulses + room.max});
   }
   // Held paths wait for an axis to stop.
   return streams_.held().empty() || chip_.driving() != 0 ? last : done;

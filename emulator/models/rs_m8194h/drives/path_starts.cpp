@@ -141,7 +141,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   const bool is_stream = is_segment(path);
   const bool is_last = !is_stream || is_last_segment(path);
   // The errors and the RINT bit of an interrupted stream stay until a new one begins.
-  const bool goes_on = is_stream && (paths.broken & bit_of(row.stream)) != 0;
+  const bool continues = is_stream && (paths.broken & bit_of(row.stream)) != 0;
   if (is_stream && is_last) streams_.forget_break(row.stream);
   const PathDrawing drawing = draw_path(chip_, path, joins);
   if (joins) {
@@ -154,12 +154,12 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
   } else if (!set_out(path, drawing)) {
     return streams_.refuse(path);
   } else {
-    for (std::size_t a = 0; a < kAxes && !goes_on; ++a) {
+    for (std::size_t a = 0; a < kAxes && !continues; ++a) {
       if (has(paths.axes, a)) drives_.forget_errors(a);
     }
   }
   paths.open = is_stream && !is_last;
-  if (is_stream && !goes_on) interrupts_.clear(Rint::stream);
+  if (is_stream && !continues) interrupts_.clear(Rint::stream);
   const bool begins_to_slow_down =
       !machine_options().last_ramp_is_in_last_segment || paths.together.run.queued() < 2;
   if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now());

@@ -62,18 +62,18 @@ void Stops::halt(AxisMask axes, const StopRow& row) {
   const bool is_emergency = row.verb == lang::Verb::emergency_stop;
   const bool keeps_held = is_emergency && chose(option("emergency_drops_holds", "kept"));
   const auto trigger_holds = drives_.state().trigger_holds;
-  const WayOut way = is_emergency     ? WayOut::emergency_stop
-                     : row.locks_path ? WayOut::path_stop
-                                      : WayOut::stop;
+  const DiscardEvent event = is_emergency     ? DiscardEvent::emergency_stop
+                             : row.locks_path ? DiscardEvent::path_stop
+                                              : DiscardEvent::stop;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = chip_.unit(a);
     const Activity activity_now = chip_.activity(a);
     const Halt halt = row.halts[static_cast<std::size_t>(activity_now)];
-    if (halt != Halt::goes_on) halt_axis(a, halt, leaves_others);
+    if (halt != Halt::continues) halt_axis(a, halt, leaves_others);
     if (paths.open && !paths.together.engaged && has(paths.axes, a)) streams_.break_off();
-    drives_.take_off(a, way);
-    if (row.locks && halt != Halt::goes_on && activity_now == Activity::path && locks_whole_path) {
+    drives_.take_off(a, event);
+    if (row.locks && halt != Halt::continues && activity_now == Activity::path && locks_whole_path) {
       locked_with_it |= paths.axes;
     }
     const bool stands = activity_now == Activity::idle && unit.held_drive.what == Drive::What::none;
@@ -143,7 +143,7 @@ void Stops::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     chip_.unit(a).held = false;
-    drives_.take_off(a, WayOut::release);
+    drives_.take_off(a, DiscardEvent::release);
   }
   const AxisMask of_path = streams_.axes_of_held();
   if ((of_path & axes) != 0 && chose(option("hold_partial_start", "starts_at_once"))) {

@@ -67,7 +67,7 @@ inline constexpr std::array<ActivityRow, kActivities> kActivityRows{{
 
 // --- stopping ----------------------------------------------------------------------------------------------
 
-enum class Halt : std::uint8_t { goes_on, slows, stops };
+enum class Halt : std::uint8_t { continues, slows, stops };
 
 struct StopRow {
   lang::Verb verb;
@@ -82,7 +82,7 @@ struct StopRow {
 inline constexpr std::array<StopRow, 6> kStopRows{{
     {lang::Verb::stop_slowly,
      0,
-     {Halt::goes_on, Halt::slows, Halt::slows, Halt::slows},
+     {Halt::continues, Halt::slows, Halt::slows, Halt::slows},
      true,
      false,
      true,
@@ -90,7 +90,7 @@ inline constexpr std::array<StopRow, 6> kStopRows{{
      ErrorBit::soft_stop},
     {lang::Verb::stop_suddenly,
      0,
-     {Halt::goes_on, Halt::stops, Halt::stops, Halt::stops},
+     {Halt::continues, Halt::stops, Halt::stops, Halt::stops},
      true,
      false,
      true,
@@ -98,7 +98,7 @@ inline constexpr std::array<StopRow, 6> kStopRows{{
      ErrorBit::soft_stop},
     {lang::Verb::vstop_slowly,
      0,
-     {Halt::goes_on, Halt::goes_on, Halt::slows, Halt::goes_on},
+     {Halt::continues, Halt::continues, Halt::slows, Halt::continues},
      false,
      true,
      true,
@@ -106,7 +106,7 @@ inline constexpr std::array<StopRow, 6> kStopRows{{
      ErrorBit::soft_stop},
     {lang::Verb::vstop_suddenly,
      0,
-     {Halt::goes_on, Halt::goes_on, Halt::stops, Halt::goes_on},
+     {Halt::continues, Halt::continues, Halt::stops, Halt::continues},
      false,
      true,
      true,
@@ -114,7 +114,7 @@ inline constexpr std::array<StopRow, 6> kStopRows{{
      ErrorBit::soft_stop},
     {lang::Verb::emergency_stop,
      0,
-     {Halt::goes_on, Halt::stops, Halt::stops, Halt::stops},
+     {Halt::continues, Halt::stops, Halt::stops, Halt::stops},
      false,
      false,
      true,
@@ -122,7 +122,7 @@ inline constexpr std::array<StopRow, 6> kStopRows{{
      ErrorBit::soft_emergency},
     {lang::Verb::emergency_stop,
      1,
-     {Halt::goes_on, Halt::slows, Halt::slows, Halt::slows},
+     {Halt::continues, Halt::slows, Halt::slows, Halt::slows},
      false,
      false,
      true,
@@ -146,7 +146,7 @@ enum class Mark : std::uint8_t {
 };
 inline constexpr std::size_t kMarks = 3;
 
-enum class WayOut : std::uint8_t {
+enum class DiscardEvent : std::uint8_t {
   stop,
   path_stop,
   emergency_stop,
@@ -155,17 +155,17 @@ enum class WayOut : std::uint8_t {
   release,  // DRV_START
   triggers_off,
 };
-inline constexpr std::size_t kWaysOut = 7;
+inline constexpr std::size_t kDiscardEvents = 7;
 
 /// Says which event discards which mark. RESET_CARD and power-off discard all of them.
-inline constexpr std::array<std::array<bool, kWaysOut>, kMarks> kTakenOff{{
+inline constexpr std::array<std::array<bool, kDiscardEvents>, kMarks> kDiscards{{
     // stop, VSTOP, emergency stop, cause, another drive, DRV_START, triggers off
     {true, false, true, true, true, false, false},
     {true, false, true, true, true, false, false},
     {false, false, true, false, false, true, true},
 }};
-constexpr bool takes_off(WayOut way, Mark mark) {
-  return kTakenOff[static_cast<std::size_t>(mark)][static_cast<std::size_t>(way)];
+constexpr bool takes_off(DiscardEvent event, Mark mark) {
+  return kDiscards[static_cast<std::size_t>(mark)][static_cast<std::size_t>(event)];
 }
 
 // --- clearing ----------------------------------------------------------------------------------------------

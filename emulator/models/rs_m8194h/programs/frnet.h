@@ -38,7 +38,7 @@ class Frnet final : public Part {
   void clear_outputs() { state_.outputs.fill(0); }
 
   /// Compares the inputs with those of the last scan. Call it when they may have changed.
-  void look_at_inputs() { state_.unscanned = words_now() != state_.inputs; }
+  void check_inputs() { state_.unscanned = words_now() != state_.inputs; }
   bool scans_at(Tick tick) const;
   void scan();
   /// Scans for the first time after power-up.

@@ -133,10 +133,10 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   CellForm cell_form() const override {
     return {.row = "the registers from 8000 on, one message a line",
             .fewest = 1,
-            .most = 20,
+            .max = 20,
             .lowest = 0,
             .highest = 0xFFFF,
-            .most_rows = 7000};
+            .max_rows = 7000};
   }
   /// Returns the messages of the downloads. Triggers are not sent to the window.
   std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const override {

@@ -37,12 +37,12 @@ constexpr std::size_t kLongestMacro = 100'000;
 constexpr std::size_t kLongestLine = 200;
 constexpr std::size_t kLongestTable = 4'000;
 
-std::string why_not_number(const std::string& name, int most) {
+std::string why_not_number(const std::string& name, int max) {
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   const bool is_number = error == std::errc{} && end == name.data() + name.size() && number >= 1 &&
-                         number <= most && std::to_string(number) == name;
-  return is_number ? "" : "is not a macro number; expected 1 to " + std::to_string(most);
+                         number <= max && std::to_string(number) == name;
+  return is_number ? "" : "is not a macro number; expected 1 to " + std::to_string(max);
 }
 std::string why_not_mp(const std::string& name) { return why_not_number(name, lang::kMpCount); }
 std::string why_not_isr(const std::string& name) { return why_not_number(name, lang::kIsrCount); }
@@ -74,22 +74,22 @@ std::string why_not_settings(const std::string& text) {
 
 constexpr BlockKind kKinds[] = {
     {.name = kInitialBlocks,
-     .most = kAxes,
+     .max = kAxes,
      .longest = kLongestTable,
      .why_not_called = why_not_axis,
      .why_not_text = why_not_settings},
     {.name = kIsrBlocks,
-     .most = lang::kIsrCount,
+     .max = lang::kIsrCount,
      .longest = kLongestMacro,
      .why_not_called = why_not_isr,
      .why_not_text = why_not_listing},
     {.name = kMpBlocks,
-     .most = lang::kMpCount,
+     .max = lang::kMpCount,
      .longest = kLongestMacro,
      .why_not_called = why_not_mp,
      .why_not_text = why_not_listing},
     {.name = kTriggerBlocks,
-     .most = lang::kTriggerCount,
+     .max = lang::kTriggerCount,
      .longest = kLongestLine,
      .why_not_called = why_not_channel,
      .why_not_text = why_not_listing},

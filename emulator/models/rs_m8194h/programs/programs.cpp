@@ -156,7 +156,7 @@ std::string Programs::text() const {
 // --- running ---------------------------------------------------------------------------------------------
 
 /// Tells an observer which macros there are.
-void Programs::tell_watch() const {
+void Programs::notify_watch() const {
   if (acts_on_.watch() == nullptr || !is_alive()) return;
   std::uint64_t mark = hash_of({});
   for (const auto& [kind, entries] : memory_.state().blocks.all()) {
@@ -165,11 +165,11 @@ void Programs::tell_watch() const {
       mark = hash_of(std::as_bytes(std::span(name)), mark ^ text.digest() ^ (kind == kIsrBlocks ? 1U : 0U));
     }
   }
-  acts_on_.watch()->look(mark);
+  acts_on_.watch()->program_loaded(mark);
 }
 
 void Programs::run_tick(Tick tick) {
-  tell_watch();
+  notify_watch();
   const bool ran_isr = isr_runs();
   state_.steps_left = lang::run_tick(state_.execution, tick, language_options().steps_a_tick, state_.paused,
                                      language_options().run, acts_on_);
@@ -188,7 +188,7 @@ void Programs::start_mp(int number) {
   const bool at_once = chose(option("first_line", "on_receipt"));
   lang::start_mp(state_.execution, number, at_once ? now() : now() + 1, acts_on_);
   if (!at_once || !mp_runs()) return;
-  tell_watch();
+  notify_watch();
   state_.steps_left = lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused,
                                      language_options().run, acts_on_);
 }

@@ -110,7 +110,7 @@ class Programs final : public Part {
 
  private:
   void compile() const;
-  void tell_watch() const;
+  void notify_watch() const;
 
   ProgramState& state_;
   Memory& memory_;

@@ -42,7 +42,7 @@ bool is_level(lang::TriggerCondition condition) {
 void Triggers::enable(bool on) {
   if (on) return check_at_start();
   state_.queued_triggers.clear();
-  for (std::size_t a = 0; a < kAxes; ++a) known_.drives.take_off(a, WayOut::triggers_off);
+  for (std::size_t a = 0; a < kAxes; ++a) known_.drives.take_off(a, DiscardEvent::triggers_off);
 }
 
 void Triggers::replaced(int channel) {

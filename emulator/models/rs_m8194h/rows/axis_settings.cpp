@@ -23,10 +23,10 @@ double in_counts(std::uint32_t speed_pps, const SpeedRange& range) {
 motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, const SpeedRange& range,
                         const Shape& shape, bool avoids_triangles) {
   const auto slope = [&](std::uint32_t given) {
-    return motion::RampLaw::by_slope(std::clamp<double>(given, range.least_slope, range.most_slope));
+    return motion::RampLaw::by_slope(std::clamp<double>(given, range.min_slope, range.max_slope));
   };
   const auto jerk = [&](std::uint32_t given) {
-    return motion::RampLaw::by_jerk(std::clamp<double>(given, range.least_jerk, kMaxJerk));
+    return motion::RampLaw::by_jerk(std::clamp<double>(given, range.min_jerk, kMaxJerk));
   };
   motion::SpeedLaw law;
   law.top_speed_u_s = in_counts(drive_pps, range);

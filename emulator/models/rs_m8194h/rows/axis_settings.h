@@ -55,9 +55,9 @@ struct BasicSettings {
 /// The rules for speeds that the manual leaves open (choices.h).
 struct SpeedRules {
   bool rounds_to_nearest = false;
-  bool has_offset = true;              // AO
-  bool mode_3_is_symmetric = false;    // for NORMAL_SPEED, as printed
-  double least_jerk_part = 0.0119211;  // the minimum jerk, as a fraction of MAX_V
+  bool has_offset = true;            // AO
+  bool mode_3_is_symmetric = false;  // for NORMAL_SPEED, as printed
+  double min_jerk_part = 0.0119211;  // the minimum jerk, as a fraction of MAX_V
 };
 
 /// The rules for an axis that the manual leaves open (choices.h).
@@ -77,9 +77,9 @@ struct SpeedRange {
   SpeedRules rules = {};
   std::uint32_t max_v = 0;
   double step_pps = 0;
-  double least_slope = 0;
-  double most_slope = 0;
-  double least_jerk = 0;
+  double min_slope = 0;
+  double max_slope = 0;
+  double min_jerk = 0;
 };
 inline constexpr double kMaxJerk = 2e9;
 
@@ -89,9 +89,9 @@ inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rul
   return {.rules = rules,
           .max_v = max_v,
           .step_pps = max_v / 8000.0,
-          .least_slope = max_v / 64.0,
-          .most_slope = max_v * 125.0,
-          .least_jerk = max_v * rules.least_jerk_part};
+          .min_slope = max_v / 64.0,
+          .max_slope = max_v * 125.0,
+          .min_jerk = max_v * rules.min_jerk_part};
 }
 
 /// The speed of an axis, or of the path (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 means that it was

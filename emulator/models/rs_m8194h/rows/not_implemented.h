@@ -13,8 +13,8 @@ namespace understudy::emulator::models::rs_m8194h {
 
 struct NotImplementedRow {
   interpreter::rs_m8194h::Verb verb;
-  std::size_t parameter;  // the row applies if this parameter is below `least`
-  std::uint32_t least;
+  std::size_t parameter;  // the row applies if this parameter is below `min`
+  std::uint32_t min;
   std::string_view what;
   std::string_view why;
 };
@@ -37,7 +37,7 @@ inline constexpr std::string_view kWhyNoLongHelix =
 constexpr bool is_meant(const NotImplementedRow& row, const interpreter::rs_m8194h::Command& command) {
   // A filter that is set for no input delays none.
   const bool is_used = row.verb != interpreter::rs_m8194h::Verb::set_filter || command.values[1] != 0;
-  return row.verb == command.verb() && is_used && command.values[row.parameter] < row.least;
+  return row.verb == command.verb() && is_used && command.values[row.parameter] < row.min;
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

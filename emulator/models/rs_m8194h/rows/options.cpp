@@ -121,7 +121,7 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.speed.rounds_to_nearest = chose(option("speed_quantum", "the_nearest_one"));
   options.speed.mode_3_is_symmetric = chose(option("normal_speed_3", "symmetric"));
   options.speed.has_offset = !chose(option("deceleration_offset", "nothing"));
-  if (chose(option("least_jerk", "0.119211"))) options.speed.least_jerk_part *= 10;
+  if (chose(option("least_jerk", "0.119211"))) options.speed.min_jerk_part *= 10;
   options.fifo_goes_on_beside_macros = chose(option("fifo_while_macro", "goes_on"));
   options.pause_holds_fifo = !chose(option("trigger_pause", "holds_macros"));
   options.pause_slows_axes = chose(option("trigger_pause", "and_slows_all_axes"));

@@ -183,8 +183,8 @@ class Chain {
   /// Returns the first tick after `done` at which something may happen without a command, or kNever.
   Tick next_active_tick(Tick done) const;
   /// Like next_active_tick(), but also skips ticks in which modules only continue their motion within the
-  /// free travel of their machines. Returns at most `most` + 1.
-  Tick next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const;
+  /// free travel of their machines. Returns at most `limit` + 1.
+  Tick next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const;
   /// Runs all ticks up to `tick`, which is before that event, in one step. Adds the pulses of each module.
   void fast_forward_to(Tick tick, std::span<std::int64_t> pulses);
 

@@ -106,8 +106,8 @@ void StateOf<PositionTrigger>::check(const PositionTrigger& trigger) {
 }
 
 void StateOf<Job>::check(const Job& job) {
-  const int most = job.coordinated() ? kMappable : kModules;
-  for (const std::int8_t module : job.module_of) require_within(module, kNoModule, most - 1);
+  const int max = job.coordinated() ? kMappable : kModules;
+  for (const std::int8_t module : job.module_of) require_within(module, kNoModule, max - 1);
   require_state(job.module_of[0] >= 0, "a command must have a module");
   if (job.coordinated()) require_state(job.module_of[1] >= 0, "a coordinated command must have two modules");
   for (const double units : job.units) require_coordinate(units);

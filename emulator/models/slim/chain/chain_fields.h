@@ -157,7 +157,7 @@ struct StateOf<emulator::models::slim::ChainState> {
 template <>
 struct StateOf<emulator::models::slim::Chain> {
   using Value = emulator::models::slim::Chain;
-  static const emulator::models::slim::ChainState& told(const Value& chain) { return chain.state_; }
+  static const emulator::models::slim::ChainState& reported(const Value& chain) { return chain.state_; }
   static void write(const Value& chain, StateWriter& writer) { writer.write(chain.state_); }
   static void read(Value& chain, StateReader& reader) { reader.read(chain.state_); }
 };

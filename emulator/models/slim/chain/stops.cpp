@@ -33,9 +33,9 @@ void hold(ChainState& chain) {
 
 void release(ChainState& chain) {
   for (Group& group : chain.groups) {
-    const bool goes_on =
+    const bool continues =
         group.motion.engaged && group.motion.slowing_for == motion::Cause::none && !chain.held(group);
-    if (goes_on) group.motion.run.resume(chain.now);
+    if (continues) group.motion.run.resume(chain.now);
   }
   for (int module = 0; module < kModules; ++module) {
     if (!chain.held(module)) resume_motion(chain.motor(module));
@@ -102,7 +102,7 @@ Error steer(ChainState& chain, InPause what) {
   chain.paused = has_tapz(result.left);
   switch (result.outcome) {
     case PauseOutcome::slows_down: hold(chain); break;
-    case PauseOutcome::goes_on: release(chain); break;
+    case PauseOutcome::continues: release(chain); break;
     case PauseOutcome::gives_up: give_up(chain, what == InPause::clear_buffer); break;
     case PauseOutcome::clears: clear_waiting(chain); break;
     case PauseOutcome::stops: stop_all(chain); break;

@@ -128,9 +128,9 @@ Tick Chain::next_active_tick(Tick done) const {
   return next;
 }
 
-Tick Chain::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) const {
+Tick Chain::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
   if (!all_groups_stand(state_, done)) return done + 1;
-  Tick last = most;
+  Tick last = limit;
   for (int module = 0; module < kModules && last > done; ++module) {
     const Module& mine = module_at(module);
     const motion::Axis& axis = state_.axes[at(module)];
@@ -141,7 +141,7 @@ Tick Chain::next_event_tick(Tick done, Tick most, const ClearTravel& ahead) cons
       const PulseRoom room = ahead.room(module);
       const std::int64_t at_pulses = axis.travel_pulses;
       last = axis.quiet_until(done + 1, last, state_.environment[at(module)],
-                              {.low = at_pulses + room.least, .high = at_pulses + room.most});
+                              {.low = at_pulses + room.min, .high = at_pulses + room.max});
     }
     for (const Output& output : mine.outputs) last = std::min(last, output.next_change(done) - 1);
   }

@@ -68,7 +68,7 @@ void order_jog(const Motor& motor, int direction, std::int32_t force) {
   const motion::SpeedLaw law = module.jog_law(motor.options);
   if (module.activity == Activity::jog && direction == module.jog_direction &&
       (stands || law.top_speed_u_s > 0)) {
-    take_off(module, MarkEvent::goes_on);
+    take_off(module, MarkEvent::continues);
     if (stands) return;
     if (!axis.resume(law, motor.now)) axis.change_speed(law, motor.now);
     return;

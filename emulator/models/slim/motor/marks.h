@@ -15,7 +15,7 @@ namespace understudy::emulator::models::slim {
 
 enum class MarkEvent : std::uint8_t {
   begins,        // a motion of the module: MA, MR, H, JGF, JGR, FT
-  goes_on,       // JGF or JGR in the direction of the jog that runs
+  continues,     // JGF or JGR in the direction of the jog that runs
   jogs_dropped,  // JG0, TAUPZ, CLR BUF in a pause; also a pause, before it sets its own marks
   told_to_stop,  // the motion has begun to decelerate, and then ends
   stands,        // the motion has ended, or it is interrupted and starts again from the FIFO
@@ -49,8 +49,8 @@ inline constexpr auto kModuleMarks = [] {
       module_mark<&Module::activity>("activity", events_of(stands, cut)),
       module_mark<&Module::jog_direction>("jog_direction", events_of(stands, cut)),
       module_mark<&Module::thrust>("thrust", events_of(begins, stands, cut)),
-      module_mark<&Module::next_jog_direction>("next_jog_direction", events_of(begins, goes_on, jogs_dropped, cut)),
-      module_mark<&Module::next_thrust>("next_thrust", events_of(begins, goes_on, jogs_dropped, cut)),
+      module_mark<&Module::next_jog_direction>("next_jog_direction", events_of(begins, continues, jogs_dropped, cut)),
+      module_mark<&Module::next_thrust>("next_thrust", events_of(begins, continues, jogs_dropped, cut)),
       module_mark<&Module::held_jog_direction>("held_jog_direction", events_of(jogs_dropped, pause_over, cut)),
       module_mark<&Module::held_thrust>("held_thrust", events_of(jogs_dropped, pause_over, cut)),
       module_mark<&Module::starved>("starved", events_of(begins, told_to_stop, stands, cut)),

@@ -46,7 +46,7 @@ inline constexpr std::size_t kInPause = 10;
 
 enum class PauseOutcome : std::uint8_t {
   slows_down,  // held motion slows down on its path; nothing of it is lost
-  goes_on,     // motion that is no longer held continues
+  continues,   // motion that is no longer held continues
   gives_up,    // the unfinished and the waiting commands are discarded
   clears,      // the waiting commands are discarded; the unfinished one is finished, now or after the pause
   stops,       // no more pulses, and no command is left
@@ -102,7 +102,7 @@ inline constexpr PauseRow kRows[] = {
     {P::none, W::jog,          {P::none, is_taken},   "list, JGF"},
 
     {P::pz, W::pz,             {P::pz, slows_down},   "list, PZ"},
-    {P::pz, W::redo,           {P::none, goes_on},    "list, REDO"},
+    {P::pz, W::redo,           {P::none, continues},  "list, REDO"},
     {P::pz, W::clear_buffer,   {P::none, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::pz, clears}}},
     {P::pz, W::tapz,           {P::both, slows_down}, "pauses"},
     {P::pz, W::taredo,         {P::pz, in_vain},      "pauses"},
@@ -113,10 +113,10 @@ inline constexpr PauseRow kRows[] = {
     {P::pz, W::jog,            {P::pz, is_refused},   "pauses"},
 
     {P::tapz, W::pz,           {P::both, slows_down}, "pauses", {kOnePause, {P::tapz, slows_down}}},
-    {P::tapz, W::redo,         {P::tapz, in_vain},    "pauses", {kOnePause, {P::none, goes_on}}},
+    {P::tapz, W::redo,         {P::tapz, in_vain},    "pauses", {kOnePause, {P::none, continues}}},
     {P::tapz, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::tapz, clears}}, {kOnePause, {P::none, gives_up}}},
     {P::tapz, W::tapz,         {P::tapz, slows_down}, "list, TAPZ"},
-    {P::tapz, W::taredo,       {P::none, goes_on},    "list, TAREDO"},
+    {P::tapz, W::taredo,       {P::none, continues},  "list, TAREDO"},
     {P::tapz, W::taupz,        {P::none, gives_up},   "list, TAUPZ"},
     {P::tapz, W::tastop,       {P::none, stops},      "emergency_stop"},
     {P::tapz, W::reset,        {P::tapz, resets},     "reset", {kEndsPause, {P::none, gives_up}}},
@@ -124,10 +124,10 @@ inline constexpr PauseRow kRows[] = {
     {P::tapz, W::jog,          {P::tapz, is_refused}, "list, TAPZ"},
 
     {P::both, W::pz,           {P::both, slows_down}, "pauses"},
-    {P::both, W::redo,         {P::tapz, goes_on},    "pauses"},
+    {P::both, W::redo,         {P::tapz, continues},  "pauses"},
     {P::both, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::both, clears}}},
     {P::both, W::tapz,         {P::both, slows_down}, "pauses"},
-    {P::both, W::taredo,       {P::pz, goes_on},      "pauses"},
+    {P::both, W::taredo,       {P::pz, continues},    "pauses"},
     {P::both, W::taupz,        {P::pz, gives_up},     "pauses"},
     {P::both, W::tastop,       {P::none, stops},      "emergency_stop"},
     {P::both, W::reset,        {P::both, resets},     "reset", {kEndsPause, {P::none, gives_up}}},

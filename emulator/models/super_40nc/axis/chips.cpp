@@ -44,8 +44,8 @@ std::int64_t Chips::work_lu(int axis_number) const {
 
 std::int64_t Chips::relative_base_lu(int axis_number) const {
   const AxisState& state = axis(axis_number);
-  const bool goes_on = state.stands_on_target && !chose(option("relative_base", "present_position"));
-  return goes_on ? state.target_lu : work_lu(axis_number);
+  const bool continues = state.stands_on_target && !chose(option("relative_base", "present_position"));
+  return continues ? state.target_lu : work_lu(axis_number);
 }
 
 std::int64_t Chips::distance_to(int axis_number, std::int64_t target_lu) const {

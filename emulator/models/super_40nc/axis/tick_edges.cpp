@@ -99,18 +99,18 @@ bool TickEdges::is_answered(const Question& of, std::int64_t before, std::int64_
 
 /// Returns false if no comparison can trigger between two moments. Each counter keeps its direction until the
 /// next edge, so no number moves further than all of them together.
-bool TickEdges::may_be_answered(const Question& of, const Look& from, const Look& to) const {
-  const std::int64_t most =
+bool TickEdges::may_be_answered(const Question& of, const Sample& from, const Sample& to) const {
+  const std::int64_t max =
       std::abs(to.place.travel_pulses - from.place.travel_pulses) +
       std::abs(to.since.backlash - from.since.backlash) + std::abs(to.since.encoder - from.since.encoder) +
       std::abs(to.since.wheel - from.since.wheel) + std::abs(to.since.clock - from.since.clock);
   constexpr std::int64_t kWraps = 1 << 15;  // COUNTER3 has 16 bits
-  if (of.source == kCounter3 && from.number + most >= kWraps) return true;
+  if (of.source == kCounter3 && from.number + max >= kWraps) return true;
   switch (of.method) {
-    case kSetAbove: return from.number - most < of.set;
-    case kSetBelow: return from.number + most > of.set;
-    case kSoftLimit: return of.which == 0 ? from.number + most > of.set : from.number - most < of.set;
-    default: return from.number - most <= of.set && of.set <= from.number + most;
+    case kSetAbove: return from.number - max < of.set;
+    case kSetBelow: return from.number + max > of.set;
+    case kSoftLimit: return of.which == 0 ? from.number + max > of.set : from.number - max < of.set;
+    default: return from.number - max <= of.set && of.set <= from.number + max;
   }
 }
 
@@ -122,41 +122,41 @@ std::int64_t TickEdges::speed(int axis_number, double at_s) const {
   return std::llround(speed_pps / axis(axis_number).step_pps);
 }
 
-std::int64_t TickEdges::number(const Question& of, const Look& look) const {
+std::int64_t TickEdges::number(const Question& of, const Sample& sample) const {
   const AxisState& state = axis(of.axis);
   const Settings settings = registers();
   const motion::Axis& motor = chip(of.axis);
   switch (of.source) {
     case kCounter1: {
       const bool with_backlash = is_bit(settings.raw(kept_x(d9x::kCountCorrect), of.axis), 0);
-      return state.command.at(look.place.travel_pulses) + (with_backlash ? look.since.backlash : 0);
+      return state.command.at(sample.place.travel_pulses) + (with_backlash ? sample.since.backlash : 0);
     }
     case kRemaining: {
       const bool has_target = state.rest.kind == RestKind::path || state.holder == Activity::rest;
-      if (has_target) return std::abs(state.rest.travel - look.place.travel_pulses);
-      return motor.remaining_pulses() - std::abs(look.place.travel_pulses - motor.travel_pulses);
+      if (has_target) return std::abs(state.rest.travel - sample.place.travel_pulses);
+      return motor.remaining_pulses() - std::abs(sample.place.travel_pulses - motor.travel_pulses);
     }
-    case kSpeed: return speed(of.axis, look.at_s);
+    case kSpeed: return speed(of.axis, sample.at_s);
     default: break;
   }
   const auto which = static_cast<int>(of.source);
   const std::int64_t present = counter(of.axis, which);
   const std::int64_t counts =
-      counters_.counts_now(of.axis, which) ? counts_of(settings, of.axis, which, look.since) : 0;
+      counters_.counts_now(of.axis, which) ? counts_of(settings, of.axis, which, sample.since) : 0;
   if (of.source == kCounter3) return std::abs(std::int64_t{static_cast<std::int16_t>(present + counts)});
   return wrapped(present + counts);
 }
 
-TickEdges::Look TickEdges::look(motion::SharedTick& tick, const Question& of, double at_s) const {
-  Look look{.at_s = at_s, .place = tick.place_ahead(static_cast<std::size_t>(of.axis), instant(at_s))};
-  look.since = counters_.counted_until(of.axis, at_s, look.place);
-  look.number = number(of, look);
-  return look;
+TickEdges::Sample TickEdges::sample(motion::SharedTick& tick, const Question& of, double at_s) const {
+  Sample sample{.at_s = at_s, .place = tick.place_ahead(static_cast<std::size_t>(of.axis), instant(at_s))};
+  sample.since = counters_.counted_until(of.axis, at_s, sample.place);
+  sample.number = number(of, sample);
+  return sample;
 }
 
 /// Halves the time between two moments until the first change that answers is found.
-std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Question& of, const Look& from,
-                                              const Look& to) const {
+std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Question& of,
+                                              const Sample& from, const Sample& to) const {
   if (!may_be_answered(of, from, to)) return std::nullopt;
   const std::int64_t changes = std::abs(to.place.travel_pulses - from.place.travel_pulses) +
                                std::abs(to.since.backlash - from.since.backlash) +
@@ -166,29 +166,29 @@ std::optional<double> TickEdges::first_answer(motion::SharedTick& tick, const Qu
   if (changes <= 1 || to.at_s - from.at_s < kAtOnce_s) {
     if (!is_answered(of, from.number, to.number)) return std::nullopt;
     if (changes > 1) return to.at_s;
-    const auto has_changed = [&](double at_s) { return look(tick, of, at_s).number != from.number; };
+    const auto has_changed = [&](double at_s) { return sample(tick, of, at_s).number != from.number; };
     return motion::turnover(from.at_s, to.at_s, has_changed).after;
   }
-  const Look middle = look(tick, of, from.at_s + (to.at_s - from.at_s) / 2);
+  const Sample middle = sample(tick, of, from.at_s + (to.at_s - from.at_s) / 2);
   if (const auto found = first_answer(tick, of, from, middle)) return found;
   return first_answer(tick, of, middle, to);
 }
 
 /// Within a part of its profile, a speed only rises or only falls.
-std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Question& of, const Look& from,
-                                             const Look& to) const {
+std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Question& of, const Sample& from,
+                                             const Sample& to) const {
   const motion::PulseDrive& drive = chip(of.axis).drive;
-  Look begin = from;
+  Sample begin = from;
   for (std::int32_t part = 0; part <= drive.profile.segment_count; ++part) {
     const bool is_last = part == drive.profile.segment_count;
     const double at_s = is_last ? to.at_s
                                 : kTick_s - (drive.elapsed_s(tick_) -
                                              drive.profile.segments[static_cast<std::size_t>(part)].begin_s);
     if (at_s <= begin.at_s || at_s > to.at_s) continue;
-    const Look end = is_last ? to : look(tick, of, at_s);
+    const Sample end = is_last ? to : sample(tick, of, at_s);
     if (is_answered(of, begin.number, end.number)) {
       const auto is_there = [&](double between_s) {
-        return is_answered(of, begin.number, look(tick, of, between_s).number);
+        return is_answered(of, begin.number, sample(tick, of, between_s).number);
       };
       return motion::turnover(begin.at_s, end.at_s, is_there).after;
     }
@@ -199,9 +199,9 @@ std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Que
 
 std::optional<double> TickEdges::next_comparison(motion::SharedTick& tick, const Question& of, double from_s,
                                                  double to_s) const {
-  const Look from = look(tick, of, from_s);
+  const Sample from = sample(tick, of, from_s);
   if (is_answered(of, axis(of.axis).compared[of.which], from.number)) return from_s;
-  const Look to = look(tick, of, to_s);
+  const Sample to = sample(tick, of, to_s);
   return of.source == kSpeed ? first_speed(tick, of, from, to) : first_answer(tick, of, from, to);
 }
 
@@ -272,7 +272,7 @@ void TickEdges::at_moment(motion::SharedTick& tick) {
 
 void TickEdges::compare(motion::SharedTick& tick, const Question& of) {
   AxisState& state = axis(of.axis);
-  state.compared[of.which] = look(tick, of, seconds(tick.now())).number;
+  state.compared[of.which] = sample(tick, of, seconds(tick.now())).number;
   const Settings settings = registers();
   if (latches(settings, of.axis, of.which)) {
     state.latch_was_on = true;

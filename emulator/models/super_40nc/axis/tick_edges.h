@@ -37,7 +37,7 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
 
  private:
   /// An axis at a moment, in seconds of the tick.
-  struct Look {
+  struct Sample {
     double at_s = 0;
     motion::AxisPlace place{};
     Counted since{};  // since the counters were counted last
@@ -65,14 +65,14 @@ class TickEdges final : protected Chips, public motion::EdgeOwner {
 
   Question question(int axis, std::size_t which) const;
   bool is_answered(const Question& of, std::int64_t before, std::int64_t present) const;
-  bool may_be_answered(const Question& of, const Look& from, const Look& to) const;
-  std::int64_t number(const Question& of, const Look& look) const;
+  bool may_be_answered(const Question& of, const Sample& from, const Sample& to) const;
+  std::int64_t number(const Question& of, const Sample& sample) const;
   std::int64_t speed(int axis, double at_s) const;
-  Look look(motion::SharedTick& tick, const Question& of, double at_s) const;
-  std::optional<double> first_answer(motion::SharedTick& tick, const Question& of, const Look& from,
-                                     const Look& to) const;
-  std::optional<double> first_speed(motion::SharedTick& tick, const Question& of, const Look& from,
-                                    const Look& to) const;
+  Sample sample(motion::SharedTick& tick, const Question& of, double at_s) const;
+  std::optional<double> first_answer(motion::SharedTick& tick, const Question& of, const Sample& from,
+                                     const Sample& to) const;
+  std::optional<double> first_speed(motion::SharedTick& tick, const Question& of, const Sample& from,
+                                    const Sample& to) const;
   std::optional<double> next_comparison(motion::SharedTick& tick, const Question& of, double from_s,
                                         double to_s) const;
   std::optional<double> next_flip(motion::SharedTick& tick, int axis, ChipPin pin, double from_s,

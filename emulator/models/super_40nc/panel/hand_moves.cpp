@@ -53,7 +53,7 @@ void HandMoves::give_up_orders() {
   for (AxisState& state : axes_.axes) take_off(state, MarkEvent::orders_given_up);
 }
 
-void HandMoves::obey_order_keys() {
+void HandMoves::apply_order_keys() {
   const auto press = [&](OrderKey& key, KeyDoes what) {
     if (!key.runs && keys_.is_pressed(what, -1)) key = {.runs = true};
   };
@@ -69,7 +69,7 @@ void HandMoves::obey_order_keys() {
   follow_order(axes_.zeroing_by_key, Activity::zero, kept_x(d9x::kZeroSequence), &Homes::start_zero);
 }
 
-void HandMoves::obey_jogs(int axis) {
+void HandMoves::apply_jogs(int axis) {
   for (const int direction : {+1, -1}) {
     const int contact = of_axis(direction > 0 ? m8x::kJogPlus : m8x::kJogMinus, axis);
     const bool asks = rises(contact) || keys_.is_level_again(axis, contact);
@@ -80,7 +80,7 @@ void HandMoves::obey_jogs(int axis) {
   if (!is_on(contact)) moves_.handle(axis, ManualMotion::jog, ManualEvent::contact_off);
 }
 
-void HandMoves::obey_wheel() {
+void HandMoves::apply_wheel() {
   for (int number = 0; number < kAxisCount; ++number) {
     for (std::size_t i = 0; i < std::size(kWheelContacts); ++i) {
       const int contact = of_axis(kWheelContacts[i], number);
@@ -107,16 +107,16 @@ void HandMoves::slow_by_hand(int axis_number) {
   if (moves_.manual_motion(axis_number)) moves_.end_by_ramp(axis_number, Mover::hand);
 }
 
-void HandMoves::obey_contacts() {
+void HandMoves::apply_contacts() {
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(m8x::kHome, number)) && !keys_.is_inhibited(number)) parts_.homes.start_home(number);
   }
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(m8x::kZero, number)) && !keys_.is_inhibited(number)) parts_.homes.start_zero(number);
   }
-  obey_order_keys();
-  for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
-  obey_wheel();
+  apply_order_keys();
+  for (int number = 0; number < kAxisCount; ++number) apply_jogs(number);
+  apply_wheel();
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -13,17 +13,17 @@ class HandMoves : protected Chips {
       : Chips(parts.chips), parts_(parts), moves_(moves), keys_(keys), state_(state) {}
 
   /// Starts HOME, ZERO, jogs and the wheel, and releases what is no longer requested.
-  void obey_contacts();
+  void apply_contacts();
   /// Drops the orders: axes that are still stopping do not belong to a key pressed meanwhile.
   void give_up_orders();
   /// Slows down motion by hand for PAUSE and M8006, if that is chosen.
   void slow_by_hand(int axis);
 
  private:
-  void obey_order_keys();
+  void apply_order_keys();
   void follow_order(OrderKey& key, Activity holder, Kept order_of_axis, void (Homes::*start)(int, int));
-  void obey_jogs(int axis);
-  void obey_wheel();
+  void apply_jogs(int axis);
+  void apply_wheel();
 
   AxisParts& parts_;
   Moves& moves_;

@@ -37,11 +37,11 @@ enum class ManualEvent : std::uint8_t {
 };
 inline constexpr std::size_t kManualEvents = 8;
 
-enum class ManualAnswer : std::uint8_t { goes_on, slows, ends };
+enum class ManualAnswer : std::uint8_t { continues, slows, ends };
 
 // clang-format off
 inline constexpr auto kManualAnswers = [] {
-  constexpr auto on = ManualAnswer::goes_on;
+  constexpr auto on = ManualAnswer::continues;
   constexpr auto slows = ManualAnswer::slows;
   constexpr auto ends = ManualAnswer::ends;
   return std::array<std::array<ManualAnswer, kManualEvents>, kManualMotions>{{

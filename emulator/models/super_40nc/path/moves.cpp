@@ -127,8 +127,8 @@ std::optional<Broken> Moves::ended(int axis_number) {
   parts_.starts.let_go(axis_number);
   state.stands_on_target = is_at_target && distance_to(axis_number, state.target_lu) == 0;
   if (shows_finish) ground_.show_finished(static_cast<std::size_t>(axis_number));
-  const bool goes_on = held == Activity::home && chose(option("home_failure", "the_program_goes_on"));
-  if (code == Code::none || mover >= Mover::plc || goes_on) return std::nullopt;
+  const bool continues = held == Activity::home && chose(option("home_failure", "the_program_goes_on"));
+  if (code == Code::none || mover >= Mover::plc || continues) return std::nullopt;
   return Broken{.mover = mover, .axis = axis_number, .is_awaited = is_awaited, .why = why};
 }
 
@@ -162,7 +162,7 @@ void Moves::rest_axis(int axis_number) {
   state.holder = Activity::rest;
 }
 
-std::optional<Broken> Moves::go_on_axis(int axis_number) {
+std::optional<Broken> Moves::resume_axis(int axis_number) {
   AxisState& state = axis(axis_number);
   motion::Axis& motor = chip(axis_number);
   if (!state.is_held) return std::nullopt;
@@ -204,14 +204,14 @@ std::optional<Broken> Moves::go_on_axis(int axis_number) {
     case RestKind::turning: parts_.drives.begin_turning(axis_number, rest.rpm, mover); break;
     case RestKind::home: parts_.homes.start_home(axis_number); break;
   }
-  if (state.holder == Activity::nobody) return cannot_go_on(axis_number, rest, mover, is_awaited);
+  if (state.holder == Activity::nobody) return cannot_resume(axis_number, rest, mover, is_awaited);
   state.mover = mover;
   state.awaited = is_awaited;
   return std::nullopt;
 }
 
 /// Resets the program, as if the axis had reached its present signals in motion.
-std::optional<Broken> Moves::cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
+std::optional<Broken> Moves::cannot_resume(int axis_number, const Rest& rest, Mover mover, bool is_awaited) {
   const motion::Axis& motor = chip(axis_number);
   parts_.starts.let_go(axis_number);
   const bool is_void = rest.kind == RestKind::mark && rest.search == 0;
@@ -257,7 +257,7 @@ void Moves::handle(int axis, ManualEvent event, Code code) {
 /// Applies the table of manual_motions.h.
 void Moves::handle(int axis, ManualMotion motion, ManualEvent event, Code code) {
   switch (answer_of(motion, event)) {
-    case ManualAnswer::goes_on: break;
+    case ManualAnswer::continues: break;
     case ManualAnswer::slows:
       parts_.jogs.release_jog(
           axis, motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);

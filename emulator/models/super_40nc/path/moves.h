@@ -35,7 +35,7 @@ class Moves : protected Chips {
   std::optional<Broken> ended(int axis_number);
 
   void hold_axis(int axis_number);
-  std::optional<Broken> go_on_axis(int axis_number);
+  std::optional<Broken> resume_axis(int axis_number);
 
   /// Returns the motion by hand, or nothing if a program's line waits for the axis.
   std::optional<ManualMotion> manual_motion(int axis_number) const;
@@ -45,7 +45,7 @@ class Moves : protected Chips {
 
  private:
   void rest_axis(int axis_number);
-  std::optional<Broken> cannot_go_on(int axis_number, const Rest& rest, Mover mover, bool is_awaited);
+  std::optional<Broken> cannot_resume(int axis_number, const Rest& rest, Mover mover, bool is_awaited);
 
   AxisParts& parts_;
   Paths& paths_;

@@ -49,10 +49,10 @@ double Paths::feed_scale(const motion::Path& path) const {
   const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
   const double unit =
       goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(kept_x(d9x::kDotPosition)))] : 1.0;
-  const motion::Point way = path.end - path.begin;
-  const double of_xyz = way.head<3>().norm();
-  const bool carries_u = way[3] != 0 && of_xyz > 0 && chose(option("vector_feed", "u_is_carried_along"));
-  return carries_u ? unit * way.norm() / of_xyz : unit;
+  const motion::Point travel = path.end - path.begin;
+  const double of_xyz = travel.head<3>().norm();
+  const bool carries_u = travel[3] != 0 && of_xyz > 0 && chose(option("vector_feed", "u_is_carried_along"));
+  return carries_u ? unit * travel.norm() / of_xyz : unit;
 }
 
 Grant Paths::ask_for_path(const std::array<bool, kAxisCount>& takes) {
@@ -81,8 +81,8 @@ motion::Cause Paths::blocked_on_path(int axis_number, const motion::Path& path) 
 /// direction.
 motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& path) {
   const Settings settings = registers();
-  motion::Point most;
-  most.setConstant(std::numeric_limits<double>::infinity());
+  motion::Point max;
+  max.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
   double longest = 0;  // the most pulses of an axis per LU of the path
@@ -97,7 +97,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
     const double ppu = pulses_per_lu(settings, number);
     path.axis_of[n] = static_cast<std::int8_t>(number);
     path.scale[n] = settings.scale(number);
-    most[number] = settings.top_pps(number) / ppu;
+    max[number] = settings.top_pps(number) / ppu;
     const double share = direction[number];
     if (share <= 0) continue;
     const double slope_lu_s = settings.pps(number, number_of(kept_d(d9::kTargetSpeed))) / ppu;
@@ -110,7 +110,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
       fastest_ppu = ppu;
     }
   }
-  state_.path_limit_lu_s = motion::speed_within(plan.path, most);
+  state_.path_limit_lu_s = motion::speed_within(plan.path, max);
   const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
   return law_by(
@@ -187,20 +187,20 @@ bool Paths::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {
 /// Appends a path without slowing down, whatever the corner; its own feed applies from now on.
 void Paths::join_path(const PathPlan& plan) {
   const Settings settings = registers();
-  motion::Point most;
-  most.setConstant(std::numeric_limits<double>::infinity());
+  motion::Point max;
+  max.setConstant(std::numeric_limits<double>::infinity());
   axes_.path.run.append(plan.path, {.rule = motion::Joint::Rule::join}, now());
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     if (!plan.takes[n]) continue;
-    most[number] = settings.top_pps(number) / pulses_per_lu(settings, number);
+    max[number] = settings.top_pps(number) / pulses_per_lu(settings, number);
     AxisState& state = axis(number);
     state.target_lu = plan.target_lu[n];
     state.rest.travel = axes_.path.travel_at(n, plan.path.end[number]);
   }
   state_.path_feed_lu_s = std::max<std::int32_t>(plan.feed_lu_per_s, 1);
   state_.path_feed_scale = feed_scale(plan.path);
-  state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, most));
+  state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, max));
   apply_override();
 }
 
@@ -231,7 +231,7 @@ void Paths::hold_path() {
   axes_.path_is_held = true;
 }
 
-void Paths::go_on_path() {
+void Paths::resume_path() {
   if (!axes_.path.engaged || !axes_.path_is_held) return;
   axes_.path_is_held = false;
   for (int number = 0; number < kAxisCount; ++number) {

@@ -45,7 +45,7 @@ class Paths : protected Chips {
   void apply_override();
 
   void hold_path();
-  void go_on_path();
+  void resume_path();
   /// Executes VDRV 0: slows down by the path's ramp, and ends.
   void slow_path();
   void stop_path();

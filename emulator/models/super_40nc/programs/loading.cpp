@@ -62,7 +62,7 @@ void Programs::make_programs_ready() {
   }
   if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
   stored_.show_line_counts();
-  tell_watch();
+  notify_watch();
 }
 
 void Programs::load_program(std::string_view text) {
@@ -126,11 +126,11 @@ void Programs::change_file(std::int32_t number) {
     return;
   }
   if (c_runs && chose(option("file_change_running", "resets_c"))) {
-    tell(language::Event::stop, language::Area::c);
+    handle(language::Event::stop, language::Area::c);
   }
   stored_.change_c(number);
   make_programs_ready();
-  tell(language::Event::file_changed, language::Area::c);
+  handle(language::Event::file_changed, language::Area::c);
   stored_.flash_written(false);
 }
 
@@ -165,7 +165,7 @@ void Programs::take_user_command(std::int32_t number) {
   const Settings settings = registers();
   const std::int32_t feed = settings.raw(kept_d(d8::kFeed));
   const std::int32_t plane = settings.raw(kept_d(d8::kPlane));
-  tell(language::Event::start, language::Area::c);
+  handle(language::Event::start, language::Area::c);
   if (!is_table && before.has_modes) {  // F and RPM apply to later commands
     language::StepState& program = state_.steps.programs[0];
     program.targets = before.targets;

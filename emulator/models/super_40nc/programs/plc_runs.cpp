@@ -60,7 +60,7 @@ void Programs::run_plc() {
   const auto ladder = ladder_;
   if (!ladder->is_empty() && state_.plc.runs) {
     // A scan that changed nothing, and had no new input, would do the same again.
-    tell_watch();
+    notify_watch();
     const bool was_told = ground_.state().touched;
     const language::Scanned scanned = language::scan(state_.plc, *ladder, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
@@ -85,9 +85,9 @@ void Programs::fast_forward(Tick done, Tick tick) {
   const Tick each = std::max<Tick>(options_.scan_ms, 1);
   const Tick before_first = std::clamp(state_.flash_until - 1, done, tick);
   const Tick scans = tick / each - before_first / each;
-  tell_watch();
+  notify_watch();
   ProgramMachine machine(*this, controls_);
-  language::cross(state_.plc, *ladder_, machine, scans, options_);
+  language::fast_forward(state_.plc, *ladder_, machine, scans, options_);
   if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= tick - done;
 }
 

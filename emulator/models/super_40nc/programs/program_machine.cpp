@@ -258,11 +258,11 @@ void ProgramMachine::hold(Area by) {
   }
 }
 
-void ProgramMachine::go_on(Area by) {
-  if (by == Area::c) controls_.paths.go_on_path();
+void ProgramMachine::resume_motions(Area by) {
+  if (by == Area::c) controls_.paths.resume_path();
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (state_of(axis).mover == mover_of(by) && !is_on_path(axis)) {
-      if (const auto broken = controls_.moves.go_on_axis(axis)) programs_.broken(*broken);
+      if (const auto broken = controls_.moves.resume_axis(axis)) programs_.broken(*broken);
     }
   }
 }

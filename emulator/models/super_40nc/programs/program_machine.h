@@ -52,7 +52,7 @@ class ProgramMachine final : public language::Machine, protected Chips {
   language::Begun begin(language::Area by, const language::WheelRatios& ratios) override;
   bool is_running(language::Area by) const override;
   void hold(language::Area by) override;
-  void go_on(language::Area by) override;
+  void resume_motions(language::Area by) override;
   void drop_held(language::Area by) override;
   language::Areas stop(language::Area area) override;
   void waits_no_more(language::Area by) override;

@@ -189,9 +189,9 @@ double ProgramMachine::radius_for(std::int32_t radius_lu, const motion::Point& f
                                   const motion::Point& to) const {
   constexpr double kNoLess = 1 + 1e-12;  // at least half the chord, despite rounding
   const auto radius = static_cast<double>(radius_lu);
-  const double least = (to - from).norm() / 2 * kNoLess;
-  const bool widens = std::abs(radius) < least && chose(option("radius_too_small", "half_circle"));
-  return widens ? std::copysign(least, radius) : radius;
+  const double min = (to - from).norm() / 2 * kNoLess;
+  const bool widens = std::abs(radius) < min && chose(option("radius_too_small", "half_circle"));
+  return widens ? std::copysign(min, radius) : radius;
 }
 
 Begun ProgramMachine::begin(Area, const language::RadiusArc& arc) {

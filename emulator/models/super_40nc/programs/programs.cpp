@@ -20,7 +20,7 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-void Programs::tell(language::Event event, language::Area area) {
+void Programs::handle(language::Event event, language::Area area) {
   ProgramMachine machine(*this, controls_);
   language::StepPrograms(state_.steps, codes_, machine, options_).take(event, area);
 }
@@ -39,9 +39,9 @@ void Programs::broken(const Broken& broken) {
       (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line"))) ||
       (why == motion::Cause::alarm && chose(option("alm_resets", "pauses_at_the_line"))) ||
       (why == motion::Cause::comparator && chose(option("comparator_resets", "pauses_at_the_line")));
-  if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
+  if (pauses && !runs_on) return handle(language::Event::limit_pauses, area);
   if (pauses) return;
-  tell(runs_on ? language::Event::stop : language::Event::broken, area);
+  handle(runs_on ? language::Event::stop : language::Event::broken, area);
 }
 
 void Programs::path_broken(motion::Cause why) {
@@ -51,13 +51,13 @@ void Programs::path_broken(motion::Cause why) {
   broken({.is_awaited = is_awaited, .why = why});
 }
 
-void Programs::tell_watch() const {
+void Programs::notify_watch() const {
   if (watch() == nullptr) return;
   std::uint64_t mark = hash_of({});
   for (const auto& [name, text] : ready_texts_) {
     mark = hash_of(std::as_bytes(std::span(name)), mark ^ text.digest());
   }
-  watch()->look(mark);
+  watch()->program_loaded(mark);
 }
 
 namespace {
@@ -66,7 +66,7 @@ namespace {
 class WithoutC final : public ProgramWatch {
  public:
   explicit WithoutC(ProgramWatch& watch) : watch_(watch) {}
-  void look(std::uint64_t mark) override { watch_.look(mark); }
+  void program_loaded(std::uint64_t mark) override { watch_.program_loaded(mark); }
   void runs(int part, int line, std::int64_t times) override {
     if (part != 0) watch_.runs(part, line, times);
   }
@@ -83,7 +83,7 @@ class WithoutC final : public ProgramWatch {
 void Programs::run_steps() {
   if (!are_busy()) return;
   ProgramMachine machine(*this, controls_);
-  tell_watch();
+  notify_watch();
   std::optional<WithoutC> without_c;
   if (watch() != nullptr && state_.table.runs != UserTable::Runs::nothing) {
     machine.set_watch(&without_c.emplace(*watch()));

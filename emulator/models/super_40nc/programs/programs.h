@@ -66,7 +66,7 @@ class Programs : protected Chips, public Watched {
   std::int32_t table_line() const;
 
   // --- programs.cpp
-  void tell(interpreter::super_40nc::Event event, Area area);
+  void handle(interpreter::super_40nc::Event event, Area area);
   /// Resets, or pauses, a program that has lost a motion.
   void broken(const Broken& broken);
   void path_broken(motion::Cause why);
@@ -106,7 +106,7 @@ class Programs : protected Chips, public Watched {
   void give_up_program(Area area);
   void put_table_in_place();
   /// Tells an observer which programs there are.
-  void tell_watch() const;
+  void notify_watch() const;
   void clear_timers();
 
   Controls controls_;

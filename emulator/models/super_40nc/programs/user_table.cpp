@@ -28,7 +28,7 @@ constexpr std::uint32_t kNoCoil = 0x1'0000;  // an address that no frame can hav
 
 struct CommandRow {
   Op op;
-  int most_data;
+  int max_data;
   bool needs_first = false;
   bool names_coils = false;
 };
@@ -61,7 +61,7 @@ std::vector<Instruction> instructions_of(std::span<const std::uint32_t> line) {
   const std::uint32_t number = line[0];
   if (number < 1 || number > kCommands.size()) return {};
   const CommandRow& command = kCommands[number - 1];
-  const auto data = line.subspan(1, static_cast<std::size_t>(command.most_data));
+  const auto data = line.subspan(1, static_cast<std::size_t>(command.max_data));
   if (command.needs_first && data[0] == kUnset) return {};
   std::vector<Instruction> made;
   if (!command.names_coils) made.push_back({.op = command.op});

@@ -25,8 +25,8 @@ namespace {
 struct PanelParameter {
   int number;
   int d9;  // for axes: added to D9x00; 0 for a base parameter without a printed register
-  std::int32_t least;
-  std::int32_t most;
+  std::int32_t min;
+  std::int32_t max;
   std::string_view unit;
   std::int32_t factory;           // as on the panel
   std::string_view meaning = {};  // if it has no register; otherwise the register's
@@ -153,8 +153,8 @@ MadeParameters make_parameters() {
     made.rows.push_back({.number = keep(std::string(letter) + std::to_string(row.number)),
                          .name = has_register ? keep("D" + std::to_string(d9)) : std::string_view("-"),
                          .persistent = has_register,
-                         .least = std::to_string(row.least),
-                         .most = std::to_string(row.most),
+                         .min = std::to_string(row.min),
+                         .max = std::to_string(row.max),
                          .unit = row.unit,
                          .factory = std::to_string(factory),
                          .meaning = meaning,

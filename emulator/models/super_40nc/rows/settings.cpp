@@ -59,8 +59,8 @@ motion::SpeedLaw Settings::law_of_c(int axis, double rpm) const {
 
 motion::SpeedLaw Settings::law_with(int axis, double rpm, const Ramps& ramps) const {
   const auto start_rpm = static_cast<double>(of(kept_x(d9x::kBiasSpeed), axis));
-  const double least_rpm = readings_.starts_as_fast ? start_rpm : 1.0;
-  const double top = std::min(pps(axis, std::max(rpm, least_rpm)), top_pps(axis));
+  const double min_rpm = readings_.starts_as_fast ? start_rpm : 1.0;
+  const double top = std::min(pps(axis, std::max(rpm, min_rpm)), top_pps(axis));
   const double step = multiplier(axis, top);
   return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(kept_d(d9::kTargetSpeed)))),
                 ramps.up_ms, down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step,

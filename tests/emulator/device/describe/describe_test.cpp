@@ -224,8 +224,8 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
       described("parameters", SheetFormat::json, *find_model(models::all_models(), "slim")));
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const NamedParameterRow& row = find_model(models::all_models(), "slim")->named_parameters[i];
-    EXPECT_EQ(csv.rows[i].at("min"), row.least) << row.name;
-    EXPECT_EQ(csv.rows[i].at("max"), row.most) << row.name;
+    EXPECT_EQ(csv.rows[i].at("min"), row.min) << row.name;
+    EXPECT_EQ(csv.rows[i].at("max"), row.max) << row.name;
     EXPECT_EQ(csv.rows[i].at("unit"), row.unit) << row.name;
     EXPECT_EQ(csv.rows[i].at("default"), row.factory) << row.name;
     EXPECT_EQ(json[i].at("meaning"), row.meaning) << row.name;

@@ -288,8 +288,8 @@ TEST_F(Answers, AreThoseThatThePagePrints) {
   ASSERT_EQ(printed.size(), std::size(kRows));
   for (const auto& [command, name] : kRows) {
     ASSERT_TRUE(printed.contains(name)) << name;
-    ASSERT_EQ(printed.at(name).size(), kDoings) << name;
-    for (std::size_t activity = 0; activity < kDoings; ++activity) {
+    ASSERT_EQ(printed.at(name).size(), kActivities) << name;
+    for (std::size_t activity = 0; activity < kActivities; ++activity) {
       EXPECT_EQ(happened(command, static_cast<Activity>(activity)), printed.at(name)[activity])
           << name << " but it is in column " << activity;
     }

@@ -78,8 +78,8 @@ struct OneDescribed {
   }
   void advance(Tick ticks) { world.advance_to(world.now() + ticks * kTickLength); }
   /// Returns the ticks until it is no longer busy; -1 if that takes too long.
-  Tick ticks_until_still(Tick most = 100'000) {
-    for (Tick ticks = 0; ticks <= most; ++ticks) {
+  Tick ticks_until_still(Tick max = 100'000) {
+    for (Tick ticks = 0; ticks <= max; ++ticks) {
       if (read("STATUS.BUSY") == 0) return ticks;
       advance(1);
     }

@@ -33,8 +33,8 @@ struct Allowed {
   std::string rule;
   std::string type;
   int registers = 1;
-  std::int64_t least = 0;
-  std::int64_t most = 0;
+  std::int64_t min = 0;
+  std::int64_t max = 0;
   std::vector<std::int64_t> list{};
 };
 
@@ -45,8 +45,8 @@ std::map<int, std::vector<Allowed>> parameters_by_low_byte() {
                 .rule = fact.at("rule"),
                 .type = fact.at("type"),
                 .registers = std::stoi(fact.at("registers"))};
-    if (!fact.at("least").empty()) one.least = std::stoll(fact.at("least"));
-    if (!fact.at("most").empty()) one.most = std::stoll(fact.at("most"));
+    if (!fact.at("least").empty()) one.min = std::stoll(fact.at("least"));
+    if (!fact.at("most").empty()) one.max = std::stoll(fact.at("most"));
     std::string list = fact.at("list");
     while (!list.empty()) {
       std::size_t used = 0;
@@ -85,10 +85,10 @@ std::uint32_t good_value(const Allowed& one, std::int64_t& free_axis, std::mt199
   }
   if (one.rule == "operator") return one.type == "W" ? 0x3C : '+';
   if (one.rule == "if used") return 1;
-  if (one.name == "Lp" || one.name == "Wp") return static_cast<std::uint32_t>(one.most);
+  if (one.name == "Lp" || one.name == "Wp") return static_cast<std::uint32_t>(one.max);
   if (!one.list.empty()) return static_cast<std::uint32_t>(one.list[random() % one.list.size()]);
-  const auto count = static_cast<std::uint64_t>(one.most - one.least) + 1;
-  return static_cast<std::uint32_t>(one.least + static_cast<std::int64_t>(random() % count));
+  const auto count = static_cast<std::uint64_t>(one.max - one.min) + 1;
+  return static_cast<std::uint32_t>(one.min + static_cast<std::int64_t>(random() % count));
 }
 
 TEST(RsM8194hCommandNames, EveryCodesTextMeansItsMessageInBothOrders) {

@@ -41,7 +41,7 @@ constexpr Action kActions[] = {{"LPSAV", 0, 1, 0},          {"EPSAV", 0, 2, 0}, 
 
 struct Speeds {
   std::int64_t x, y, edge;  // pulses per second; X's pulse with the edge
-  const char* most;         // MAX_V, of which a speed is a whole number of 8000ths
+  const char* max;          // MAX_V, of which a speed is a whole number of 8000ths
 };
 constexpr Speeds kSpeeds[] = {{10, 7, 3, "8000"},
                               {1000, 701, 14, "8000"},
@@ -93,7 +93,7 @@ GivenRsm bench_of(const Cell& cell) {
 void begin(OneRsm& rsm, const Cell& cell) {
   const Speeds& by = cell.speeds;
   const char* const other = cell.on_path() ? "Z" : "Y";
-  rsm.send({std::string("RSM_SET_MAX_V XYZU ") + by.most, "RSM_SET_SV X " + text(by.x),
+  rsm.send({std::string("RSM_SET_MAX_V XYZU ") + by.max, "RSM_SET_SV X " + text(by.x),
             "RSM_SET_V X " + text(by.x)});
   for (const char* const verb : {"RSM_SET_SV ", "RSM_SET_V "})
     rsm.send(verb + std::string(other) + " " + text(by.y));
@@ -150,13 +150,13 @@ void expect_closed_form(const Cell& cell) {
   // the nearest whole pulse, there half a pulse earlier.
   const std::int64_t halves = 2 * by.edge - (cell.on_path() ? 1 : 0);
   const std::int64_t place = cell.on_y ? halves * by.y / (2 * cell.speed_of_x()) : by.edge;
-  const std::int64_t least = place - (cell.on_y && halves * by.y % (2 * cell.speed_of_x()) == 0 ? 1 : 0);
+  const std::int64_t min = place - (cell.on_y && halves * by.y % (2 * cell.speed_of_x()) == 0 ? 1 : 0);
   // The preset value is far below C+, which is reached once.
   constexpr std::int64_t kPreset = -100'000'000;
   const auto expect_place = [&](std::int64_t found) {
     // The chip's steps of a vector speed are a microsecond by then.
     const std::int64_t steps = cell.on_y && cell.on_path() ? by.x / 1'000'000 : 0;
-    EXPECT_GE(found, least - steps);
+    EXPECT_GE(found, min - steps);
     EXPECT_LE(found, place + steps);
   };
   EXPECT_GE(rsm.get("ABS_X"), by.edge);  // it has arrived there
@@ -185,7 +185,7 @@ TEST(RsM8194hEdgesInATick, AreOfTheirPulseInEveryCellOfTheTable) {
 TEST(RsM8194hEdgesInATick, StopAPathOfOtherAxesWhereItIs) {
   for (const Speeds& by : kSpeeds) {
     OneRsm rsm;
-    rsm.send({std::string("RSM_SET_MAX_V XYZU ") + by.most, "RSM_SET_SV X " + text(by.x),
+    rsm.send({std::string("RSM_SET_MAX_V XYZU ") + by.max, "RSM_SET_SV X " + text(by.x),
               "RSM_SET_V X " + text(by.x), "RSM_AXIS_ASSIGN Y Z 0", "RSM_VECTOR_SPEED 0",
               "RSM_SET_VSV " + text(by.y), "RSM_SET_VV " + text(by.y),
               "RSM_SYNC_ACTION X Y 1 6 1 0 0 0 0 0 0 0", "RSM_SET_COMPARE X 0 0 " + text(by.edge)});

@@ -169,7 +169,7 @@ TEST(RsM8194hInit, IsAsPowerUpHasFoundIt) {
   rsm.set("FRNET_EVENT", 1);
   rsm.input(kInitSwitch, true);
   rsm.run(10);
-  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::obey_and_reply);
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::execute_and_reply);
   rsm.world().switch_power(0, false);
   rsm.run(10);
   rsm.world().switch_power(0, true);
@@ -184,7 +184,7 @@ TEST(RsM8194hInit, IsAsPowerUpHasFoundIt) {
   rsm.run(10);
   rsm.world().switch_power(0, true);
   rsm.run(20);
-  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::obey_and_reply);
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::execute_and_reply);
   EXPECT_EQ(rsm.get("VAR1"), 1);
 }
 

@@ -52,7 +52,7 @@ constexpr std::int64_t kPlaces[] = {-1100, -1000, -999, -700, -601, -300, -41,  
                                     0,     40,    41,   141,  301,  999,  1000, 1100};
 
 struct Steps {
-  int ways[4];  // 1: +, 2: -, 0: left out
+  int directions[4];  // 1: +, 2: -, 0: left out
   bool limit_is_home;
 };
 int sign_of(int direction) { return direction == 1 ? +1 : direction == 2 ? -1 : 0; }
@@ -76,10 +76,10 @@ End at_limit(std::int64_t from, int sign) {
 
 /// Returns nothing if the place is the end of a ramp.
 std::optional<End> closed_form(const Steps& steps, std::int64_t place, bool is_constant) {
-  const int w1 = sign_of(steps.ways[0]);
-  const int w2 = sign_of(steps.ways[1]);
-  const int w3 = sign_of(steps.ways[2]);
-  const int w4 = sign_of(steps.ways[3]);
+  const int w1 = sign_of(steps.directions[0]);
+  const int w2 = sign_of(steps.directions[1]);
+  const int w3 = sign_of(steps.directions[2]);
+  const int w4 = sign_of(steps.directions[3]);
   const bool is_near = place >= kNearFirst && place <= kNearLast;
   if (w1 != 0 && !is_near && w2 == 0) {
     if (!is_constant) return {};
@@ -110,7 +110,7 @@ void expect_end(const Speeds& speeds, const Steps& steps, std::int64_t from) {
   for (const std::string_view command : speeds.commands) rsm.send(command);
   rsm.send({"RSM_SET_AO X 0", steps.limit_is_home ? "RSM_HOME_LIMIT X 1" : "RSM_HOME_LIMIT X 0"});
   std::string mode = "RSM_SET_HOME_MODE X";
-  for (const int direction : steps.ways) mode += " " + std::to_string(direction);
+  for (const int direction : steps.directions) mode += " " + std::to_string(direction);
   mode += " " + std::to_string(kOffset);
   rsm.send(mode);
   rsm.run(5);

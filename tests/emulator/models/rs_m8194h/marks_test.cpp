@@ -47,37 +47,37 @@ struct MarkedRsm : OneRsm {
 };
 
 struct Event {
-  WayOut way;
+  DiscardEvent event;
   std::function<void(MarkedRsm&)> happen;
 };
 
 const std::vector<Event>& events() {
   static const std::vector<Event> all{
-      {WayOut::stop, [](MarkedRsm& rsm) { rsm.send("RSM_STOP_SLOWLY X"); }},
-      {WayOut::stop, [](MarkedRsm& rsm) { rsm.send("RSM_STOP_SUDDENLY X"); }},
-      {WayOut::path_stop, [](MarkedRsm& rsm) { rsm.send("RSM_VSTOP_SLOWLY"); }},
-      {WayOut::path_stop, [](MarkedRsm& rsm) { rsm.send("RSM_VSTOP_SUDDENLY"); }},
-      {WayOut::emergency_stop, [](MarkedRsm& rsm) { rsm.send("RSM_EMERGENCY_STOP 0"); }},
-      {WayOut::emergency_stop, [](MarkedRsm& rsm) { rsm.send("RSM_EMERGENCY_STOP 1"); }},
-      {WayOut::cause,
+      {DiscardEvent::stop, [](MarkedRsm& rsm) { rsm.send("RSM_STOP_SLOWLY X"); }},
+      {DiscardEvent::stop, [](MarkedRsm& rsm) { rsm.send("RSM_STOP_SUDDENLY X"); }},
+      {DiscardEvent::path_stop, [](MarkedRsm& rsm) { rsm.send("RSM_VSTOP_SLOWLY"); }},
+      {DiscardEvent::path_stop, [](MarkedRsm& rsm) { rsm.send("RSM_VSTOP_SUDDENLY"); }},
+      {DiscardEvent::emergency_stop, [](MarkedRsm& rsm) { rsm.send("RSM_EMERGENCY_STOP 0"); }},
+      {DiscardEvent::emergency_stop, [](MarkedRsm& rsm) { rsm.send("RSM_EMERGENCY_STOP 1"); }},
+      {DiscardEvent::cause,
        [](MarkedRsm& rsm) {
          rsm.pin(0, Pin::alarm, true);
          rsm.run(3);
          rsm.pin(0, Pin::alarm, false);
        }},
-      {WayOut::cause,
+      {DiscardEvent::cause,
        [](MarkedRsm& rsm) {
          rsm.pin(0, Pin::limit_plus, true);
          rsm.run(3);
          rsm.pin(0, Pin::limit_plus, false);
        }},
-      {WayOut::cause,
+      {DiscardEvent::cause,
        [](MarkedRsm& rsm) {
          rsm.input(kEmergencyPin, true);
          rsm.run(3);
          rsm.input(kEmergencyPin, false);
        }},
-      {WayOut::other_drive,
+      {DiscardEvent::other_drive,
        [](MarkedRsm& rsm) {
          if (rsm.mark == Mark::external_drive) return rsm.send("RSM_SET_PULSE X 6000");
          // By a mark of another axis, because commands wait in the FIFO meanwhile.
@@ -88,8 +88,8 @@ const std::vector<Event>& events() {
          rsm.run(2);
          rsm.pin(3, Pin::in3, false);
        }},
-      {WayOut::release, [](MarkedRsm& rsm) { rsm.send("RSM_DRV_START X"); }},
-      {WayOut::triggers_off, [](MarkedRsm& rsm) { rsm.set("FRNET_EVENT", 0); }},
+      {DiscardEvent::release, [](MarkedRsm& rsm) { rsm.send("RSM_DRV_START X"); }},
+      {DiscardEvent::triggers_off, [](MarkedRsm& rsm) { rsm.set("FRNET_EVENT", 0); }},
   };
   return all;
 }
@@ -97,15 +97,15 @@ const std::vector<Event>& events() {
 TEST(RsM8194hMarks, AreTakenOffAsTheTableSays) {
   for (std::size_t m = 0; m < kMarks; ++m) {
     const auto mark = static_cast<Mark>(m);
-    std::array<bool, kWaysOut> is_tried{};
+    std::array<bool, kDiscardEvents> is_tried{};
     for (const Event& event : events()) {
       SCOPED_TRACE(std::to_string(m) + ", " + std::to_string(&event - events().data()));
       MarkedRsm rsm(mark);
       ASSERT_TRUE(rsm.is_there());
       event.happen(rsm);
       rsm.run(3);
-      EXPECT_EQ(rsm.is_there(), !takes_off(event.way, mark));
-      is_tried[static_cast<std::size_t>(event.way)] = true;
+      EXPECT_EQ(rsm.is_there(), !takes_off(event.event, mark));
+      is_tried[static_cast<std::size_t>(event.event)] = true;
     }
     for (const bool tried : is_tried) EXPECT_TRUE(tried);
     for (const bool is_power : {true, false}) {

@@ -90,11 +90,11 @@ class OneRsm {
     return get("DRIVING_AXIS") == 0 && get("FREE_BUFFER_SIZE") == 30 && get("I8094H_STATE") == 0;
   }
   /// Runs until nothing moves or waits. Returns the ticks it took.
-  Tick run_to_rest(Tick most = 200'000) {
+  Tick run_to_rest(Tick max = 200'000) {
     const Tick begin = now();
     do {
       run(1);
-    } while (!rests() && now() - begin < most);
+    } while (!rests() && now() - begin < max);
     EXPECT_TRUE(rests());
     return now() - begin;
   }

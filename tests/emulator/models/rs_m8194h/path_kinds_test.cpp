@@ -108,21 +108,21 @@ TEST(RsM8194hPathKinds, RectanglesCloseFromEachOfTheirPoints) {
     rsm.send("RSM_SET_MAX_V XY 80000");
     rsm.send("RSM_RECTANGLE X Y 0 " + std::to_string(point) + " " + std::to_string(number % 2) +
              " 20000 10000 1000 10000 10000 5000 5000");
-    Value least_x = 0, most_x = 0, least_y = 0, most_y = 0;
+    Value min_x = 0, max_x = 0, min_y = 0, max_y = 0;
     const Tick begin = rsm.now();
     do {
       rsm.run(1);
-      least_x = std::min(least_x, rsm.get("LP_X"));
-      most_x = std::max(most_x, rsm.get("LP_X"));
-      least_y = std::min(least_y, rsm.get("LP_Y"));
-      most_y = std::max(most_y, rsm.get("LP_Y"));
+      min_x = std::min(min_x, rsm.get("LP_X"));
+      max_x = std::max(max_x, rsm.get("LP_X"));
+      min_y = std::min(min_y, rsm.get("LP_Y"));
+      max_y = std::max(max_y, rsm.get("LP_Y"));
     } while (rsm.get("DRIVING_AXIS") != 0);
     EXPECT_EQ(rsm.now() - begin, static_cast<Tick>(std::ceil(length / 10)) + 1);
     EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0}));
-    EXPECT_NEAR(static_cast<double>(most_x - least_x), 20000, 1) << number;
-    EXPECT_NEAR(static_cast<double>(most_y - least_y), 10000, 1) << number;
-    EXPECT_NEAR(-static_cast<double>(least_x), starts.places[point][0], 1) << number;
-    EXPECT_NEAR(-static_cast<double>(least_y), starts.places[point][1], 1) << number;
+    EXPECT_NEAR(static_cast<double>(max_x - min_x), 20000, 1) << number;
+    EXPECT_NEAR(static_cast<double>(max_y - min_y), 10000, 1) << number;
+    EXPECT_NEAR(-static_cast<double>(min_x), starts.places[point][0], 1) << number;
+    EXPECT_NEAR(-static_cast<double>(min_y), starts.places[point][1], 1) << number;
   }
 }
 

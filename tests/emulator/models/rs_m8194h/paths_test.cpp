@@ -124,7 +124,7 @@ TEST(RsM8194hPaths, AFedStreamNeverSlowsBeforeItsLastSegment) {
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_LINE_2D_INITIAL X Y 300 18000 500000"});
   constexpr int kSegments = 2000;
   int sent = 0;
-  Value least_after_ramp = 100000;
+  Value min_after_ramp = 100000;
   while (sent < kSegments || rsm.get("DRIVING_AXIS") != 0) {
     // The segments of a staircase: right angles everywhere.
     while (sent < kSegments && rsm.get("FREE_BUFFER_SIZE") > 0) {
@@ -134,14 +134,14 @@ TEST(RsM8194hPaths, AFedStreamNeverSlowsBeforeItsLastSegment) {
     }
     rsm.run(1);
     const Value speed = rsm.get("CV_X") + rsm.get("CV_Y");
-    if (rsm.now() > 60 && sent < kSegments) least_after_ramp = std::min(least_after_ramp, speed);
+    if (rsm.now() > 60 && sent < kSegments) min_after_ramp = std::min(min_after_ramp, speed);
     ASSERT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
     ASSERT_LT(rsm.now(), 100000);
   }
   EXPECT_EQ(rsm.get("LP_X"), 100 * kSegments / 2);
   EXPECT_EQ(rsm.get("LP_Y"), 100 * kSegments / 2);
-  EXPECT_GE(least_after_ramp, 17990);
-  EXPECT_LE(least_after_ramp, 18000);
+  EXPECT_GE(min_after_ramp, 17990);
+  EXPECT_LE(min_after_ramp, 18000);
 }
 
 TEST(RsM8194hPaths, AStarvedStreamEndsAndGoesOnFromItsStartSpeed) {

@@ -118,9 +118,9 @@ TEST(RsM8194hRefusals, TheInitSwitchMakesTheBoxDeaf) {
   OneRsm rsm({.dip = {{"INIT", true}}});
   EXPECT_EQ(rsm.device().modbus()->addressing(1), Addressing::ignore);
   OneRsm runs;
-  EXPECT_EQ(runs.device().modbus()->addressing(1), Addressing::obey_and_reply);
+  EXPECT_EQ(runs.device().modbus()->addressing(1), Addressing::execute_and_reply);
   EXPECT_EQ(runs.device().modbus()->addressing(2), Addressing::ignore);
-  EXPECT_EQ(runs.device().modbus()->addressing(0), Addressing::obey_silently);
+  EXPECT_EQ(runs.device().modbus()->addressing(0), Addressing::execute_silently);
 }
 
 TEST(RsM8194hRefusals, FirmwaresShowTheirVersions) {

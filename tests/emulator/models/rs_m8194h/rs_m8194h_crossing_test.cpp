@@ -30,8 +30,8 @@ class Course {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
   }
   bool one_in(std::int64_t many) { return between(1, many) == 1; }
-  std::string of_any_size(std::int64_t most, bool with_sign = false) {
-    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(most)));
+  std::string of_any_size(std::int64_t max, bool with_sign = false) {
+    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(max)));
     const auto size = std::llround(std::exp2(exponent(random_)));
     return std::to_string(with_sign && one_in(2) ? -size : size);
   }

@@ -66,7 +66,7 @@ TEST(RsM8194hLanguage, MessagesHaveAsManyCellsAsTheLongestCommand) {
     shortest = std::min(shortest, count);
   }
   const CellForm form = language().cells()->cell_form();
-  EXPECT_EQ(static_cast<std::size_t>(form.most), longest);
+  EXPECT_EQ(static_cast<std::size_t>(form.max), longest);
   EXPECT_EQ(static_cast<std::size_t>(form.fewest), shortest);
 }
 

@@ -238,9 +238,9 @@ TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
 
 /// A command of a random sequence: most of those that move, stop, hold and wait.
 std::string random_command(std::uint32_t& seed) {
-  const auto draw = [&](std::uint32_t most) {
+  const auto draw = [&](std::uint32_t max) {
     seed = seed * 1664525 + 1013904223;
-    return (seed >> 8) % most;
+    return (seed >> 8) % max;
   };
   constexpr const char* kMasks[] = {"X", "Y", "Z", "U", "XY", "XYZU", "YU"};
   const std::string axes = kMasks[draw(7)];

@@ -114,13 +114,13 @@ struct Run {
   OneRsm rsm;
   std::vector<std::vector<Value>> places;
 
-  explicit Run(const LimitKind& limit, const PathKind& path, int direction, Value most) : rsm(given(limit)) {
+  explicit Run(const LimitKind& limit, const PathKind& path, int direction, Value max) : rsm(given(limit)) {
     rsm.send({"RSM_SET_MAX_V XYZ 80000", "RSM_AXIS_ASSIGN X Y Z", "RSM_SET_VSV 400", "RSM_SET_VV 2000",
               "RSM_SET_VA 4000"});
     rsm.run(3);
-    if (most != 0) {
-      const std::string plus = std::to_string(direction > 0 ? most : 1'000'000);
-      const std::string minus = std::to_string(direction > 0 ? -1'000'000 : -most);
+    if (max != 0) {
+      const std::string plus = std::to_string(direction > 0 ? max : 1'000'000);
+      const std::string minus = std::to_string(direction > 0 ? -1'000'000 : -max);
       rsm.send("RSM_SET_SLMT X " + plus + " " + minus + " " + std::to_string(limit.source));
     }
     for (const std::string& command : path.commands(direction)) rsm.send(command);
@@ -152,14 +152,14 @@ double apart(const std::vector<Value>& one, const std::vector<Value>& other) {
   return farthest;
 }
 
-void check(const LimitKind& limit, const PathKind& path, int direction, const Run& free, Value most) {
+void check(const LimitKind& limit, const PathKind& path, int direction, const Run& free, Value max) {
   SCOPED_TRACE(std::string(path.name) + " meets a limit " + limit.name + " at " +
-               std::to_string(direction * most));
-  const Run run(limit, path, direction, most);
+               std::to_string(direction * max));
+  const Run run(limit, path, direction, max);
   EXPECT_EQ(run.rsm.get("DRIVING_AXIS"), 0);
   EXPECT_EQ(run.rsm.get("ERROR_CODE_Y"), 0);
   EXPECT_EQ(run.rsm.get("ERROR_CODE_Z"), 0);
-  const bool is_met = static_cast<double>(most) < path.farthest;
+  const bool is_met = static_cast<double>(max) < path.farthest;
   EXPECT_EQ(run.rsm.get("ERROR_CODE_X"), !is_met ? 0 : direction > 0 ? 1 : 2);
   if (!is_met) {
     EXPECT_TRUE(run.places == free.places);
@@ -167,14 +167,14 @@ void check(const LimitKind& limit, const PathKind& path, int direction, const Ru
   }
   // Until the limit is reached, nothing is different.
   std::size_t met = 0;
-  while (free.places[met][0] * direction <= most) ++met;
+  while (free.places[met][0] * direction <= max) ++met;
   for (std::size_t t = 0; t < met; ++t) ASSERT_EQ(run.places[t], free.places[t]) << t;
   // It continues along the path with its ramp, from 2,000 to 400 PPS at 4,000 PPS/s: 480 pulses, 240 ticks of
   // the path at full speed. The encoder's count comes a tick later.
   const bool slows = path.has_ramps && !limit.at_once;
   const std::size_t ramp = slows ? 240 : 0;
   if (limit.at_once && !limit.has_encoder) {
-    EXPECT_EQ(run.places.back()[0], direction * (most + 1));
+    EXPECT_EQ(run.places.back()[0], direction * (max + 1));
   }
   // A line decelerates for its own end there.
   const std::size_t end = std::min(met + ramp, free.places.size() - 1);

@@ -72,7 +72,7 @@ TEST(ChoicesRegisters, ASetMoveLeavesTheAxissRegistersOrIsCopiedThere) {
 TEST(ChoicesRegisters, FactoryValuesAreUsefulOrTheLeast) {
   struct Row {
     const char* name;
-    Value useful, least;
+    Value useful, min;
   };
   constexpr Row kRows[] = {{"Aaxis_SVON_Polarity", 1, 0},    {"Baxis_VelMode_ACC", 1000, 1},
                            {"Axis_EncSync_NUM", 1, 0},       {"Axis_EncSync_DEN", 1, 1},
@@ -84,7 +84,7 @@ TEST(ChoicesRegisters, FactoryValuesAreUsefulOrTheLeast) {
        each_option<bool>("factory_values", {{"useful", true}, {"least", false}})) {
     OneSimple2 feeder(with("factory_values", option));
     for (const Row& row : kRows) {
-      EXPECT_EQ(feeder.get(row.name), useful ? row.useful : row.least) << option << ", " << row.name;
+      EXPECT_EQ(feeder.get(row.name), useful ? row.useful : row.min) << option << ", " << row.name;
     }
     feeder.set("Baxis_VelMode_ACC", 5);
     feeder.set("Factory_Reset", 1);

@@ -168,7 +168,7 @@ TEST(ChoicesProgramRun, StartWhileRunningRestartsOrJumpsOrIsIgnored) {
 TEST(ChoicesProgramRun, ItsEndLetsMotionGoOnOrStopsIt) {
   // The move begins in tick 12; END runs at 74, before that tick's motion, so 61 ms and 56 pulses are done.
   // The host ends it after tick 74.
-  for (const auto& [option, goes_on] :
+  for (const auto& [option, continues] :
        each_option<bool>("program_end", {{"goes_on", true}, {"stops", false}})) {
     for (const bool by_host : {false, true}) {
       OneSimple2 feeder(with("program_end", option));
@@ -182,22 +182,22 @@ TEST(ChoicesProgramRun, ItsEndLetsMotionGoOnOrStopsIt) {
       if (by_host) feeder.set("PROG_MAIN_RunTime_END", 1);
       EXPECT_FALSE(runs(feeder)) << option;
       feeder.run(200);
-      EXPECT_EQ(feeder.coordinate('A'), goes_on ? 100 : by_host ? 57 : 56) << option;
+      EXPECT_EQ(feeder.coordinate('A'), continues ? 100 : by_host ? 57 : 56) << option;
     }
   }
 }
 
 TEST(ChoicesProgramRun, ErasingARunningProgramStopsItOrRunsOverNothing) {
-  for (const auto& [option, goes_on] :
+  for (const auto& [option, continues] :
        each_option<bool>("erase_while_running", {{"stops_it", false}, {"goes_on", true}})) {
     OneSimple2 feeder(with("erase_while_running", option));
     start_with_program(feeder, {{kJump, 1, 0, 1}});
     feeder.run_to(20);
     feeder.set("PROG_MAIN_Erase_ALL", 1);
-    EXPECT_EQ(runs(feeder), goes_on) << option;
+    EXPECT_EQ(runs(feeder), continues) << option;
     // Lines 0 to 255 at 22 to 532; the slot behind them ends it.
     feeder.run_to(533);
-    EXPECT_EQ(runs(feeder), goes_on) << option;
+    EXPECT_EQ(runs(feeder), continues) << option;
     feeder.run_to(534);
     EXPECT_FALSE(runs(feeder)) << option;
   }

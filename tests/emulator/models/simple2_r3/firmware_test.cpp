@@ -25,7 +25,7 @@ TEST(FirmwareVersions, TellTheirNumberOverBothReadFunctions) {
 
 TEST(FirmwareVersions, JumpTimer1NeverJumpsUntil141AndJumpTimer2DoesInAll) {
   struct Case {
-    Value least;  // what the timers are compared with, without a sign
+    Value min;  // what the timers are compared with, without a sign
     ProgramCourse by_timer1, by_timer2;
   };
   // Timer1 runs from slot 12, Timer2 from 14. Timer1 is looked at in slots 16, 22, 28, ..., Timer2 in 18, 24,
@@ -38,9 +38,9 @@ TEST(FirmwareVersions, JumpTimer1NeverJumpsUntil141AndJumpTimer2DoesInAll) {
   };
   for (const Case& row : table) {
     for (const Firmware firmware : kVersions) {
-      SCOPED_TRACE(std::to_string(row.least) + ", firmware " + std::to_string(firmware));
+      SCOPED_TRACE(std::to_string(row.min) + ", firmware " + std::to_string(firmware));
       ProgramHost host(firmware);
-      host.write_32(0x8000, row.least);
+      host.write_32(0x8000, row.min);
       host.start(program_lines({{kTimerStart, 1, 0, 0},
                                 {kTimerStart, 2, 0, 0},
                                 {kJumpTimer1, 1, 0, 3},  // to flag 1, by MEM0

@@ -38,7 +38,7 @@ bool sets(std::string_view mark, Event event, Outcome outcome) {
 }
 
 /// An outcome that leaves an axis alone. A homing that turns keeps its command.
-bool changes_nothing(Outcome outcome) { return outcome == Outcome::goes_on || outcome == Outcome::dropped; }
+bool changes_nothing(Outcome outcome) { return outcome == Outcome::continues || outcome == Outcome::dropped; }
 
 void expect_marks(Rig& rig, Event event, Outcome outcome, const IsOff& before) {
   for (std::size_t i = 0; i < kAxisMarks.size(); ++i) {

@@ -107,13 +107,13 @@ TEST(MoveTiming, AboveTheCapPulsesComeAt100KilohertzAtMost) {
   ReadySimple2 feeder;
   feeder.set_move('A', 10'000, 3000, 1, 1);
   feeder.set("Aaxis_Move_INC", 1);
-  Value most = 0;
+  Value max = 0;
   for (int i = 0; i < 200; ++i) {
     const Value before = feeder.coordinate('A');
     feeder.run(1);
-    most = std::max(most, feeder.coordinate('A') - before);
+    max = std::max(max, feeder.coordinate('A') - before);
   }
-  EXPECT_EQ(most, 100);
+  EXPECT_EQ(max, 100);
   EXPECT_EQ(feeder.coordinate('A'), 10'000);
 }
 

@@ -185,7 +185,7 @@ int for_each_cell(Activity activity, Visit visit) {
       if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
       visit(phase, event, choices, row.outcome);
       for (const OtherOutcome& other : {row.other, row.another}) {
-        if (!other.is_there) continue;
+        if (!other.exists) continue;
         const ChoiceRow& choice = kChoices[other.chosen.choice];
         const std::string id(choice.id);
         const std::string name(options_of(choice)[other.chosen.number]);

@@ -125,7 +125,7 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   refused("a number is out of range", [](Saved& s) { s[kPower + 8] = std::byte{0x80}; });  // the tick
   EXPECT_EQ(state[kImage + 4], std::byte{0x01});
   EXPECT_EQ(state[kImage + 5], std::byte{0xC0});
-  refused("MAIN_LINE0_CMD holds a value that is not possible", [](Saved& s) {
+  refused("MAIN_LINE0_CMD holds a value that is not valid", [](Saved& s) {
     // A program cell holds 8 bits; it is the first slot of the image that holds less than its type.
     s[kImage + 4 * slot("MAIN_LINE{}_CMD") + 1] = std::byte{1};
   });
@@ -161,8 +161,8 @@ TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
   struct Bounded {
     const char* what;
     void (*put)(State& state, Number value);
-    Number least;
-    Number greatest;
+    Number min;
+    Number max;
   };
   constexpr Number kReach = Number{1} << 61;
   constexpr Number kFastest = INT64_MAX / 4 / 3200;  // at 3200 pulses per revolution
@@ -218,12 +218,12 @@ TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
       device.restore_state(good);
       return state;
     };
-    for (const Number end : {field.least, field.greatest}) {
+    for (const Number end : {field.min, field.max}) {
       const Saved state = with(end);
       EXPECT_EQ(refusal_of(device, state), "") << field.what << " " << end;
       device.restore_state(good);
     }
-    for (const Number beyond : {field.least - 1, field.greatest + 1}) {
+    for (const Number beyond : {field.min - 1, field.max + 1}) {
       const Saved state = with(beyond);
       EXPECT_EQ(refusal_of(device, state), "a number is out of range") << field.what << " " << beyond;
       EXPECT_EQ(device.save_state(), good) << field.what;

@@ -55,7 +55,7 @@ TEST(Simple2TickMemory, OfAnAxisIsThreeLines) {
     const motion::Axis& motor = axis.motor;
     const CacheLines of_motor(motor.travel_pulses, motor.watch_low, motor.watch_high, motor.base_pulses,
                               motor.seen_version, motor.events, motor.must_recheck, motor.task,
-                              motor.servo_on, motor.drive.now, motor.drive.begin_tick, motor.drive.next_look,
+                              motor.servo_on, motor.drive.now, motor.drive.begin_tick, motor.drive.next_check,
                               motor.drive.sent_pulses, motor.drive.direction);
     EXPECT_EQ(of_motor.count(), 2u);
     const CacheLines of_the_rest(axis.mode, axis.command, axis.coordinate_pulses, axis.pulses_this_tick,

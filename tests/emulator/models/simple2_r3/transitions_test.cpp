@@ -37,7 +37,7 @@ class Cell {
 
   void expect(Outcome outcome) {
     switch (outcome) {
-      case Outcome::goes_on:
+      case Outcome::continues:
       case Outcome::dropped: return expect_no_difference();
       case Outcome::stops:
       case Outcome::leaves:
@@ -225,7 +225,7 @@ TEST(Reactions, NameTheirChoicesOrTheManualsSections) {
     const bool is_section = std::any_of(kRegisters.begin(), kRegisters.end(),
                                         [&](const RegisterRow& reg) { return reg.section == section; });
     EXPECT_TRUE(is_choice || is_section || section == "附錄 A" || section == "程式指令列表") << row.source;
-    if (row.other.is_there) {
+    if (row.other.exists) {
       EXPECT_TRUE(is_choice) << row.source << ": a bench with another option must find the row";
     }
   }

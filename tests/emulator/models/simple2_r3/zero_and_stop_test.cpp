@@ -124,13 +124,13 @@ void expect_no_gentler(void (*begin)(Rig&), Tick last) {
     for (Tick i = at + 1; i < last; ++i) {
       rig.watch(1);
       const double now = std::abs(rig.device().axes()->speed_pps(0));
-      const double least = speeds[static_cast<std::size_t>(i - 1)] - speeds[static_cast<std::size_t>(i)];
-      const bool goes_on = slows[static_cast<std::size_t>(i)] && now > 0;
-      if (goes_on) {
-        ASSERT_GE(before - now, least - 1e-6) << "STOP in tick " << at << ", in tick " << i;
+      const double min = speeds[static_cast<std::size_t>(i - 1)] - speeds[static_cast<std::size_t>(i)];
+      const bool continues = slows[static_cast<std::size_t>(i)] && now > 0;
+      if (continues) {
+        ASSERT_GE(before - now, min - 1e-6) << "STOP in tick " << at << ", in tick " << i;
       }
       if (now == 0) {
-        ASSERT_LE(before, least + 5) << "no abrupt end: STOP in tick " << at;
+        ASSERT_LE(before, min + 5) << "no abrupt end: STOP in tick " << at;
         break;
       }
       before = now;
@@ -230,14 +230,14 @@ TEST(WaitMoveHoming, DoesNotMatterToAMove) {
 }
 
 TEST(KeptMove, ThatStopForgetsIsCutShort) {
-  for (const auto& [option, goes_on] : each_option<bool>(
+  for (const auto& [option, continues] : each_option<bool>(
            "wait_cut_short", {{"goes_on", true}, {"waits_on", false}, {"program_ends", false}})) {
     Rig rig({.choices = {{"command_while_servo_off", "kept_until_servo_on"}, {"wait_cut_short", option}}});
     rig.set("Aaxis_SVON", 0);
     run_waiting(rig, 0x25);
     rig.set("Aaxis_STOP", 1);
     rig.watch(20);
-    EXPECT_EQ(rig.output(0), goes_on) << option;
+    EXPECT_EQ(rig.output(0), continues) << option;
     EXPECT_EQ(rig.bit("PROG_MAIN_RunTime_Status"), option == "waits_on") << option;
   }
 }

@@ -54,7 +54,7 @@ TEST(SlimDialogue, TellsOnceWhatIsNotModelled) {
   world::World world(slim_bench(2), world::WorldOptions{},
                      [&](const std::string& text) { told.push_back(text); });
   auto& device = dynamic_cast<Slim&>(world.device(0));
-  for (const char* line : {"?AC", "?AC", "EL=5", "T1EL=6", "FT 100", "?PE"}) device.hear_line(line);
+  for (const char* line : {"?AC", "?AC", "EL=5", "T1EL=6", "FT 100", "?PE"}) device.receive_line(line);
   ASSERT_EQ(told.size(), 3u);
   EXPECT_EQ(told[0].rfind("robot: AC is not modelled: ", 0), 0u) << told[0];
   EXPECT_EQ(told[1].rfind("robot: EL is not modelled: ", 0), 0u) << told[1];

@@ -122,18 +122,18 @@ TEST(SlimGolden, ASpiralEndsWhereItsRadiusHasGrownTo) {
   bench.map({0, 1});
   bench.scale_all(kPulses);
   ASSERT_EQ(bench.chain.spiral(10, 0, 720, 5), Error::none);
-  double least = 1e9;
-  double most = 0;
+  double min = 1e9;
+  double max = 0;
   while (!bench.all_done()) {
     bench.step();
     const double r = std::hypot(bench.chain.coordinate(0) - 10, bench.chain.coordinate(1));
-    least = std::min(least, r);
-    most = std::max(most, r);
+    min = std::min(min, r);
+    max = std::max(max, r);
   }
   EXPECT_EQ(bench.travel(0), -10'000);
   EXPECT_EQ(bench.travel(1), 0);
-  EXPECT_NEAR(least, 10, 1e-3);
-  EXPECT_NEAR(most, 20, 1e-3);
+  EXPECT_NEAR(min, 10, 1e-3);
+  EXPECT_NEAR(max, 20, 1e-3);
   // Length by sqrt(r^2 + (dr/dphi)^2), Simpson's rule over the angle.
   double length = 0;
   constexpr int kParts = 1000;

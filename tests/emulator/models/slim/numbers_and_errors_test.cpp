@@ -101,8 +101,8 @@ TEST(SlimNumbers, ParametersKeepTheRangeThatIsDescribed) {
     for (const auto& row : model().named_parameters) {
       if (row.name != name && row.number != name) continue;
       DialogueScript script;
-      EXPECT_EQ(script.ask(name + "=" + std::string(row.most)), "(nothing)") << name << " " << row.most;
-      EXPECT_EQ(script.ask(name + "=" + std::string(row.least)), "(nothing)") << name << " " << row.least;
+      EXPECT_EQ(script.ask(name + "=" + std::string(row.max)), "(nothing)") << name << " " << row.max;
+      EXPECT_EQ(script.ask(name + "=" + std::string(row.min)), "(nothing)") << name << " " << row.min;
     }
     DialogueScript script;
     EXPECT_EQ(script.ask(name + "=1.1e9"), "ERR 2") << name;

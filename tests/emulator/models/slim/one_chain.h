@@ -78,8 +78,8 @@ struct OneChain {
     return true;
   }
   /// Returns the tick in which everything was done.
-  Tick finish(Tick most = 200'000) {
-    for (const Tick last = tick + most; !all_done() && tick < last;) step();
+  Tick finish(Tick max = 200'000) {
+    for (const Tick last = tick + max; !all_done() && tick < last;) step();
     return tick;
   }
 

@@ -161,19 +161,19 @@ TEST(SlimMotionOptions, WhatPzHolds) {
   const std::string path =
       "> TX=0\n> TY=1\n> 2MR 60,80\n> YMR 10\n> T2MR 1000\n@ 501\n> PZ\n@ 700\n"
       "> ?PE\n< 30\n> ?T1PE\n< 40\n> ?T2PE\n< ";
-  const std::string goes_on = "> REDO\n@ 1000\n> ?PE\n< 60\n> ?T1PE\n< 90\n";
+  const std::string continues = "> REDO\n@ 1000\n> ?PE\n< 60\n> ?T1PE\n< 90\n";
   const std::string two = "> MR 1000\n> MR 500\n> T2MR 1000\n> T2MR 500\n@ 501\n";
   // T1 waits behind a command that waits for T0.
   const std::string behind = "> TX=0\n> TY=1\n> MR 1000\n> 2MR 10,10\n> YMR 100\n@ 501\n";
   const std::string both = "> MR 1000\n> T2MR 1000\n@ 501\n> TAPZ\n> PZ\n@ 200\n> TAREDO\n@ 700\n";
-  play_all("pause_scope", {{"all_modules", path + "500\n> T2JGF\n< ERR 6\n" + goes_on},
+  play_all("pause_scope", {{"all_modules", path + "500\n> T2JGF\n< ERR 6\n" + continues},
                            {"all_modules", two + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T2PE\n< 1000\n"},
                            {"all_modules", behind + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T1PE\n< 0\n"},
                            {"all_modules", both + "> ?PE\n< 500\n> ?T2PE\n< 500\n"}});
   // A jog of 301 ms and its ramp: 50 + 200 + 50.
   play_all(
       "pause_scope",
-      {{"t0", path + "1000\n> T2JGF\n@ 301\n> T2JG0\n@ 200\n> ?T2PE\n< 1300\n> JGF\n< ERR 6\n" + goes_on},
+      {{"t0", path + "1000\n> T2JGF\n@ 301\n> T2JG0\n@ 200\n> ?T2PE\n< 1300\n> JGF\n< ERR 6\n" + continues},
        {"t0", path + "1000\n> CLR BUF\n@ 200\n> ?PE\n< 30\n> ?T1PE\n< 50\n> MR 5\n@ 200\n> ?PE\n< 35\n"},
        {"t0", two + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T2PE\n< 1500\n"},
        {"t0", two + "> PZ\n> CLR BUF\n@ 2000\n> ?PE\n< 500\n> ?T2PE\n< 1500\n"},

@@ -227,8 +227,8 @@ TEST(SlimProgramEntryChoices, Addresses) {
     if (from_1) choices["addresses"] = "line_number_from_1";
     DialogueScript script(1, choices);
     const auto prompted = [&](const std::string& line) {
-      script.device().hear_line(line);
-      return script.device().take_speech();
+      script.device().receive_line(line);
+      return script.device().take_text();
     };
     EXPECT_EQ(prompted("PG"), from_1 ? "1>" : "0>");
     EXPECT_EQ(prompted("RET"), from_1 ? "2>" : "1>");

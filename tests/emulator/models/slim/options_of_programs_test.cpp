@@ -106,26 +106,26 @@ TEST(SlimProgramChoices, LinesATick) {
 }
 
 /// Returns the longest output that a program has had waiting for a line of 960 characters per second.
-std::size_t most_waiting(const Choices& choices) {
+std::size_t max_waiting(const Choices& choices) {
   world::Bench bench = slim_bench(1, choices);
   bench.lines[0].timing = pty::Timing::wire;
   world::World world(bench, world::WorldOptions{}, [](const std::string&) {});
   const pty::Line& line = world.line(0).line;
   const std::string typed = "PG\r$A\rOUT \"" + std::string(48, 'x') + "\"\rJP $A\r\rG\r";
   world.receive(0, {reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()});
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (int ms = 1; ms <= 5000; ++ms) {
     world.advance_to(std::chrono::milliseconds(ms));
     world.take_output(0, line.output().size());
-    most = std::max(most, dynamic_cast<const Slim&>(world.device(0)).state().speech.size());
+    max = std::max(max, dynamic_cast<const Slim&>(world.device(0)).state().speech.size());
   }
-  return most;
+  return max;
 }
 
 TEST(SlimProgramChoices, PrintAhead) {
   // Texts of 50 characters, with their ends: the smallest count of them that is not below the limit.
-  EXPECT_EQ(most_waiting({}), 1050u);
-  EXPECT_EQ(most_waiting({{"print_ahead", "128_characters_then_it_waits"}}), 150u);
+  EXPECT_EQ(max_waiting({}), 1050u);
+  EXPECT_EQ(max_waiting({{"print_ahead", "128_characters_then_it_waits"}}), 150u);
 }
 
 const std::string kTimedJump = "> PG\n> JTI 1,50,$A\n> OUT \"LATE\"\n> RET\n> $A OUT \"ON\"\n>\n> G\n";

@@ -335,8 +335,8 @@ lines:
                      [](const std::string&) {});
   auto& robot = dynamic_cast<Slim&>(world.device(0));
   const auto ask = [&](const char* line) {
-    robot.hear_line(line);
-    return robot.take_speech();
+    robot.receive_line(line);
+    return robot.take_text();
   };
   EXPECT_EQ(ask("?VM"), "500\r\n");
   EXPECT_EQ(ask("?T1VJ"), "7\r\n");

@@ -64,7 +64,7 @@ class PauseCell {
     const bool stands = expected.left != Pauses::none;
     switch (expected.outcome) {
       case PauseOutcome::slows_down: return expect_kept(2, true);
-      case PauseOutcome::goes_on: return expect_kept(2, stands);
+      case PauseOutcome::continues: return expect_kept(2, stands);
       case PauseOutcome::clears: return expect_kept(1, stands);
       case PauseOutcome::gives_up: return expect_nothing();
       case PauseOutcome::stops: EXPECT_EQ(bench_.travel(kOnPath), travel); return expect_nothing();

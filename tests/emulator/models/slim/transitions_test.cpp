@@ -16,35 +16,35 @@ namespace transitions_test {
 
 using Lines = std::vector<std::string>;
 
-const std::string kNames[kDoings] = {"line",      "move",       "homing",   "jog",     "thrust",
-                                     "a program", "GETI waits", "WT waits", "DN waits"};
+const std::string kNames[kActiveTasks] = {"line",      "move",       "homing",   "jog",     "thrust",
+                                          "a program", "GETI waits", "WT waits", "DN waits"};
 const std::string kCommands[kEvents] = {"TAPZ", "TAREDO", "TAUPZ", "TASTOP", "PZ", "REDO"};
 
-bool is_of_program(Doing doing) { return doing >= Doing::program_runs; }
+bool is_of_program(ActiveTask task) { return task >= ActiveTask::program_runs; }
 
 /// The lines that start a long motion.
-Lines motion_of(Doing doing) {
-  switch (doing) {
-    case Doing::line: return {"TX=0", "TY=1", "2MR 3000,4000"};
-    case Doing::move: return {"MR 5000000"};
-    case Doing::homing: return {"H"};
-    case Doing::jog: return {"JGF"};
-    case Doing::thrust: return {"FT 500"};
+Lines motion_of(ActiveTask task) {
+  switch (task) {
+    case ActiveTask::line: return {"TX=0", "TY=1", "2MR 3000,4000"};
+    case ActiveTask::move: return {"MR 5000000"};
+    case ActiveTask::homing: return {"H"};
+    case ActiveTask::jog: return {"JGF"};
+    case ActiveTask::thrust: return {"FT 500"};
     default: return {};
   }
 }
 
 /// Lines of a program that cause it, and then print B.
-Lines lines_of(Doing doing) {
+Lines lines_of(ActiveTask task) {
   const Lines loop{"OUT \"B\"", "$L CHG P1", "JP $L"};
   Lines lines;
-  switch (doing) {
-    case Doing::program_waits_for_number: lines = {"N0=GETI"}; break;
-    case Doing::program_waits_for_time: lines = {"WT 5000"}; break;
-    case Doing::program_waits_for_motion: lines = {"MR 5000000", "DN"}; break;
+  switch (task) {
+    case ActiveTask::program_waits_for_number: lines = {"N0=GETI"}; break;
+    case ActiveTask::program_waits_for_time: lines = {"WT 5000"}; break;
+    case ActiveTask::program_waits_for_motion: lines = {"MR 5000000", "DN"}; break;
     default: break;
   }
-  const bool waits = is_of_program(doing) && doing != Doing::program_runs;
+  const bool waits = is_of_program(task) && task != ActiveTask::program_runs;
   lines.insert(lines.end(), loop.begin() + (waits ? 0 : 1), loop.end());
   return lines;
 }
@@ -52,9 +52,9 @@ Lines lines_of(Doing doing) {
 /// The pause that a command ends; empty for others.
 std::string pause_before(Event event) {
   switch (event) {
-    case Event::go_on:
+    case Event::resume:
     case Event::give_up: return "TAPZ";
-    case Event::go_on_q: return "PZ";
+    case Event::resume_q: return "PZ";
     default: return "";
   }
 }
@@ -66,12 +66,12 @@ class Cell {
 
   void check() {
     const Outcome expected = row_.outcomes[static_cast<std::size_t>(from_)];
-    type_all(motion_of(row_.doing));
+    type_all(motion_of(row_.task));
     script_.pass(400);
     const Mode mode = chain().status(0).mode;
     const double speed_pps = chain().speed_pps(0);
     enter_program();
-    if (from_ == From::event_routine || (is_of_program(row_.doing) && from_ == From::host)) go();
+    if (from_ == From::event_routine || (is_of_program(row_.task) && from_ == From::host)) go();
     if (!pause_before(row_.event).empty()) {
       script_.type(pause_before(row_.event));
       script_.pass(400);
@@ -80,7 +80,7 @@ class Cell {
     bring_about();
     script_.pass(400);
     EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : said_by(expected));
-    if (is_of_program(row_.doing)) return check_program(expected);
+    if (is_of_program(row_.task)) return check_program(expected);
     switch (expected) {
       case Outcome::comes_to_a_stand:
         EXPECT_EQ(chain().speed_pps(0), 0);
@@ -119,7 +119,7 @@ class Cell {
     const auto add = [&](const Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     if (from_ == From::event_routine) add({"SET EV1 I,8", "ON EV1,$E"});
     if (from_ == From::program) add({command_});
-    add(lines_of(row_.doing));
+    add(lines_of(row_.task));
     if (from_ == From::event_routine) add({"RET", "$E " + command_, "OUT \"R\"", "RET"});
     add({"EXIT"});
     type_all(lines);
@@ -127,10 +127,10 @@ class Cell {
   void go() {
     type_all({"G"});
     script_.pass(20);
-    if (row_.doing == Doing::program_runs || !is_of_program(row_.doing)) return;
+    if (row_.task == ActiveTask::program_runs || !is_of_program(row_.task)) return;
     const lang::Hold holds[] = {lang::Hold::number, lang::Hold::timer, lang::Hold::machine};
-    EXPECT_EQ(execution().hold, holds[static_cast<std::size_t>(row_.doing) -
-                                      static_cast<std::size_t>(Doing::program_waits_for_number)]);
+    EXPECT_EQ(execution().hold, holds[static_cast<std::size_t>(row_.task) -
+                                      static_cast<std::size_t>(ActiveTask::program_waits_for_number)]);
   }
 
   void bring_about() {
@@ -143,8 +143,8 @@ class Cell {
 
   /// The program prints something only if the motion that DN waits for is abandoned.
   std::string said_by(Outcome expected) const {
-    const bool is_over = row_.doing == Doing::program_waits_for_motion && row_.event == Event::give_up;
-    return is_over && expected == Outcome::goes_on ? "B" : "(nothing)";
+    const bool is_over = row_.task == ActiveTask::program_waits_for_motion && row_.event == Event::give_up;
+    return is_over && expected == Outcome::continues ? "B" : "(nothing)";
   }
 
   void check_program(Outcome expected) {
@@ -152,8 +152,8 @@ class Cell {
       EXPECT_EQ(script_.next(), said_by(expected));
     }
     EXPECT_EQ(script_.next(), "(nothing)");
-    EXPECT_EQ(execution().running, expected == Outcome::goes_on);
-    if (row_.doing != Doing::program_runs || expected != Outcome::goes_on) return;
+    EXPECT_EQ(execution().running, expected == Outcome::continues);
+    if (row_.task != ActiveTask::program_runs || expected != Outcome::continues) return;
     const auto level = [&] { return script_.device().terminals()->output(terminal(0, kFirstOutput)); };
     const bool before = level();
     script_.pass(2);  // CHG and JP
@@ -171,7 +171,7 @@ TEST(SlimMeetings, ComeOutAsTheTableSays) {
   for (const Transition& row : kTransitions) {
     for (const From from : {From::host, From::program, From::event_routine}) {
       if (row.outcomes[static_cast<std::size_t>(from)] == Outcome::cannot_be) continue;
-      SCOPED_TRACE(kNames[static_cast<std::size_t>(row.doing)] + ", " +
+      SCOPED_TRACE(kNames[static_cast<std::size_t>(row.task)] + ", " +
                    kCommands[static_cast<std::size_t>(row.event)] + " from " +
                    (from == From::host      ? "the host"
                     : from == From::program ? "a program"
@@ -181,7 +181,7 @@ TEST(SlimMeetings, ComeOutAsTheTableSays) {
     }
   }
   // A waiting program prints nothing itself.
-  EXPECT_EQ(cells, static_cast<int>(kDoings * kEvents * kSources - 3 * kEvents));
+  EXPECT_EQ(cells, static_cast<int>(kActiveTasks * kEvents * kSources - 3 * kEvents));
 }
 
 TEST(SlimMeetings, NameTheListOrARowOfTheChoices) {

@@ -38,7 +38,7 @@ struct Act {
 };
 
 Act draw(std::mt19937_64& random) {
-  const auto below = [&](int most) { return std::uniform_int_distribution<int>(0, most - 1)(random); };
+  const auto below = [&](int max) { return std::uniform_int_distribution<int>(0, max - 1)(random); };
   const std::string axis = std::to_string(1 + below(4));
   switch (below(22)) {
     case 0:

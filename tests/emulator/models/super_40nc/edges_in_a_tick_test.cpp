@@ -171,8 +171,8 @@ Value move(OneSuper40nc& one, const Cell& cell) {
                                                              : "M8100";
   one.set(contact, 1);
   // A line accelerates on its path, at its own rate.
-  const Tick most = 5 * cell.by.edge * 1000 / cell.by.pps + (cell.motion == Motion::line ? 4000 : 3);
-  for (Tick ticks = 1; ticks <= most; ++ticks) {
+  const Tick max = 5 * cell.by.edge * 1000 / cell.by.pps + (cell.motion == Motion::line ? 4000 : 3);
+  for (Tick ticks = 1; ticks <= max; ++ticks) {
     if (cell.motion == Motion::wheel) turn(one, cell.by, ticks);
     one.run(1);
     // COUNTER3 has 16 bits, so it reaches its number again.

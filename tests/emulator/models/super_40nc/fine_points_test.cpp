@@ -35,8 +35,8 @@ TEST(Super40ncFinePoints, PanelParametersAreTheManuals) {
       ASSERT_TRUE(rows.contains(number)) << number;
       const NamedParameterRow& row = *rows[number];
       EXPECT_EQ(row.name, name) << number;
-      EXPECT_EQ(row.least, fact.at("least")) << number;
-      EXPECT_EQ(row.most, fact.at("most")) << number;
+      EXPECT_EQ(row.min, fact.at("least")) << number;
+      EXPECT_EQ(row.max, fact.at("most")) << number;
       // If the table of D9 has another value, the meaning decides for the panel's; otherwise the factory
       // value is the panel's.
       const std::string told = "on the panel's page ";

@@ -86,7 +86,7 @@ TEST(Super40ncPowerCut, LeavesWhatIsKeptWhole) {
   const std::uint64_t first = given_seed != nullptr ? std::stoull(given_seed) : 1;
   for (std::uint64_t seed = first; seed < first + 40; ++seed) {
     std::mt19937_64 random(seed);
-    const auto below = [&](int most) { return std::uniform_int_distribution<int>(0, most - 1)(random); };
+    const auto below = [&](int max) { return std::uniform_int_distribution<int>(0, max - 1)(random); };
     // X moves all the time, so that motion is interrupted.
     OneSuper40nc one({.program = "AREA X\nLAB K1\nDRV K9000\nDRV K0\nJMP K1\nEND\n"});
     Kept kept;

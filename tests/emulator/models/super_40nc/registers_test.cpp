@@ -221,9 +221,9 @@ TEST(Super40ncRegisters, AreReadManyAtOnceAsOneByOne) {
       {Table::holding, 2500, 2563}, {Table::holding, 7000, 8199}, {Table::holding, 9000, 9999}};
   for (int round = 0; round < 3000; ++round) {
     const Range& range = kRanges[any(std::size(kRanges))];
-    const int most = range.table == Table::holding ? 125 : 800;
+    const int max = range.table == Table::holding ? 125 : 800;
     const int first = range.first + any(range.last - range.first + 1);
-    const int count = 1 + any(std::min(most, range.last - first + 1));
+    const int count = 1 + any(std::min(max, range.last - first + 1));
     const auto alone = [&](int i) {
       const Place place = bank.at(range.table, static_cast<std::uint16_t>(first + i));
       return static_cast<std::uint16_t>(read_value(bank, place));

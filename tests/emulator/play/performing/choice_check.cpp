@@ -144,12 +144,12 @@ class ChoiceCheck {
   }
 
  private:
-  void complain(const std::string& what) { diagnostics_.push_back(id_ + ": " + what); }
+  void report(const std::string& what) { diagnostics_.push_back(id_ + ": " + what); }
 
   void look_at_comment(const std::string& comment) {
     const std::size_t question = comment.find('?');
-    if (question == std::string::npos) return complain("asks nothing in a comment above it");
-    if (comment.size() < question + kMinExplanation) complain("explains nothing");
+    if (question == std::string::npos) return report("asks nothing in a comment above it");
+    if (comment.size() < question + kMinExplanation) report("explains nothing");
   }
 
   bool look_at_options(const std::vector<Scenario>& cases) {
@@ -159,8 +159,8 @@ class ChoiceCheck {
       named.push_back(chosen.size() == 1 ? *chosen.begin() : "?");
     }
     if (named == options_) return true;
-    complain("the cases choose " + joined(named) +
-             "; expected each option once, ours first: " + joined(options_));
+    report("the cases choose " + joined(named) +
+           "; expected each option once, ours first: " + joined(options_));
     return false;
   }
 
@@ -169,7 +169,7 @@ class ChoiceCheck {
     for (const Scenario& scenario : cases) {
       const auto results = played_with_hash(scenario);
       for (const ScenarioResult& result : results) {
-        for (const std::string& line : failure_lines(result)) complain(result.name + ": " + line);
+        for (const std::string& line : failure_lines(result)) report(result.name + ": " + line);
       }
       outcomes.push_back(outcome_of(results));
     }
@@ -182,9 +182,9 @@ class ChoiceCheck {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       outcomes.push_back(outcome_of(played_with_hash(choosing(deeds, id_, options_[i]))));
       if (outcome_of(played_with_hash(without_expectations(cases[i]))) != outcomes.back()) {
-        complain("the case of " + options_[i] +
-                 " does something else than the first one; expected only its option and its expectations to "
-                 "differ");
+        report("the case of " + options_[i] +
+               " does something else than the first one; expected only its option and its expectations to "
+               "differ");
       }
     }
     require_different(outcomes, "what comes out by the choice alone");
@@ -194,7 +194,7 @@ class ChoiceCheck {
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
         if (outcomes[i] != outcomes[k]) continue;
-        complain(what + " is the same for " + options_[k] + " and " + options_[i]);
+        report(what + " is the same for " + options_[k] + " and " + options_[i]);
       }
     }
   }

@@ -64,7 +64,7 @@ TEST(PerformanceRecorder, ARecordingLeadsToTheSameEnd) {
   EXPECT_EQ(replayed.pulses, 32000);
   // The bytes sent: two completed writes (8 bytes each), one read of one word (7) of two, and one of two
   // words (9).
-  EXPECT_EQ(replayed.result.bytes_said, 8U + 8U + 7U + 9U);
+  EXPECT_EQ(replayed.result.bytes_sent, 8U + 8U + 7U + 9U);
   EXPECT_EQ(replayed.header.snapshot, "");
 }
 
@@ -82,10 +82,10 @@ TEST(PerformanceRecorder, ABranchBeginsWithTheStateAtItsFork) {
   const Again on = again(results[1]);
   EXPECT_NE(on.header.snapshot, "");
   EXPECT_EQ(on.pulses, 32000);
-  EXPECT_EQ(on.result.bytes_said, 0U);
+  EXPECT_EQ(on.result.bytes_sent, 0U);
   const Again stopped = again(results[2]);
   EXPECT_LT(stopped.pulses, 6000);
-  EXPECT_EQ(stopped.result.bytes_said, 8U);
+  EXPECT_EQ(stopped.result.bytes_sent, 8U);
 }
 
 TEST(PerformanceRecorder, BeginsAnewWhereAStateIsRestored) {
@@ -101,7 +101,7 @@ TEST(PerformanceRecorder, BeginsAnewWhereAStateIsRestored) {
   const Again replayed = again(result);
   EXPECT_NE(replayed.header.snapshot, "");
   EXPECT_EQ(replayed.pulses, 0);
-  EXPECT_EQ(replayed.result.bytes_said, 8U);  // only of the last write
+  EXPECT_EQ(replayed.result.bytes_sent, 8U);  // only of the last write
 }
 
 }  // namespace performance_recorder_test

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "emulator/models/models.h"
+#include "emulator/play/executors/free_executor.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
-#include "emulator/play/stages/free_executor.h"
 
 namespace understudy::emulator::play {
 

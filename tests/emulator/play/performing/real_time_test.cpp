@@ -1,6 +1,6 @@
 // What a scenario in real time receives and observes: the host's replies, and when a write was executed.
-#include "emulator/play/stages/real_executor.h"
-#include "emulator/play/stages/write_clock.h"
+#include "emulator/play/executors/real_executor.h"
+#include "emulator/play/executors/write_clock.h"
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "emulator/models/models.h"
-#include "emulator/play/stages/real_executor.h"
-#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/play/executors/real_executor.h"
+#include "emulator/world/protocol/received_lines.h"
 #include "tests/emulator/play/performing/played.h"
 #include "tests/emulator/world/bench_file/without_columns.h"
 #include "tests/emulator/world/stations/echo_box.h"

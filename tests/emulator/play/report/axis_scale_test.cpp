@@ -16,7 +16,7 @@ TEST(AxisScale, HasRoundMarksThatAreFewEnough) {
   struct Case {
     double low;
     double high;
-    int most;
+    int max;
     const char* marks;
   };
   for (const Case& c : {
@@ -29,7 +29,7 @@ TEST(AxisScale, HasRoundMarksThatAreFewEnough) {
            Case{0, 0.001, 2, "0.0000 0.0005 0.0010"},
            Case{999999998, 1000000002, 4, "999999998 999999999 1000000000 1000000001 1000000002"},
        }) {
-    EXPECT_EQ(marks_of(exact_scale_for(c.low, c.high, c.most)), c.marks) << c.low << " to " << c.high;
+    EXPECT_EQ(marks_of(exact_scale_for(c.low, c.high, c.max)), c.marks) << c.low << " to " << c.high;
   }
 }
 

@@ -22,8 +22,8 @@ TEST(Envelope, HasAllPointsOfAShortSignalButForWhereItStays) {
   }
   EXPECT_EQ(envelope.points(), (Points{{5, 0}, {7, 0}, {8, 3}, {9, 7}, {12, 7}}));
   EXPECT_TRUE(envelope.varies());
-  EXPECT_EQ(envelope.least(), 0);
-  EXPECT_EQ(envelope.greatest(), 7);
+  EXPECT_EQ(envelope.min(), 0);
+  EXPECT_EQ(envelope.max(), 7);
 }
 
 TEST(Envelope, LeavesOutWhatComesTooLate) {
@@ -50,19 +50,19 @@ TEST(Envelope, KeepsASpikeOfOneTickInAHourAtItsTime) {
 TEST(Envelope, HasTheExtremesOfEveryStretch) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
-    const std::size_t most = 1 + random() % 20;
+    const std::size_t max = 1 + random() % 20;
     const Tick origin = random() % 100;
     const Tick count = 1 + random() % 400;
     std::vector<double> values;
-    Envelope envelope(most);
+    Envelope envelope(max);
     for (Tick i = 0; i < count; ++i) {
       values.push_back(random() % 7 == 0 && i > 0 ? values.back() : static_cast<double>(random() % 1000));
       envelope.add(origin + i, values.back());
     }
     Tick length = 1;  // the smallest power of two that gives few enough stretches
-    while ((count + length - 1) / length > static_cast<Tick>(most)) length *= 2;
+    while ((count + length - 1) / length > static_cast<Tick>(max)) length *= 2;
     const Points points = envelope.points();
-    EXPECT_LE(points.size(), 4 * most) << "seed " << seed;
+    EXPECT_LE(points.size(), 4 * max) << "seed " << seed;
     for (const auto& [tick, value] : points) {
       EXPECT_EQ(value, values[static_cast<std::size_t>(tick - origin)]) << "seed " << seed;
     }
@@ -88,9 +88,9 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
 TEST(Envelope, StaysAsIfItWereAddedAtEveryTick) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);
-    const std::size_t most = 1 + random() % 20;
-    Envelope stays(most);
-    Envelope added(most);
+    const std::size_t max = 1 + random() % 20;
+    Envelope stays(max);
+    Envelope added(max);
     Tick tick = random() % 100;
     for (int i = 0; i < 12; ++i) {
       const double value = random() % 5;
@@ -101,8 +101,8 @@ TEST(Envelope, StaysAsIfItWereAddedAtEveryTick) {
       while (++tick <= last) added.add(tick, value);
       ASSERT_EQ(stays.points(), added.points()) << "seed " << seed;
     }
-    EXPECT_EQ(stays.least(), added.least());
-    EXPECT_EQ(stays.greatest(), added.greatest());
+    EXPECT_EQ(stays.min(), added.min());
+    EXPECT_EQ(stays.max(), added.max());
   }
 }
 

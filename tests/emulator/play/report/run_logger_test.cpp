@@ -41,14 +41,14 @@ TEST(RunLogger, SeesPositionSpeedAndSwitches) {
   EXPECT_EQ(stretch.begin, SimTime{0});
   EXPECT_EQ(stretch.end, result.steps.back().end);
   const SeenSignal& position = signal_of(stretch, "feeder.A.position");
-  EXPECT_EQ(position.least, 0);
-  EXPECT_EQ(position.greatest, 32000);
+  EXPECT_EQ(position.min, 0);
+  EXPECT_EQ(position.max, 32000);
   EXPECT_EQ(position.points.front().tick, 0);
   EXPECT_EQ(position.points.back().tick, tick_at(stretch.end));
   EXPECT_EQ(position.points.back().value, 32000);
   // 200 RPM at 3200 pulses; the plan reaches it after 50 ms and leaves it 50 ms before the end, at 3050 ms.
   const SeenSignal& speed = signal_of(stretch, "feeder.A.speed");
-  EXPECT_NEAR(speed.greatest, 32000 / 3.0, 0.001);
+  EXPECT_NEAR(speed.max, 32000 / 3.0, 0.001);
   for (const SeenSignal::Point& point : speed.points) {
     const Tick since = point.tick - (kExampleBegins - 1);
     if (since > 50 && since < 3000) {
@@ -66,7 +66,7 @@ TEST(RunLogger, SeesPositionSpeedAndSwitches) {
 
 TEST(RunLogger, SeesVoltagesInVolts) {
   const ScenarioResult result = played("  - input: { feeder.AIN_A: 2.5V }\n  - advance: 5ms\n", "", filmed());
-  EXPECT_EQ(signal_of(result.run_log->stretches[0], "feeder.AIN_A").greatest, 2.5);
+  EXPECT_EQ(signal_of(result.run_log->stretches[0], "feeder.AIN_A").max, 2.5);
 }
 
 TEST(RunLogger, ReadsTheFrames) {

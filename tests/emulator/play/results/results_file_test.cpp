@@ -58,8 +58,8 @@ class Rows : public testing::TestWithParam<std::string> {
   }
   ~Rows() override { std::filesystem::remove_all(folder_); }
 
-  std::unique_ptr<ResultsFile> open(bool goes_on) const {
-    return GetParam() == kSqliteEnding ? open_sqlite(path_, goes_on) : open_json_lines(path_, goes_on);
+  std::unique_ptr<ResultsFile> open(bool continues) const {
+    return GetParam() == kSqliteEnding ? open_sqlite(path_, continues) : open_json_lines(path_, continues);
   }
   void add(ResultsFile& file, const std::vector<ScenarioResult>& results, std::uint64_t made_of = 77) const {
     std::vector<ResultRow> rows;

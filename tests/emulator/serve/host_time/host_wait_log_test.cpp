@@ -15,7 +15,7 @@ namespace understudy::emulator::serve {
 namespace host_wait_log_test {
 
 using host_time::Message;
-using host_time::Said;
+using host_time::MessageKind;
 using std::chrono::milliseconds;
 
 constexpr int kTerminal = 7;
@@ -26,14 +26,14 @@ class HostWaitLogTest : public testing::Test {
   HostWaitLogTest() {
     waits_.add(1);
     Message hello{};
-    hello.what = Said::hello;
-    waits_.heard(1, hello);
+    hello.what = MessageKind::hello;
+    waits_.on_message(1, hello);
   }
   /// Waits from now on for this long; the line has then counted so many bytes.
   void wait(Message message, milliseconds length) {
-    message.what = Said::wait;
+    message.what = MessageKind::wait;
     message.sequence = ++sequence_;
-    waits_.heard(1, message);
+    waits_.on_message(1, message);
     log_.begin(waits_, lines_, now_);
     now_ += length;
     log_.end(now_);

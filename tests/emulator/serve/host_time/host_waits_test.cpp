@@ -13,7 +13,7 @@ namespace understudy::emulator::serve {
 namespace host_waits_test {
 
 using host_time::Message;
-using host_time::Said;
+using host_time::MessageKind;
 
 struct Told {
   int number;
@@ -24,23 +24,23 @@ struct Told {
 
 class HostWaitsTest : public testing::Test {
  protected:
-  void hear(int number, Said what, std::uint32_t sequence = 0) {
+  void hear(int number, MessageKind what, std::uint32_t sequence = 0) {
     Message message = wait_;
     message.what = what;
     message.sequence = sequence;
     message.process = 100;
     message.thread = 100 + number;
-    waits_.heard(number, message);
+    waits_.on_message(number, message);
   }
   HostState state(int number) const { return waits_.threads().at(number).state; }
   /// A thread that waits until a time, for a line.
   void add_waiting(int number, std::int64_t until, int line = 7) {
     waits_.add(number);
-    hear(number, Said::hello);
+    hear(number, MessageKind::hello);
     wait_.until_ns = until;
     wait_.line_count = 1;
     wait_.lines[0] = line;
-    hear(number, Said::wait, 1);
+    hear(number, MessageKind::wait, 1);
   }
 
   Message wait_{};
@@ -56,13 +56,13 @@ void bring(HostWaits& waits, HostState state) {
   Message message{};
   message.process = 100;
   if (state == HostState::unknown) return;
-  message.what = Said::hello;
-  waits.heard(1, message);
-  message.what = state == HostState::gone ? Said::hello : Said::wait;
+  message.what = MessageKind::hello;
+  waits.on_message(1, message);
+  message.what = state == HostState::gone ? MessageKind::hello : MessageKind::wait;
   message.until_ns = 50;
   message.line_count = 1;
   message.lines[0] = 7;
-  if (state != HostState::running) waits.heard(1, message);
+  if (state != HostState::running) waits.on_message(1, message);
 }
 
 /// Causes an event through the member that stands for it. Returns false if a thread in that state cannot have
@@ -71,17 +71,17 @@ bool happen(HostWaits& waits, HostEvent event) {
   Message message{};
   message.process = 100;
   switch (event) {
-    case HostEvent::hello: message.what = Said::hello; break;
+    case HostEvent::hello: message.what = MessageKind::hello; break;
     case HostEvent::wait:
-      message.what = Said::wait;
+      message.what = MessageKind::wait;
       message.until_ns = host_time::kNever;
       break;
-    case HostEvent::cancel: message.what = Said::cancel; break;
+    case HostEvent::cancel: message.what = MessageKind::cancel; break;
     case HostEvent::time: return waits.time_is(SimTime{50}), true;
     case HostEvent::line: return waits.line_has_news(7), true;
     case HostEvent::left: return waits.process_ended(100), true;
   }
-  waits.heard(1, message);
+  waits.on_message(1, message);
   return true;
 }
 
@@ -127,8 +127,8 @@ TEST_F(HostWaitsTest, EndByNewsOfTheirOwnLine) {
   add_waiting(2, host_time::kNever, 8);
   wait_.line_count = host_time::kAnyLine;
   waits_.add(3);
-  hear(3, Said::hello);
-  hear(3, Said::wait, 1);
+  hear(3, MessageKind::hello);
+  hear(3, MessageKind::wait, 1);
   EXPECT_TRUE(waits_.is_line_waited_for(9)) << "by the one that waits for any line";
   EXPECT_TRUE(waits_.line_has_news(8));
   EXPECT_EQ(told_, (std::vector<Told>{{2, HostAnswer::go, 1}, {3, HostAnswer::go, 1}}));
@@ -148,11 +148,11 @@ TEST_F(HostWaitsTest, OfADrainDoNotEndByBytes) {
 TEST_F(HostWaitsTest, AreTakenUpAgainAfterASignalHandler) {
   add_waiting(1, 500);
   wait_.until_ns = 100;
-  hear(1, Said::wait, 2);  // the handler sleeps
+  hear(1, MessageKind::wait, 2);  // the handler sleeps
   EXPECT_EQ(waits_.next_end(), SimTime{100});
   waits_.time_is(SimTime{100});
   wait_.until_ns = 500;
-  hear(1, Said::wait, 1);
+  hear(1, MessageKind::wait, 1);
   EXPECT_EQ(waits_.next_end(), SimTime{500});
   EXPECT_EQ(told_, (std::vector<Told>{{1, HostAnswer::go, 2}}));
 }
@@ -161,10 +161,10 @@ TEST_F(HostWaitsTest, CountThreadsThatWaitElsewhere) {
   add_waiting(1, 500);
   EXPECT_FALSE(waits_.is_any_outside());
   waits_.add(2);
-  hear(2, Said::hello);
-  hear(2, Said::outside);
+  hear(2, MessageKind::hello);
+  hear(2, MessageKind::outside);
   EXPECT_TRUE(waits_.is_any_outside());
-  hear(2, Said::inside);
+  hear(2, MessageKind::inside);
   EXPECT_FALSE(waits_.is_any_outside());
 }
 

@@ -215,7 +215,7 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
   }
   loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) { ++turns_of_port; });
   port.poke();
-  int most_of_one_turn = 0;
+  int max_of_one_turn = 0;
   const auto all = [&] {
     int sum = 0;
     for (const int count : calls) sum += count;
@@ -224,10 +224,10 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
   while (all() < 100) {
     const int before = all();
     loop.wait(wall_now());
-    most_of_one_turn = std::max(most_of_one_turn, all() - before);
+    max_of_one_turn = std::max(max_of_one_turn, all() - before);
   }
   EXPECT_GE(turns_of_port, 25) << "it is checked before each slice";
-  EXPECT_LE(most_of_one_turn, 3);
+  EXPECT_LE(max_of_one_turn, 3);
   EXPECT_LE(*std::max_element(calls.begin(), calls.end()) - *std::min_element(calls.begin(), calls.end()), 1)
       << "they take turns";
 }
@@ -342,13 +342,13 @@ TEST(EventLoop, WhereNothingCanBeLateASliceIsLong) {
     }
     return true;
   });
-  int most = 0;
+  int max = 0;
   for (int turn = 0; turn < 20; ++turn) {
     const int before = pieces;
     loop.wait(wall_now(), EventLoop::kLongSlice);
-    most = std::max(most, pieces - before);
+    max = std::max(max, pieces - before);
   }
-  EXPECT_GT(most, 5);
+  EXPECT_GT(max, 5);
 }
 
 TEST(EventLoop, WorkInPiecesIsBegunOnlyWhileThereIsLittleOfIt) {
@@ -356,12 +356,12 @@ TEST(EventLoop, WorkInPiecesIsBegunOnlyWhileThereIsLittleOfIt) {
   const Pair client;
   int begun = 0;
   int under_way = 0;
-  int most = 0;
+  int max = 0;
   loop.watch(
       client.near(), EventLoop::readable,
       [&](std::uint32_t) {
         ++begun;
-        most = std::max(most, ++under_way);
+        max = std::max(max, ++under_way);
         loop.do_in_pieces([&under_way, left = 20]() mutable {
           if (--left > 0) return true;
           --under_way;
@@ -371,7 +371,7 @@ TEST(EventLoop, WorkInPiecesIsBegunOnlyWhileThereIsLittleOfIt) {
       EventLoop::Rank::later);
   client.poke();  // and is ready again at once
   while (begun < 1'000) loop.wait(std::nullopt);
-  EXPECT_LE(most, 64);
+  EXPECT_LE(max, 64);
 }
 
 TEST(EventLoop, WhatMayWaitIsPutOffOnceAndNoMore) {

@@ -165,7 +165,7 @@ TEST(Pacer, BeingWokenEarlyByAHostIsNotLateness) {
   EXPECT_EQ(pacer.lateness().count(), 0u);
   pacer.woke(kStart + 10ms, kStart + 10ms + 40us);
   EXPECT_EQ(pacer.lateness().count(), 1u);
-  EXPECT_EQ(pacer.lateness().greatest(), 40us);
+  EXPECT_EQ(pacer.lateness().max(), 40us);
   // A wake-up just in time counts as one with no delay.
   pacer.woke(kStart + 10ms, kStart + 10ms);
   EXPECT_EQ(pacer.lateness().count(), 2u);
@@ -174,7 +174,7 @@ TEST(Pacer, BeingWokenEarlyByAHostIsNotLateness) {
 TEST(Lateness, OfNothingIsZero) {
   const Lateness lateness;
   EXPECT_EQ(lateness.percentile(50), 0s);
-  EXPECT_EQ(lateness.greatest(), 0s);
+  EXPECT_EQ(lateness.max(), 0s);
 }
 
 TEST(Lateness, PercentilesSplitTheRecordedOnes) {
@@ -219,7 +219,7 @@ TEST(Lateness, ForgetsAllButTheLast4096ExceptTheGreatest) {
   EXPECT_EQ(lateness.percentile(100), 9s);
   lateness.record(1us);
   EXPECT_EQ(lateness.percentile(100), 1us);
-  EXPECT_EQ(lateness.greatest(), 9s);
+  EXPECT_EQ(lateness.max(), 9s);
   EXPECT_EQ(lateness.count(), 4097u);
 }
 

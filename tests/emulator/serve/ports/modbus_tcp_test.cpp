@@ -30,11 +30,11 @@ Bytes with_transaction(Bytes message, std::uint8_t low) {
 
 TEST(ModbusTcp, MakesAFrameOfARequestAndAnAnswerOfAReply) {
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_TRUE(gateway.receive_from_client(kRequest));
   EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
   EXPECT_TRUE(gateway.waits());
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
-  gateway.hear_line(kReplyFrame);
+  gateway.receive_from_line(kReplyFrame);
   EXPECT_EQ(gateway.take_for_client(), kReply);
   EXPECT_FALSE(gateway.waits());
 }
@@ -44,13 +44,13 @@ TEST(ModbusTcp, TakesBothInPiecesOfAnySize) {
     ModbusTcp gateway;
     for (std::size_t at = 0; at < kRequest.size(); at += piece) {
       EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << at;
-      EXPECT_TRUE(
-          gateway.hear_client(std::span(kRequest).subspan(at, std::min(piece, kRequest.size() - at))));
+      EXPECT_TRUE(gateway.receive_from_client(
+          std::span(kRequest).subspan(at, std::min(piece, kRequest.size() - at))));
     }
     EXPECT_EQ(gateway.take_for_line(kRoom), kFrame) << piece;
     for (std::size_t at = 0; at < kReplyFrame.size(); at += piece) {
       EXPECT_EQ(gateway.take_for_client(), Bytes{}) << at;
-      gateway.hear_line(std::span(kReplyFrame).subspan(at, std::min(piece, kReplyFrame.size() - at)));
+      gateway.receive_from_line(std::span(kReplyFrame).subspan(at, std::min(piece, kReplyFrame.size() - at)));
     }
     EXPECT_EQ(gateway.take_for_client(), kReply) << piece;
   }
@@ -63,11 +63,11 @@ TEST(ModbusTcp, HasOneRequestAtATimeOnTheLine) {
     const Bytes one = with_transaction(kRequest, low);
     three.insert(three.end(), one.begin(), one.end());
   }
-  EXPECT_TRUE(gateway.hear_client(three));
+  EXPECT_TRUE(gateway.receive_from_client(three));
   for (const std::uint8_t low : {1, 2, 3}) {
     EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
     EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "another request is on the line";
-    gateway.hear_line(kReplyFrame);
+    gateway.receive_from_line(kReplyFrame);
     EXPECT_EQ(gateway.take_for_client(), with_transaction(kReply, low));
   }
   EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{});
@@ -91,11 +91,11 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
            Case{"00 01 00 00 00 02 01 41", "01 41 07 08 52 3A", "00 01 00 00 00 04 01 41 07 08"},
        }) {
     ModbusTcp gateway;
-    EXPECT_TRUE(gateway.hear_client(hex(c.request)));
+    EXPECT_TRUE(gateway.receive_from_client(hex(c.request)));
     gateway.take_for_line(kRoom);
     for (const std::uint8_t byte : hex(c.frame)) {
       EXPECT_EQ(gateway.take_for_client(), Bytes{});
-      gateway.hear_line(std::array{byte});
+      gateway.receive_from_line(std::array{byte});
     }
     EXPECT_EQ(gateway.take_for_client(), hex(c.answer)) << c.request;
   }
@@ -103,12 +103,12 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
 
 TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_TRUE(gateway.receive_from_client(kRequest));
   gateway.take_for_line(kRoom);
   gateway.give_up();
   EXPECT_EQ(gateway.take_for_client(), kNobody);
   EXPECT_FALSE(gateway.waits());
-  gateway.hear_line(kReplyFrame);  // too late
+  gateway.receive_from_line(kReplyFrame);  // too late
   EXPECT_EQ(gateway.take_for_client(), Bytes{});
   gateway.give_up();
   EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "there was no request";
@@ -120,18 +120,18 @@ TEST(ModbusTcp, PassesOnNothingButTheReply) {
   const Bytes of_function_6 = hex("01 06 10 02 00 C8 2D 5C");
   for (const Bytes& other : {of_station_2, garbled, of_function_6}) {
     ModbusTcp gateway;
-    EXPECT_TRUE(gateway.hear_client(kRequest));
+    EXPECT_TRUE(gateway.receive_from_client(kRequest));
     gateway.take_for_line(kRoom);
-    gateway.hear_line(other);
+    gateway.receive_from_line(other);
     EXPECT_EQ(gateway.take_for_client(), Bytes{});
-    gateway.hear_line(kReplyFrame);
+    gateway.receive_from_line(kReplyFrame);
     EXPECT_EQ(gateway.take_for_client(), kReply);
   }
 }
 
 TEST(ModbusTcp, LeavesABroadcastUnanswered) {
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(hex("12 34 00 00 00 06 00 06 10 02 00 C8")));
+  EXPECT_TRUE(gateway.receive_from_client(hex("12 34 00 00 00 06 00 06 10 02 00 C8")));
   EXPECT_EQ(gateway.take_for_line(kRoom), hex("00 06 10 02 00 C8 2C 8D"));
   EXPECT_TRUE(gateway.is_broadcast());
   gateway.give_up();
@@ -141,23 +141,23 @@ TEST(ModbusTcp, LeavesABroadcastUnanswered) {
 
 TEST(ModbusTcp, PassesOverAnotherProtocol) {
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(hex("00 01 00 07 00 03 01 02 03")));
-  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_TRUE(gateway.receive_from_client(hex("00 01 00 07 00 03 01 02 03")));
+  EXPECT_TRUE(gateway.receive_from_client(kRequest));
   EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
 }
 
 TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
   for (const char* length : {"00 00", "00 01", "00 FF", "FF FF"}) {
     ModbusTcp gateway;
-    EXPECT_FALSE(gateway.hear_client(hex("00 01 00 00 " + std::string(length)))) << length;
+    EXPECT_FALSE(gateway.receive_from_client(hex("00 01 00 00 " + std::string(length)))) << length;
     ModbusTcp later;
     Bytes both = kRequest;
     const Bytes wrong = hex("00 01 00 00 " + std::string(length));
     both.insert(both.end(), wrong.begin(), wrong.end());
-    EXPECT_FALSE(later.hear_client(both)) << length;
+    EXPECT_FALSE(later.receive_from_client(both)) << length;
   }
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(hex("00 01 00 00 00 FE")));
+  EXPECT_TRUE(gateway.receive_from_client(hex("00 01 00 00 00 FE")));
 }
 
 // Cut anywhere, with anything received after it: a refused message never goes to the line.
@@ -171,10 +171,11 @@ TEST(ModbusTcp, NeverServesWhatItHasRefused) {
       for (std::size_t cut = 1; cut <= said.size(); ++cut) {
         ModbusTcp gateway;
         const bool is_refused = cut >= (has_good ? kRequest.size() : 0) + wrong.size();
-        EXPECT_EQ(gateway.hear_client(std::span(said).first(cut)), !is_refused) << length << " " << cut;
+        EXPECT_EQ(gateway.receive_from_client(std::span(said).first(cut)), !is_refused)
+            << length << " " << cut;
         if (is_refused) {
-          EXPECT_FALSE(gateway.hear_client(std::span(said).subspan(cut)));
-          EXPECT_FALSE(gateway.hear_client(kRequest));
+          EXPECT_FALSE(gateway.receive_from_client(std::span(said).subspan(cut)));
+          EXPECT_FALSE(gateway.receive_from_client(kRequest));
         }
         const bool is_served = has_good && cut >= kRequest.size();
         EXPECT_EQ(gateway.take_for_line(kRoom), is_served ? kFrame : Bytes{}) << length << " " << cut;
@@ -190,7 +191,7 @@ TEST(ModbusTcp, HasRoomForSoMuch) {
   ModbusTcp gateway;
   for (int i = 0; gateway.has_room(); ++i) {
     ASSERT_LT(i, 1000);
-    EXPECT_TRUE(gateway.hear_client(kRequest));
+    EXPECT_TRUE(gateway.receive_from_client(kRequest));
   }
   while (!gateway.take_for_line(kRoom).empty()) {
     gateway.give_up();
@@ -201,10 +202,10 @@ TEST(ModbusTcp, HasRoomForSoMuch) {
 
 TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
   ModbusTcp gateway;
-  EXPECT_TRUE(gateway.hear_client(kRequest));
-  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_TRUE(gateway.receive_from_client(kRequest));
+  EXPECT_TRUE(gateway.receive_from_client(kRequest));
   gateway.take_for_line(kRoom);
-  gateway.hear_line(kReplyFrame);
+  gateway.receive_from_line(kReplyFrame);
   EXPECT_EQ(gateway.take_for_line(kRoom), Bytes{}) << "the reply has not been taken";
   EXPECT_EQ(gateway.take_for_client(), kReply);
   EXPECT_EQ(gateway.take_for_line(kRoom), kFrame);
@@ -227,8 +228,8 @@ TEST(ModbusTcp, StaysWholeWhateverItHears) {
     if (random() % 4 == 0) piece[random() % piece.size()] = static_cast<std::uint8_t>(random());
     piece.resize(1 + random() % piece.size());
     const unsigned what = random() % 8;
-    if (what < 4 && gateway.has_room() && !gateway.hear_client(piece)) gateway = ModbusTcp();
-    if (what >= 4 && what < 7) gateway.hear_line(piece);
+    if (what < 4 && gateway.has_room() && !gateway.receive_from_client(piece)) gateway = ModbusTcp();
+    if (what >= 4 && what < 7) gateway.receive_from_line(piece);
     if (what == 7) gateway.give_up();
     const Bytes frame = gateway.take_for_line(kRoom);
     if (!frame.empty()) {

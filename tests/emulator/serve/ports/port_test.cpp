@@ -41,7 +41,7 @@ class LostPort : public testing::Test {
       if (wall_now() > until) return false;
       loop.wait(wall_now() + 1ms);
       presence->collect();
-      port.look(wall_now(), false);
+      port.poll(wall_now(), false);
     }
     return true;
   }
@@ -73,24 +73,24 @@ TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
     const NoDescriptors none;
     const WallTime before = wall_now();
     close(host);
-    ASSERT_TRUE(eventually([&] { return is_lost() && port.next_look(false) > before + 99ms; }));
-    next = port.next_look(false);
+    ASSERT_TRUE(eventually([&] { return is_lost() && port.next_poll(false) > before + 99ms; }));
+    next = port.next_poll(false);
     EXPECT_GE(*next, before + 100ms);
     EXPECT_LE(*next, wall_now() + 100ms);
     // Until then nothing wakes it: its descriptors are not watched, although they report a hang-up without
     // end.
-    port.look(*next - 1ns, false);
-    EXPECT_EQ(port.next_look(false), next);
-    port.look(*next, false);
+    port.poll(*next - 1ns, false);
+    EXPECT_EQ(port.next_poll(false), next);
+    port.poll(*next, false);
     EXPECT_TRUE(is_lost());
-    EXPECT_GT(port.next_look(false), next);
-    next = port.next_look(false);
+    EXPECT_GT(port.next_poll(false), next);
+    next = port.next_poll(false);
   }
-  port.look(*next - 1ns, false);
+  port.poll(*next - 1ns, false);
   EXPECT_TRUE(is_lost()) << "not before its time";
-  port.look(*next, false);
+  port.poll(*next, false);
   EXPECT_FALSE(is_lost());
-  EXPECT_EQ(port.next_look(false), std::nullopt);
+  EXPECT_EQ(port.next_poll(false), std::nullopt);
   EXPECT_EQ(log, std::vector<std::string>()) << "it is the same pseudo-terminal";
   const int another = open_host();
   ASSERT_GE(another, 0);

@@ -38,7 +38,7 @@ Bytes line_bytes(Rfc2217& port, std::size_t room = kRoom) {
 Rfc2217 agreed() {
   Rfc2217 port(kLine);
   EXPECT_EQ(port.take_for_client(), kGreeting);
-  EXPECT_TRUE(port.hear_client(kAgreement));
+  EXPECT_TRUE(port.receive_from_client(kAgreement));
   EXPECT_EQ(line_bytes(port), Bytes{});
   EXPECT_EQ(port.take_for_client(), kModemReady);
   return port;
@@ -46,7 +46,7 @@ Rfc2217 agreed() {
 
 /// The reply to that.
 Bytes answer(Rfc2217& port, const Bytes& said) {
-  EXPECT_TRUE(port.hear_client(said));
+  EXPECT_TRUE(port.receive_from_client(said));
   EXPECT_EQ(line_bytes(port), Bytes{});
   return port.take_for_client();
 }
@@ -63,9 +63,9 @@ TEST(Rfc2217, CarriesEveryByteBothWays) {
     escaped.push_back(static_cast<std::uint8_t>(i));
     if (i == 255) escaped.push_back(255);
   }
-  EXPECT_TRUE(port.hear_client(escaped));
+  EXPECT_TRUE(port.receive_from_client(escaped));
   EXPECT_EQ(line_bytes(port), all);
-  port.hear_line(all);
+  port.receive_from_line(all);
   EXPECT_EQ(port.take_for_client(), escaped);
 }
 
@@ -140,7 +140,7 @@ TEST(Rfc2217, KeepsSettingsAndBytesInTheirOrder) {
   for (const Bytes& more :
        {com_port("03 01"), Bytes{0x42}, com_port("02 07"), com_port("04 02"), Bytes{0x43}})
     said.insert(said.end(), more.begin(), more.end());
-  EXPECT_TRUE(port.hear_client(said));
+  EXPECT_TRUE(port.receive_from_client(said));
   EXPECT_EQ(port.take_for_line(kRoom), Bytes{0x41});
   EXPECT_EQ(port.settings()->parity, Parity::even);
   EXPECT_EQ(port.take_for_line(kRoom), Bytes{0x42});
@@ -162,7 +162,7 @@ TEST(Rfc2217, UnderstandsWhatComesInPiecesOfAnySize) {
     Rfc2217 port(kLine);
     Bytes line;
     for (std::size_t at = 0; at < said.size(); at += piece) {
-      EXPECT_TRUE(port.hear_client(std::span(said).subspan(at, std::min(piece, said.size() - at))));
+      EXPECT_TRUE(port.receive_from_client(std::span(said).subspan(at, std::min(piece, said.size() - at))));
       const Bytes some = line_bytes(port, 1 + piece % 3);
       line.insert(line.end(), some.begin(), some.end());
     }
@@ -193,14 +193,14 @@ TEST(Rfc2217, NegotiatesWithoutEnd) {
 TEST(Rfc2217, KnowsTheReturnOfThoseThatAreNotBinary) {
   Rfc2217 port(kLine);
   port.take_for_client();
-  EXPECT_TRUE(port.hear_client(hex("FF FC 00 FF FE 00 41 0D 00 42 0D 0A 43 00 0D")));
+  EXPECT_TRUE(port.receive_from_client(hex("FF FC 00 FF FE 00 41 0D 00 42 0D 0A 43 00 0D")));
   Bytes line = line_bytes(port);
-  EXPECT_TRUE(port.hear_client(hex("00 44")));
+  EXPECT_TRUE(port.receive_from_client(hex("00 44")));
   const Bytes rest = line_bytes(port);
   line.insert(line.end(), rest.begin(), rest.end());
   EXPECT_EQ(line, hex("41 0D 42 0D 0A 43 00 0D 44"));
   port.take_for_client();
-  port.hear_line(hex("41 0D 42 0D 0A FF 0D"));
+  port.receive_from_line(hex("41 0D 42 0D 0A FF 0D"));
   EXPECT_EQ(port.take_for_client(), hex("41 0D 00 42 0D 0A FF FF 0D 00"));
 }
 
@@ -224,8 +224,8 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
     Rfc2217 port = agreed();
     Bytes answers;
     for (std::size_t at = 0; at < c.said.size(); at += 1000) {
-      EXPECT_TRUE(
-          port.hear_client(std::span(c.said).subspan(at, std::min<std::size_t>(1000, c.said.size() - at))));
+      EXPECT_TRUE(port.receive_from_client(
+          std::span(c.said).subspan(at, std::min<std::size_t>(1000, c.said.size() - at))));
       EXPECT_EQ(line_bytes(port), Bytes{}) << c.what;
       EXPECT_TRUE(port.has_room()) << c.what;
       const Bytes some = port.take_for_client();
@@ -233,7 +233,7 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
     }
     EXPECT_EQ(answers, c.answer) << c.what;
     EXPECT_EQ(port.settings()->parity, Parity::even) << c.what;
-    EXPECT_TRUE(port.hear_client(Bytes{0x7E}));
+    EXPECT_TRUE(port.receive_from_client(Bytes{0x7E}));
     EXPECT_EQ(line_bytes(port), Bytes{0x7E}) << c.what << ": the data after it are understood";
   }
 }
@@ -244,24 +244,24 @@ TEST(Rfc2217, SaysABreakAsOneCharacter) {
   for (const Bytes& more :
        {com_port("05 05"), com_port("05 06"), Bytes{0x31}, com_port("05 05"), hex("FF F3")})
     said.insert(said.end(), more.begin(), more.end());
-  EXPECT_TRUE(port.hear_client(said));
+  EXPECT_TRUE(port.receive_from_client(said));
   EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "switching it on again is not a change";
 }
 
 TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
   struct Case {
     const char* said;
-    bool takes_back;
-    bool throws_away;
+    bool discards_input;
+    bool discards_output;
   };
   for (const Case& c : {Case{"0C 01", false, true}, Case{"0C 02", true, false}, Case{"0C 03", true, true},
                         Case{"0C 04", false, false}}) {
     Rfc2217 port = agreed();
-    EXPECT_TRUE(port.hear_client(com_port(c.said)));
+    EXPECT_TRUE(port.receive_from_client(com_port(c.said)));
     EXPECT_EQ(port.take_for_line(0), Bytes{}) << "even if the line has no room";
-    EXPECT_EQ(port.takes_back(), c.takes_back) << c.said;
-    EXPECT_EQ(port.throws_away(), c.throws_away) << c.said;
-    EXPECT_FALSE(port.takes_back() || port.throws_away()) << "once";
+    EXPECT_EQ(port.discards_input(), c.discards_input) << c.said;
+    EXPECT_EQ(port.discards_output(), c.discards_output) << c.said;
+    EXPECT_FALSE(port.discards_input() || port.discards_output()) << "once";
   }
 }
 
@@ -277,14 +277,14 @@ TEST(Rfc2217, DoesNotListenWhileItIsAskedToWait) {
 // Bytes wait until the line has room, and replies until they are taken; no more than that is accepted.
 TEST(Rfc2217, KeepsLittle) {
   Rfc2217 port = agreed();
-  EXPECT_TRUE(port.hear_client(Bytes(4096, 0x41)));
+  EXPECT_TRUE(port.receive_from_client(Bytes(4096, 0x41)));
   EXPECT_FALSE(port.has_room());
   EXPECT_EQ(port.take_for_line(100).size(), 100U);
   EXPECT_TRUE(port.has_room());
   Rfc2217 chatty = agreed();
   const Bytes asks = com_port("00");
   for (int i = 0; i < 300 && chatty.has_room(); ++i) {
-    EXPECT_TRUE(chatty.hear_client(asks));
+    EXPECT_TRUE(chatty.receive_from_client(asks));
     EXPECT_EQ(line_bytes(chatty), Bytes{});
   }
   EXPECT_FALSE(chatty.has_room());

@@ -84,13 +84,13 @@ plant:
 wires: [ x.DOUT_1 -> z.DIN_1, x.DOUT_1 -> y.DIN_99, x.DOUT_99 -> x.DIN_1 ]
 seed: -1
 )"),
-            R"(bench.yaml:1: understudy: '2' is not possible; expected 1
+            R"(bench.yaml:1: understudy: '2' is not valid; expected 1
 bench.yaml:4: lines.a.bud: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations (the nearest is 'baud')
-bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
+bench.yaml:5: lines.a.baud: 'fast' is not valid; expected a whole number from 1 to 4000000
 bench.yaml:6: lines.a.link: 'tcp://:1502' is a network address; expected a path for a pseudo-terminal (`listen` has addresses)
 bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, firmware, modules, set, choices, dip, program, nv (the nearest is 'address')
 bench.yaml:8: lines.a.stations[0].firmware: 'new' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
-bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
+bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not valid; expected a whole number from -2147483648 to 4294967295
 bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
 bench.yaml:12: plant.x.A.travel: does not include position 0, where the machine starts; expected it inside
@@ -99,7 +99,7 @@ bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, tra
 bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
 bench.yaml:14: plant.y.A.nonsense: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive
 bench.yaml:15: wires[2]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
-bench.yaml:16: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807)");
+bench.yaml:16: seed: '-1' is not valid; expected a whole number from 0 to 9223372036854775807)");
 }
 
 /// With columns.
@@ -132,7 +132,7 @@ lines:
         program: "END\nNONSENSE\n"
 )"),
       R"(bench.yaml:7:19: lines.a.stations[0].firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
-bench.yaml:8:18: lines.a.stations[0].modules: '3' is not possible; expected none, as simple2-r3 has no modules
+bench.yaml:8:18: lines.a.stations[0].modules: '3' is not valid; expected none, as simple2-r3 has no modules
 bench.yaml:10:26: lines.a.stations[0].set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000
 bench.yaml:12:20: lines.a.stations[0].set.HW_Code: cannot be written; it is read-only
 bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
@@ -153,11 +153,11 @@ TEST(AllDiagnostics, OfAChainWhateverItsLengthIs) {
       ".set.NOTHING: is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
   EXPECT_EQ(diagnostic(bench + "8" + more), "bench.yaml:4: devices.r" + nothing);
   EXPECT_EQ(diagnostic(bench + "9" + more),
-            "bench.yaml:4: devices.r.modules: '9' is not possible; expected 1 to 8\n"
+            "bench.yaml:4: devices.r.modules: '9' is not valid; expected 1 to 8\n"
             "bench.yaml:4: devices.r" +
                 nothing);
   EXPECT_EQ(diagnostic(bench + "many" + more),
-            "bench.yaml:4: devices.r.modules: 'many' is not possible; expected a whole number from 1 to 255\n"
+            "bench.yaml:4: devices.r.modules: 'many' is not valid; expected a whole number from 1 to 255\n"
             "bench.yaml:4: devices.r" +
                 nothing);
 }
@@ -180,17 +180,17 @@ faults:
             R"(bench.yaml:6: lines.a.stations[1]: address 2 is taken on this line; expected another
 bench.yaml:6: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one with two decimals, like "1.52"
-bench.yaml:6: lines.a.stations[1].modules: 'many' is not possible; expected a whole number from 1 to 255
+bench.yaml:6: lines.a.stations[1].modules: 'many' is not valid; expected a whole number from 1 to 255
 bench.yaml:6: lines.a.stations[1].nv: is empty; expected a path
 bench.yaml:7: lines.a.stations[1].set.P: 'fast' is not a number; expected one
 bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither on nor off; expected one of them
 bench.yaml:7: lines.a.stations[1].choices.c: expected a word or a number
 bench.yaml:7: lines.a.stations[1].program: /nowhere/x.lst cannot be read (No such file or directory); expected a listing
 bench.yaml:8: lines.a.stations[2]: 'model' is missing; expected it here
-bench.yaml:8: lines.a.stations[2].address: 'far' is not possible; expected a whole number from 0 to 255
+bench.yaml:8: lines.a.stations[2].address: 'far' is not valid; expected a whole number from 0 to 255
 bench.yaml:9: plant.y.A.travel: expected a list, as in `[ a, b ]`
-bench.yaml:9: plant.x.A.travel[0]: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
-bench.yaml:9: plant.x.A.travel[1]: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:9: plant.x.A.travel[0]: 'x' is not valid; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:9: plant.x.A.travel[1]: 'y' is not valid; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:10: inputs.x.DIN_1: 'maybe' is not a level; expected on or off
 bench.yaml:13: faults[1].when: column 14 of 'x.B.pulses ==': unexpected end; expected a name, a number or '(')");
 }
@@ -212,25 +212,25 @@ faults:
   - { lost_steps: x.B, one_in: none, nth: some, when: "x.A.home ==" }
   - { lost_steps: y.B, one_in: none, nth: some, when: "y.A.homes" }
 )"),
-      R"(bench.yaml:5: plant.x.A.position: 'here' is not possible; expected a whole number from -1000000000000 to 1000000000000
-bench.yaml:7: plant.x.A.home.at: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
-bench.yaml:7: plant.x.A.home.width: '-2' is not possible; expected a whole number from 1 to 1000000000000
-bench.yaml:7: plant.x.A.home.hysteresis: '-1' is not possible; expected a whole number from 0 to 1000000000000
+      R"(bench.yaml:5: plant.x.A.position: 'here' is not valid; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:7: plant.x.A.home.at: 'x' is not valid; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:7: plant.x.A.home.width: '-2' is not valid; expected a whole number from 1 to 1000000000000
+bench.yaml:7: plant.x.A.home.hysteresis: '-1' is not valid; expected a whole number from 0 to 1000000000000
 bench.yaml:7: plant.x.A.home.contact: 'maybe' is unknown; expected opens or closes
 bench.yaml:7: plant.x.A.home.input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
 bench.yaml:7: plant.x.A.home.with: is not a key here; expected one of at, width, hysteresis, contact, input (the nearest is 'width')
-bench.yaml:8: plant.x.A.limits.lower: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
-bench.yaml:8: plant.x.A.limits.upper: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:8: plant.x.A.limits.lower: 'x' is not valid; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:8: plant.x.A.limits.upper: 'y' is not valid; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:8: plant.x.A.limits.upper_input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
 bench.yaml:8: plant.x.A.limits.lower_input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
-bench.yaml:9: plant.x.A.encoder.per_revolution: '0' is not possible; expected a whole number from 1 to 10000000
+bench.yaml:9: plant.x.A.encoder.per_revolution: '0' is not valid; expected a whole number from 1 to 10000000
 bench.yaml:9: plant.x.A.encoder.on: 'moon' is unknown; expected wheel or machine
 bench.yaml:9: plant.x.A.encoder.reversed: 'maybe' is unknown; expected true or false
 bench.yaml:10: plant.x.A.drive.ready_after: 'soon' is not a duration of whole milliseconds; expected one such as 120ms
 bench.yaml:10: plant.x.A.drive.enabled_by: 'maybe' is unknown; expected on or off
 bench.yaml:10: plant.x.A.drive.alarm_contact: 'maybe' is unknown; expected opens or closes
-bench.yaml:14: faults[1].one_in: 'none' is not possible; expected a whole number
-bench.yaml:14: faults[1].nth: 'some' is not possible; expected a whole number, or a range such as 3..7
+bench.yaml:14: faults[1].one_in: 'none' is not valid; expected a whole number
+bench.yaml:14: faults[1].nth: 'some' is not valid; expected a whole number, or a range such as 3..7
 bench.yaml:14: faults[1].when: column 1 of 'y.A.homes': axis A has no 'homes'; the nearest is 'home')");
 }
 
@@ -252,11 +252,11 @@ lines:
   b: { pty: off, stations: [] }
 )"),
       R"(bench.yaml:4: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations
-bench.yaml:5: lines.a.baud: '0' is not possible; expected a whole number from 1 to 4000000
+bench.yaml:5: lines.a.baud: '0' is not valid; expected a whole number from 1 to 4000000
 bench.yaml:6: lines.a.pty: 'maybe' is neither on nor off; expected one of them
-bench.yaml:7: lines.a.echo: 'perhaps' is not possible; expected on or off
-bench.yaml:8: lines.a.byte_timeout: 'soon' is not possible; expected 10ms to 60s, as in 200ms
-bench.yaml:9: lines.a.baud_tolerance: 'lots' is not possible; expected 0% to 10%, as in 2%
+bench.yaml:7: lines.a.echo: 'perhaps' is not valid; expected on or off
+bench.yaml:8: lines.a.byte_timeout: 'soon' is not valid; expected 10ms to 60s, as in 200ms
+bench.yaml:9: lines.a.baud_tolerance: 'lots' is not valid; expected 0% to 10%, as in 2%
 bench.yaml:10: lines.a.timing: 'never' is not a timing; expected wire or instant
 bench.yaml:11: lines.a.link: is empty; expected a path
 bench.yaml:12: lines.a.listen[0]: 'modbus-tcp://:99999' has port 99999; expected 0 to 65535
@@ -280,18 +280,18 @@ devices:
   "p q": { model: simple2-r3, set: { a: b } }
 )"),
             R"(bench.yaml:5: lines.a.stations[0].name: 'x y' is not a name; expected letters, digits, _ and -
-bench.yaml:5: lines.a.stations[0].address: '900' is not possible; expected a whole number from 0 to 15
+bench.yaml:5: lines.a.stations[0].address: '900' is not valid; expected a whole number from 0 to 15
 bench.yaml:5: lines.a.stations[0].port: 'RS999' is not a port of simple2-r3; expected 'RS485'
 bench.yaml:5: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
 bench.yaml:6: lines.a.stations[1]: 'name' is missing; expected it here
-bench.yaml:6: lines.a.stations[1].address: 'q' is not possible; expected a whole number from 0 to 15
+bench.yaml:6: lines.a.stations[1].address: 'q' is not valid; expected a whole number from 0 to 15
 bench.yaml:6: lines.a.stations[1].port: 'B' is not a port of simple2-r3; expected 'RS485'
-bench.yaml:6: lines.a.stations[1].modules: '2' is not possible; expected none, as simple2-r3 has no modules
+bench.yaml:6: lines.a.stations[1].modules: '2' is not valid; expected none, as simple2-r3 has no modules
 bench.yaml:7: lines.a.stations[2].device: no device is called 'nosuch'; expected one of p q, x y
-bench.yaml:7: lines.a.stations[2].address: 'q' is not possible; expected a whole number from 0 to 255
+bench.yaml:7: lines.a.stations[2].address: 'q' is not valid; expected a whole number from 0 to 255
 bench.yaml:7: lines.a.stations[2].prt: is not a key here; expected one of device, address, port (the nearest is 'port')
 bench.yaml:10: devices.p q: 'p q' is not a name; expected letters, digits, _ and -
-bench.yaml:10: devices.p q.set.a: 'b' is not possible; expected a whole number from -2147483648 to 4294967295)");
+bench.yaml:10: devices.p q.set.a: 'b' is not valid; expected a whole number from -2147483648 to 4294967295)");
 }
 
 TEST(AllDiagnostics, OfWhatStandsAtAWrongPlace) {
@@ -306,16 +306,16 @@ faults:
   - { slip: u.A, pulses: [ 1 ], at: x }
 )"),
             R"(bench.yaml:4: plant.u.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
-bench.yaml:4: plant.u.Q.home.at: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:4: plant.u.Q.home.at: 'x' is not valid; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:5: plant.nosuch.A: no device is called 'nosuch'; expected 'u'
-bench.yaml:5: plant.nosuch.A.home.at: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:5: plant.nosuch.A.home.at: 'y' is not valid; expected a whole number from -1000000000000 to 1000000000000
 bench.yaml:6: wires[0]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
 bench.yaml:6: wires[0]: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
 bench.yaml:8: faults[0]: no axis of u is called 'C'; expected one of A, B
-bench.yaml:8: faults[0].one_in: 'none' is not possible; expected a whole number
+bench.yaml:8: faults[0].one_in: 'none' is not valid; expected a whole number
 bench.yaml:8: faults[0].nth: is given twice; expected it once
 bench.yaml:9: faults[1].pulses: expected a word or a number
-bench.yaml:9: faults[1].at: 'x' is not possible; expected a duration such as 250ms)");
+bench.yaml:9: faults[1].at: 'x' is not valid; expected a duration such as 250ms)");
 }
 
 TEST(AllDiagnostics, OfAProgramInsideAreAtItsLines) {
@@ -357,7 +357,7 @@ TEST(AllDiagnostics, OfStepsOnALine) {
 )"),
       R"(scenario.yaml:4: steps[0].write.feeder.Nosuch: feeder: no register is called 'Nosuch'; expected one such as 'STATUS'
 scenario.yaml:4: steps[0].write.turner.HW_Code: turner.HW_Code cannot be written; it is read-only (use `exception:` if the step tests that)
-scenario.yaml:5: steps[0].exception: 'many' is not possible; expected a whole number from 1 to 255
+scenario.yaml:5: steps[0].exception: 'many' is not valid; expected a whole number from 1 to 255
 scenario.yaml:6: steps[0].within: needs `reply: nothing`; expected that as well
 scenario.yaml:7: steps[0].via: no line is called 'c'; expected 'rs485'
 scenario.yaml:8: steps[0].at: is not a key here; expected one of write, exception, reply, within, via
@@ -391,7 +391,7 @@ scenario.yaml:5: steps[1].assert[0]: column 1 of 'feeder.Q': feeder: no register
 scenario.yaml:5: steps[1].assert[1]: column 1 of 'turner.Q == 1': turner: no register is called 'Q'; expected one such as 'STATUS'
 scenario.yaml:6: steps[2].always.what: column 1 of 'feeder.Q': feeder: no register is called 'Q'; expected one such as 'STATUS'
 scenario.yaml:6: steps[2].always.of: is not a key here; expected one of what, name
-scenario.yaml:7: steps[3].repeat.times: 'many' is not possible; expected a whole number from 1 to 100000
+scenario.yaml:7: steps[3].repeat.times: 'many' is not valid; expected a whole number from 1 to 100000
 scenario.yaml:7: steps[3].repeat.steps[0].advance: '1' is not a duration; expected one such as 250ms
 scenario.yaml:7: steps[3].repeat.with: is not a key here; expected one of times, as, steps
 scenario.yaml:8: steps[4].for.steps[0].advance: '1' is not a duration; expected one such as 250ms
@@ -421,7 +421,7 @@ scenario.yaml:4: steps[0].input.turner.DIN_1: 'maybe' is not a level; expected o
 scenario.yaml:5: steps[1].turn.feeder.A: feeder.A has no hand wheel; expected `encoder: { on: wheel }` in `plant`
 scenario.yaml:5: steps[1].turn.turner.MPG: no axis of turner is called 'MPG'; expected one of A, B
 scenario.yaml:6: steps[2].inject: no device is called 'q'; expected one of feeder, turner
-scenario.yaml:6: steps[2].inject.one_in: 'none' is not possible; expected a whole number
+scenario.yaml:6: steps[2].inject.one_in: 'none' is not valid; expected a whole number
 scenario.yaml:6: steps[2].inject.name: 'all' cannot be the name of a fault; expected another
 scenario.yaml:7: steps[3].power.feeder: 'maybe' is unknown; expected on, off or cycle
 scenario.yaml:7: steps[3].power.q: no device is called 'q'; expected one of feeder, turner
@@ -473,7 +473,7 @@ TEST(AllDiagnostics, OfAFaultInAScenario) {
   const std::string told = folder.diagnostic(play::ScenarioFolder::scenario_of(
       "  - inject: { lost_steps: feeder.A, one_in: none, when: \"feeder.A.homes\" }\n"));
   EXPECT_EQ(told,
-            "scenario.yaml:4: steps[0].inject.one_in: 'none' is not possible; expected a whole number\n"
+            "scenario.yaml:4: steps[0].inject.one_in: 'none' is not valid; expected a whole number\n"
             "scenario.yaml:4: steps[0].inject.when: column 1 of 'feeder.A.homes': axis A has no 'homes'; the "
             "nearest is 'home'");
 }

@@ -66,12 +66,12 @@ TEST(BenchErrors, AFileThatIsNoYaml) {
 TEST(BenchErrors, TheFormatsVersion) {
   expect_diagnostics({
       {kLines, "1: bench: 'understudy' is missing; expected it here"},
-      {"understudy: 2\n" + kLines, "1: understudy: '2' is not possible; expected 1"},
-      {"understudy: one\n" + kLines, "1: understudy: 'one' is not possible; expected 1"},
+      {"understudy: 2\n" + kLines, "1: understudy: '2' is not valid; expected 1"},
+      {"understudy: one\n" + kLines, "1: understudy: 'one' is not valid; expected 1"},
       {"understudy: [1]\n" + kLines, "1: understudy: expected a word or a number"},
-      {"understudy: 1.0\n" + kLines, "1: understudy: '1.0' is not possible; expected 1"},
+      {"understudy: 1.0\n" + kLines, "1: understudy: '1.0' is not valid; expected 1"},
       {"understudy: 99999999999999999999\n" + kLines,
-       "1: understudy: '99999999999999999999' is not possible; expected 1"},
+       "1: understudy: '99999999999999999999' is not valid; expected 1"},
   });
 }
 
@@ -131,20 +131,20 @@ TEST(BenchErrors, Lines) {
       {with_line("stations: []"), "3: lines.a.stations: is empty; expected at least one station"},
       {with_line("stations: {}"), "3: lines.a.stations: expected a list, as in `[ a, b ]`"},
       {with_line("baud: 0, " + kStation),
-       "3: lines.a.baud: '0' is not possible; expected a whole number from 1 to 4000000"},
+       "3: lines.a.baud: '0' is not valid; expected a whole number from 1 to 4000000"},
       {with_line("baud: 9600, " + kStation),
        "3: lines.a.stations[0]: baud: 9600 is not a speed of simple2-r3; expected one of 19200, 115200"},
       {with_line("baud_tolerance: 11%, " + kStation),
-       "3: lines.a.baud_tolerance: '11%' is not possible; expected 0% to 10%, as in 2%"},
+       "3: lines.a.baud_tolerance: '11%' is not valid; expected 0% to 10%, as in 2%"},
       {with_line("listen: tcp://:1, " + kStation),
        "3: lines.a.listen: 'tcp://:1'"
        " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
        "rtu://127.0.0.1:5020"},
       {with_line("byte_timeout: 9ms, " + kStation),
-       "3: lines.a.byte_timeout: '9ms' is not possible; expected 10ms to 60s, as in 200ms"},
+       "3: lines.a.byte_timeout: '9ms' is not valid; expected 10ms to 60s, as in 200ms"},
       {with_line("byte_timeout: 61s, " + kStation),
-       "3: lines.a.byte_timeout: '61s' is not possible; expected 10ms to 60s, as in 200ms"},
-      {with_line("echo: true, " + kStation), "3: lines.a.echo: 'true' is not possible; expected on or off"},
+       "3: lines.a.byte_timeout: '61s' is not valid; expected 10ms to 60s, as in 200ms"},
+      {with_line("echo: true, " + kStation), "3: lines.a.echo: 'true' is not valid; expected on or off"},
       {with_line("listen: [ 'rtu://:1', 'rtu://here' ], " + kStation),
        "3: lines.a.listen[1]: 'rtu://here'"
        " is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as "
@@ -204,9 +204,9 @@ TEST(BenchErrors, Stations) {
       {with("firmware: 1.43"), at +
                                    ".firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, "
                                    "1.41, 1.42, 1.50, 1.51, 1.52"},
-      {with("address: 16"), at + ".address: '16' is not possible; expected a whole number from 0 to 15"},
-      {with("address: -1"), at + ".address: '-1' is not possible; expected a whole number from 0 to 15"},
-      {with("address: 1.0"), at + ".address: '1.0' is not possible; expected a whole number from 0 to 15"},
+      {with("address: 16"), at + ".address: '16' is not valid; expected a whole number from 0 to 15"},
+      {with("address: -1"), at + ".address: '-1' is not valid; expected a whole number from 0 to 15"},
+      {with("address: 1.0"), at + ".address: '1.0' is not valid; expected a whole number from 0 to 15"},
       {and_then("      - { name: y, model: simple2-r3 }\n"),
        "6: lines.a.stations[1]: address 1 is taken on this line; expected another"},
       {and_then("      - { name: x, model: simple2-r3, address: 2 }\n"),
@@ -237,19 +237,19 @@ TEST(BenchErrors, Devices) {
 
 TEST(BenchErrors, ValuesAndChoices) {
   const std::string at = "5: lines.a.stations[0]";
-  const std::string most = "expected a whole number from -2147483648 to 4294967295";
+  const std::string max = "expected a whole number from -2147483648 to 4294967295";
   expect_diagnostics({
       {with("set: { Aaxis_AccTime: 3001 }"),
        at + ".set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
       {with("set: { Aaxis_AccTim: 3 }"),
        at + ".set.Aaxis_AccTim: no register is called 'Aaxis_AccTim'; the nearest is 'Aaxis_AccTime'"},
       {with("set: { HW_Code: 3 }"), at + ".set.HW_Code: cannot be written; it is read-only"},
-      {with("set: { Aaxis_Pulse: 1e3 }"), at + ".set.Aaxis_Pulse: '1e3' is not possible; " + most},
+      {with("set: { Aaxis_Pulse: 1e3 }"), at + ".set.Aaxis_Pulse: '1e3' is not valid; " + max},
       {with("set: { Aaxis_Pulse: 4294967296 }"),
-       at + ".set.Aaxis_Pulse: '4294967296' is not possible; " + most},
-      {with("set: { Aaxis_Pulse: --1 }"), at + ".set.Aaxis_Pulse: '--1' is not possible; " + most},
-      {with("set: { Aaxis_Pulse: 0x }"), at + ".set.Aaxis_Pulse: '0x' is not possible; " + most},
-      {with("set: { Aaxis_Pulse: 0x-1 }"), at + ".set.Aaxis_Pulse: '0x-1' is not possible; " + most},
+       at + ".set.Aaxis_Pulse: '4294967296' is not valid; " + max},
+      {with("set: { Aaxis_Pulse: --1 }"), at + ".set.Aaxis_Pulse: '--1' is not valid; " + max},
+      {with("set: { Aaxis_Pulse: 0x }"), at + ".set.Aaxis_Pulse: '0x' is not valid; " + max},
+      {with("set: { Aaxis_Pulse: 0x-1 }"), at + ".set.Aaxis_Pulse: '0x-1' is not valid; " + max},
       {with("set: [ 1 ]"), at + ".set: expected a map, as in `key: value`"},
       {with("choices: { stopp: x }"),
        at + ".choices.stopp: no choice is called 'stopp'; the nearest is 'stop'"},
@@ -274,16 +274,16 @@ TEST(BenchErrors, Machines) {
        "7: plant.x.A.travel: expected two positions, as in `[ -20000, 20000 ]`"},
       {plant("x.A: { travel: [ 5, 9 ] }"),
        "7: plant.x.A.travel: does not include position 0, where the machine starts; expected it inside"},
-      {plant("x.A: { travel: [ -9e99, 9 ] }"), "7: plant.x.A.travel[0]: '-9e99' is not possible; " + far},
+      {plant("x.A: { travel: [ -9e99, 9 ] }"), "7: plant.x.A.travel[0]: '-9e99' is not valid; " + far},
       {plant("x.A: { travel: [ -9, 9223372036854775808 ] }"),
-       "7: plant.x.A.travel[1]: '9223372036854775808' is not possible; " + far},
+       "7: plant.x.A.travel[1]: '9223372036854775808' is not valid; " + far},
       {plant("x.A: { home: { at: 0 } }"), "7: plant.x.A.home: 'width' is missing; expected it here"},
       {plant("x.A: { home: { at: 0, width: 0 } }"),
-       "7: plant.x.A.home.width: '0' is not possible; expected a whole number from 1 to 1000000000000"},
+       "7: plant.x.A.home.width: '0' is not valid; expected a whole number from 1 to 1000000000000"},
       {plant("x.A: { limits: { lower: 5, upper: 5 } }"),
        "7: plant.x.A.limits: the lower limit is not below the upper one; expected it below"},
       {plant("x.A: { encoder: { per_revolution: 0 } }"),
-       "7: plant.x.A.encoder.per_revolution: '0' is not possible; expected a whole number from 1 to "
+       "7: plant.x.A.encoder.per_revolution: '0' is not valid; expected a whole number from 1 to "
        "10000000"},
   });
 }

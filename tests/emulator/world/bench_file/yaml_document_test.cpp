@@ -92,14 +92,14 @@ TEST(YamlDocument, GoodQuotesAreLeftAlone) {
   }
 }
 
-/// All texts of up to `most` of these.
-void try_all(const std::string& text, int most) {
+/// All texts of up to `max` of these.
+void try_all(const std::string& text, int max) {
   static constexpr std::array<const char*, 24> kTokens{
       ",",  ":",     "- ",    "? ", "[", "]",   "{",  "}",   "a",  ": ", "\n",   "\n  ",
       "\t", "---\n", "...\n", "\"", "'", "&a ", "*a", "!t ", "| ", "> ", "%Y\n", "# c\n"};
   diagnostic(text);
-  if (most == 0) return;
-  for (const char* token : kTokens) try_all(text + token, most - 1);
+  if (max == 0) return;
+  for (const char* token : kTokens) try_all(text + token, max - 1);
 }
 
 TEST(YamlDocument, AllFilesOfThreeTokensAreReadAtOnce) {

@@ -183,7 +183,7 @@ TEST(Debugger, FindsItsLinesInEachProgramAnew) {
   EXPECT_EQ(counting.run(100), "") << "it has no line 3";
   EXPECT_EQ(counting.debugger.breakpoints()[0].line, 0);
   restore(counting.world, before);
-  counting.debugger.begin_anew();
+  counting.debugger.restart();
   EXPECT_EQ(counting.debugger.stop(), nullptr);
   EXPECT_EQ(counting.run(100), "breakpoint 1: m line 3: Delay_mSec 5");
   counting.world.switch_power(0, false);
@@ -264,7 +264,7 @@ TEST_P(Steps, GoIntoRoutinesOverThemAndOutOfThem) {
   EXPECT_THROW(world.debugger.begin_step(StepKind::out, 0, ""), BreakpointError);
 
   restore(world.world, at_call);
-  world.debugger.begin_anew();
+  world.debugger.restart();
   world.debugger.remove_all();
   world.debugger.add({.line = one.call});
   // The stop is over, so it starts where the program is.

@@ -163,12 +163,12 @@ class Draw {
   }
 
  private:
-  std::string part(const Tree& part, int least, const Tree& whole) {
+  std::string part(const Tree& part, int min, const Tree& whole) {
     const int own = precedence(part);
     const int outer = precedence(whole);
     const bool trap = (outer >= 3 && outer <= 5 && is_comparison(part)) ||
                       (is_comparison(whole) && (is_comparison(part) || part.sign == "!"));
-    if (own < least || trap || below(10) == 0) return "(" + space() + text(part) + space() + ")";
+    if (own < min || trap || below(10) == 0) return "(" + space() + text(part) + space() + ")";
     return text(part);
   }
 

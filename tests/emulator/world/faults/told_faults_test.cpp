@@ -173,7 +173,7 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
   pty::CaptureFrames frames(
       0, world.line(0).framing,
       [&](const pty::CapturedPacket& packet) {
-        lines.push_back((packet.way == pty::Way::from_host ? "in " : "out ") +
+        lines.push_back((packet.direction == pty::Direction::from_host ? "in " : "out ") +
                         std::string(packet.bytes.begin(), packet.bytes.end()) + pty::comment_of(packet));
       },
       true);

@@ -33,9 +33,9 @@ TEST(Trigger, ChanceHitsItsShare) {
   // 10,000 draws: within 4 standard deviations, sqrt(n p (1 - p)).
   struct Case {
     std::int64_t percent;
-    int least, most;
+    int min, max;
   };
-  for (const auto& [percent, least, most] : std::vector<Case>{
+  for (const auto& [percent, min, max] : std::vector<Case>{
            {1, 60, 140}, {5, 412, 588}, {50, 4800, 5200}, {99, 9860, 9940}, {100, 10'000, 10'000}}) {
     for (const std::uint64_t stream : {1u, 2u, 99u}) {
       FaultTrigger trigger;
@@ -43,8 +43,8 @@ TEST(Trigger, ChanceHitsItsShare) {
       FaultCourse course;
       Told told;
       for (int i = 0; i < 10'000; ++i) strikes_frame(trigger, course, {}, told, stream);
-      EXPECT_GE(course.hits, least) << percent;
-      EXPECT_LE(course.hits, most) << percent;
+      EXPECT_GE(course.hits, min) << percent;
+      EXPECT_LE(course.hits, max) << percent;
     }
   }
 }
@@ -107,7 +107,7 @@ std::vector<Tick> ticks_in_force(const FaultTrigger& trigger, const std::functio
                    next_moment(trigger, course) < SimTime{0} ? SimTime{0} : next_moment(trigger, course),
                    told, 3);
     }
-    if (!is_alone && (!skip || next_look(trigger, course, tick - 1) == tick)) {
+    if (!is_alone && (!skip || next_poll(trigger, course, tick - 1) == tick)) {
       strikes_time(trigger, course, time_of(tick), told, 3);
     }
     if (course.in_force) ticks.push_back(tick);
@@ -191,11 +191,11 @@ TEST(Trigger, ThatHasHadItsHitsNeedsNoMoreLooks) {
   FaultCourse course;
   Told told;
   told.is_true = true;
-  EXPECT_EQ(next_look(trigger, course, 0), 1);
+  EXPECT_EQ(next_poll(trigger, course, 0), 1);
   strikes_time(trigger, course, 1ms, told, 0);
   strikes_time(trigger, course, 6ms, told, 0);
   EXPECT_FALSE(course.in_force);
-  EXPECT_EQ(next_look(trigger, course, 6), kNever);
+  EXPECT_EQ(next_poll(trigger, course, 6), kNever);
   trigger = {};
   trigger.at = 3ms;
   course = {};

@@ -35,7 +35,7 @@ struct Collector final : ReplayWatcher {
   }
   void ended() override {
     history.collect(there, log, event_log);
-    for (const FrameLog::Told& frame : log.since(1, SIZE_MAX)) count += frame.text.empty() ? 0U : 1U;
+    for (const FrameLog::Decoded& frame : log.since(1, SIZE_MAX)) count += frame.text.empty() ? 0U : 1U;
   }
   std::vector<RecordedEvent>& events;
   World& there;
@@ -101,8 +101,8 @@ TEST(Curves, HaveTheLeastAndGreatestOfEveryTick) {
       });
       for (std::size_t i = 0; i < kNames.size(); ++i) {
         for (const auto& [dot, range] : expected[i]) {
-          ASSERT_EQ(curves.least(i)[dot], range.first) << seed << " " << kNames[i] << " " << dot;
-          ASSERT_EQ(curves.greatest(i)[dot], range.second) << seed << " " << kNames[i] << " " << dot;
+          ASSERT_EQ(curves.min(i)[dot], range.first) << seed << " " << kNames[i] << " " << dot;
+          ASSERT_EQ(curves.max(i)[dot], range.second) << seed << " " << kNames[i] << " " << dot;
         }
       }
     }

@@ -62,7 +62,7 @@ TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
     EXPECT_TRUE(same);
     EXPECT_EQ(again.header.version, program_version());
     EXPECT_EQ(again.header.seed, seed);
-    bytes += again.result.bytes_said;
+    bytes += again.result.bytes_sent;
   }
   EXPECT_GT(bytes, 3000U) << "or little was compared";
 }

@@ -51,7 +51,7 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
     EXPECT_EQ(states_of(world), states_of(busy.world()));
     EXPECT_EQ(timeline.end(), replayed.result.reached);
     EXPECT_EQ(keyframes, static_cast<int>(timeline.keyframes()));
-    const auto take_back = [&](const WorldState& state, std::size_t) { restore(world, state); };
+    const auto set_state = [&](const WorldState& state, std::size_t) { restore(world, state); };
     for (std::int64_t i = 1; i <= 12; ++i) {
       const auto mixed = i * 7 % 13;
       // Also at exactly the time of an event.
@@ -60,13 +60,13 @@ TEST(Timeline, ComesToWhatAReplayComesTo) {
       std::istringstream again(text);
       std::vector<std::uint64_t> expected;
       replay(models::all_models(), again, "a", time, {}, [&](World& there) { expected = states_of(there); });
-      timeline.go_to(time, take_back);
+      timeline.go_to(time, set_state);
       EXPECT_EQ(world.now(), time);
       EXPECT_EQ(states_of(world), expected) << format_duration(time);
     }
-    timeline.go_to(SimTime{-1}, take_back);
+    timeline.go_to(SimTime{-1}, set_state);
     EXPECT_EQ(world.now(), timeline.begin());
-    timeline.go_to(kHorizon, take_back);
+    timeline.go_to(kHorizon, set_state);
     EXPECT_EQ(world.now(), timeline.end());
   }
 }

@@ -16,11 +16,11 @@ class Draw {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
   }
   bool one_in(std::int64_t many) { return between(1, many) == 1; }
-  std::int64_t of_any_size(std::int64_t most) {
-    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(most)));
+  std::int64_t of_any_size(std::int64_t max) {
+    std::uniform_real_distribution<double> exponent(0, std::log2(static_cast<double>(max)));
     return std::llround(std::exp2(exponent(random_)));
   }
-  std::int64_t of_any_size_and_sign(std::int64_t most) { return (one_in(2) ? -1 : 1) * of_any_size(most); }
+  std::int64_t of_any_size_and_sign(std::int64_t max) { return (one_in(2) ? -1 : 1) * of_any_size(max); }
   template <typename Range>
   const auto& one_of(const Range& range) {
     return *(std::begin(range) + between(0, static_cast<std::int64_t>(std::size(range)) - 1));

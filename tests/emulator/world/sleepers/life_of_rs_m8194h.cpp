@@ -11,11 +11,11 @@ namespace sleepers_rs_m8194h {
 
 namespace language = interpreter::rs_m8194h;
 
-std::string some_axes(Draw& draw, std::int64_t most) {
+std::string some_axes(Draw& draw, std::int64_t max) {
   const std::int64_t mask = draw.one_in(2) ? std::int64_t{1} << draw.between(0, 3) : draw.between(1, 15);
   std::string letters;
   for (int axis = 0; axis < 4; ++axis) {
-    if (((std::min(mask, most) >> axis) & 1) != 0) letters += "XYZU"[axis];
+    if (((std::min(mask, max) >> axis) & 1) != 0) letters += "XYZU"[axis];
   }
   return letters.empty() ? "X" : letters;
 }
@@ -24,7 +24,7 @@ std::string some_value(Draw& draw, const language::Parameter& row) {
   using language::Kind;
   switch (row.kind) {
     case Kind::axes:
-    case Kind::setting_axes: return some_axes(draw, row.most);
+    case Kind::setting_axes: return some_axes(draw, row.max);
     case Kind::axis: return std::string(1, "XYZU"[draw.between(0, 3)]);
     case Kind::axis_or_none: return draw.one_in(2) ? "0" : std::string(1, "XYZU"[draw.between(0, 3)]);
     case Kind::speed: return std::to_string(draw.of_any_size(500'000));
@@ -34,7 +34,7 @@ std::string some_value(Draw& draw, const language::Parameter& row) {
     case Kind::operand: return draw.one_in(2) ? "VAR" + draw.number(0, 4) : draw.number(-5, 900);
     case Kind::arithmetic: return std::string(1, "+-*"[draw.between(0, 2)]);
     case Kind::comparison: return draw.one_in(2) ? "<" : ">=";
-    case Kind::as_it_comes: return draw.number(0, 90);
+    case Kind::any_value: return draw.number(0, 90);
     case Kind::isr_if_used: return draw.number(0, 3);
     case Kind::point_if_used: return std::to_string(draw.of_any_size_and_sign(9000));
     case Kind::number: break;
@@ -45,9 +45,9 @@ std::string some_value(Draw& draw, const language::Parameter& row) {
       if (row.lists(number)) return std::to_string(number);
     }
   }
-  if (row.most - row.least < 300) return draw.number(row.least, row.most);
-  const std::int64_t size = row.least < 0 ? draw.of_any_size_and_sign(20'000) : draw.of_any_size(20'000);
-  return std::to_string(std::clamp(size, row.least, row.most));
+  if (row.max - row.min < 300) return draw.number(row.min, row.max);
+  const std::int64_t size = row.min < 0 ? draw.of_any_size_and_sign(20'000) : draw.of_any_size(20'000);
+  return std::to_string(std::clamp(size, row.min, row.max));
 }
 
 std::string some_line(Draw& draw, bool of_macro) {

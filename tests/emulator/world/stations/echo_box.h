@@ -82,31 +82,31 @@ class EchoBox final : public DeviceOf<EchoBox>,
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
-  void hear_line(std::string_view line) override {
+  void receive_line(std::string_view line) override {
     std::istringstream words{std::string(line)};
     std::string first;
     words >> first;
     long number = 0;
     if (first == "SAY" && line.size() > 4) {
-      say(std::string(line.substr(4)));
+      transmit(std::string(line.substr(4)));
     } else if (first == "AT" && words >> number) {
       state_.speaks_at = number;
     } else if (first == "LIST" && words >> number) {
-      for (long i = 1; i <= number; ++i) say("line " + std::to_string(i));
+      for (long i = 1; i <= number; ++i) transmit("line " + std::to_string(i));
     } else if (line.starts_with('?')) {
       const auto value = value_named(line.substr(1));
-      say(value ? text_of(*value) : "ERR 1");
+      transmit(value ? text_of(*value) : "ERR 1");
     } else if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
       const std::string value(line.substr(equals + 1));
-      if (assign(line.substr(0, equals), std::strtod(value.c_str(), nullptr))) say("ERR 2");
+      if (assign(line.substr(0, equals), std::strtod(value.c_str(), nullptr))) transmit("ERR 2");
     } else {
-      say("ERR 1");
+      transmit("ERR 1");
     }
   }
-  void hear_overlong() override { say("LONG"); }
-  void hear_escape() override { say("BREAK"); }
-  bool has_speech() const override { return !state_.speech.empty(); }
-  std::string take_speech() override { return std::exchange(state_.speech, {}); }
+  void receive_overlong() override { transmit("LONG"); }
+  void receive_escape() override { transmit("BREAK"); }
+  bool has_text() const override { return !state_.speech.empty(); }
+  std::string take_text() override { return std::exchange(state_.speech, {}); }
 
   // --- values by name --------------------------------------------------------------------------
   std::optional<double> value_named(std::string_view name) const override {
@@ -159,7 +159,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
   void run_interpreters(Tick tick) override {
     if (tick != state_.speaks_at) return;
     state_.speaks_at = kNever;
-    say("TICK " + std::to_string(tick));
+    transmit("TICK " + std::to_string(tick));
   }
   Tick next_active_tick(Tick done) const override {
     return state_.speaks_at > done ? state_.speaks_at : kNever;
@@ -169,7 +169,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
 
  protected:
   void power_up() override {
-    if (firmware() == 100) say("HELLO");
+    if (firmware() == 100) transmit("HELLO");
   }
   void power_down() override {
     state_.speech.clear();
@@ -212,7 +212,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
     text << value;
     return text.str();
   }
-  void say(const std::string& line) { state_.speech += line + "\r\n"; }
+  void transmit(const std::string& line) { state_.speech += line + "\r\n"; }
 
   EchoState state_;
   std::uint64_t revision_ = 0;
@@ -254,7 +254,7 @@ inline const Model& echo_box() {
       .state_registers = {},
       .gaps = {},
       .line = line_of_text(),
-      .most_modules = 8,
+      .max_modules = 8,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<EchoBox>(echo_box(), settings);
       },

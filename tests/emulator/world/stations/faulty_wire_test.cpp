@@ -16,14 +16,14 @@ using Kind = pty::WireFault::Kind;
 
 /// Records the questions it gets, and does to messages what a test requests.
 struct Faults final : FrameFaults {
-  bool is_early(const HeardFrame&) override { return true; }
-  std::vector<pty::WireFault> on_request(const HeardFrame& frame) override {
+  bool is_early(const ReceivedFrame&) override { return true; }
+  std::vector<pty::WireFault> on_request(const ReceivedFrame& frame) override {
     device = frame.device;
     line = frame.line;
     return request;
   }
-  Treatment on_serving(const HeardFrame&) override { return treatment; }
-  std::vector<pty::WireFault> on_reply(const HeardFrame&) override { return reply; }
+  Treatment on_serving(const ReceivedFrame&) override { return treatment; }
+  std::vector<pty::WireFault> on_reply(const ReceivedFrame&) override { return reply; }
 
   std::vector<pty::WireFault> request;
   std::vector<pty::WireFault> reply;
@@ -43,10 +43,11 @@ struct Rig final : FaultyWire::End {
                    pty::Transmitter&) override {
     log += "serve " + text(bytes) + " of " + std::to_string(last_character) + "\n";
   }
-  void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter&) override {
+  void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                pty::Transmitter&) override {
     log += "say " + text(bytes) + " to " + std::to_string(last_character) + "\n";
   }
-  bool hear(const Bytes& bytes, pty::SimTime now) {
+  bool receive(const Bytes& bytes, pty::SimTime now) {
     return wire.passes({.bytes = bytes, .last_character = 7, .is_for_device = true, .now = now}, nobody);
   }
   void answer(const Bytes& bytes, pty::SimTime now) {
@@ -66,18 +67,18 @@ struct Rig final : FaultyWire::End {
 
 TEST(FaultyWire, LetsAllThroughWhereNothingIsBroken) {
   Rig rig;
-  EXPECT_TRUE(rig.hear({1, 2}, 5ms));
+  EXPECT_TRUE(rig.receive({1, 2}, 5ms));
   rig.answer({3}, 5ms);
   EXPECT_EQ(rig.log, "say 03 to 7\n");
   EXPECT_EQ(rig.wire.due(), std::nullopt);
-  rig.wire.look_at_completed({.bytes = {}, .is_for_device = true});
+  rig.wire.check_completed({.bytes = {}, .is_for_device = true});
   EXPECT_FALSE(rig.wire.take_early_frame());
 }
 
 TEST(FaultyWire, TellsWhichDeviceHears) {
   Rig rig;
   rig.wire.set_faults(&rig.faults, 4, 7);
-  EXPECT_TRUE(rig.hear({1, 2}, 5ms));
+  EXPECT_TRUE(rig.receive({1, 2}, 5ms));
   EXPECT_EQ(rig.faults.device, 4u);
   EXPECT_EQ(rig.faults.line, 7u);
 }
@@ -107,7 +108,7 @@ TEST(FaultyWire, GarblesDropsAndDelaysBothWays) {
     Rig rig;
     rig.wire.set_faults(&rig.faults, 0, 0);
     rig.faults.request = rig.faults.reply = c.stages;
-    EXPECT_FALSE(rig.hear({1, 2}, 5ms));
+    EXPECT_FALSE(rig.receive({1, 2}, 5ms));
     EXPECT_EQ(rig.log_until(15ms - 1ns), c.request);
     EXPECT_EQ(rig.log_until(15ms), c.late_request);
     rig.answer({1, 2}, 20ms);
@@ -123,8 +124,8 @@ TEST(FaultyWire, KeepsLateMessagesInTheOrderOfTime) {
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
   rig.faults.request = {{.kind = Kind::delay, .time = 2ms}};
   rig.answer({1}, 0ms);
-  EXPECT_FALSE(rig.hear({2}, 0ms));
-  EXPECT_FALSE(rig.hear({3}, 8ms));  // at the same moment as the reply, and after it
+  EXPECT_FALSE(rig.receive({2}, 0ms));
+  EXPECT_FALSE(rig.receive({3}, 8ms));  // at the same moment as the reply, and after it
   EXPECT_EQ(rig.wire.due(), 2ms);
   EXPECT_EQ(rig.log_until(20ms), "serve 02 of 7\nsay 01 to 7\nserve 03 of 7\n");
 }
@@ -135,7 +136,7 @@ TEST(FaultyWire, LosesWhatIsTooMuchAndWhatIsReset) {
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
   for (std::size_t i = 0; i < FaultyWire::kMaxLate + 5; ++i) rig.answer({1}, 0ms);
   EXPECT_EQ(rig.late.size(), FaultyWire::kMaxLate);
-  rig.wire.look_at_completed({.bytes = {}, .is_for_device = true});
+  rig.wire.check_completed({.bytes = {}, .is_for_device = true});
   EXPECT_EQ(rig.wire.due(), 0ms);
   rig.wire.reset();
   EXPECT_EQ(rig.wire.due(), std::nullopt);

@@ -44,7 +44,7 @@ struct StationRig final : pty::Transmitter {
   std::vector<std::string> exchange(const Bytes& frame) {
     said.clear();
     for (const std::uint8_t value : frame) {
-      station.hear({.start = now, .end = now + 573us, .value = value});
+      station.receive({.start = now, .end = now + 573us, .value = value});
       now += 573us;
     }
     for (int runs = 0; station.due(); ++runs) {
@@ -230,8 +230,8 @@ TEST(RtuStation, CountsRequestsRepliesAndExceptions) {
 TEST(RtuStation, WhatItHalfHeardIsForgottenWhenAnotherStationSpeaks) {
   StationRig rig;
   const Bytes frame = hex("01 06 10 02 00 C8 2D 5C");
-  for (std::size_t i = 0; i < 6; ++i) rig.station.hear({rig.now, rig.now, frame[i]});
-  rig.station.hear_other_station();
+  for (std::size_t i = 0; i < 6; ++i) rig.station.receive({rig.now, rig.now, frame[i]});
+  rig.station.on_other_station();
   EXPECT_FALSE(rig.station.due());
   EXPECT_EQ(rig.exchange(hex("2D 5C")), Said{});
   EXPECT_TRUE(rig.is_untouched());

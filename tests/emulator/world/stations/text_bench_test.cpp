@@ -50,8 +50,8 @@ std::string refusal(const std::string& bench) {
 TEST(TextBench, ADeviceThatSpeaksTextStandsOnALineOfItsOwn) {
   const Bench bench = parse_bench(models_and_echo_box(), kBench, "b.yaml", ".");
   World world(bench, {}, {});
-  EXPECT_EQ(world.line(0).speech.messages(), "lines of text");
-  EXPECT_EQ(world.line(1).speech.messages(), "Modbus frames");
+  EXPECT_EQ(world.line(0).protocol.messages(), "lines of text");
+  EXPECT_EQ(world.line(1).protocol.messages(), "Modbus frames");
   EXPECT_EQ(pty::to_string(world.line(0).line.options().settings), "9600 8N1");
   EXPECT_EQ(world.device(0).named_values()->value_named("N0"), -7);
   EXPECT_EQ(world.device(0).named_values()->value_named("R0"), 0.25);
@@ -91,9 +91,9 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsToldWithItsLine) {
   EXPECT_EQ(refusal(with(robot + ", address: 1 }\n")),
             "b.yaml:5: lines.a.stations[0].address: echo-box has no station number; expected none");
   EXPECT_EQ(refusal(with(robot + ", modules: 9 }\n")),
-            "b.yaml:5: lines.a.stations[0].modules: '9' is not possible; expected 1 to 8");
+            "b.yaml:5: lines.a.stations[0].modules: '9' is not valid; expected 1 to 8");
   EXPECT_EQ(refusal(with(feeder + ", modules: 2 }\n")),
-            "b.yaml:5: lines.a.stations[0].modules: '2' is not possible; expected none, as simple2-r3 has "
+            "b.yaml:5: lines.a.stations[0].modules: '2' is not valid; expected none, as simple2-r3 has "
             "no modules");
   EXPECT_EQ(refusal(with(robot + ", set: { N0: 40000 } }\n")),
             "b.yaml:5: lines.a.stations[0].set.N0: is out of range; expected -32768 to 32767");
@@ -172,21 +172,21 @@ TEST(TextBench, ARecordingOfItIsPlayedBitForBit) {
     Recorder recorder(world,
                       {.version = "1", .bench = to_text(bench), .options = {}, .seed = 0, .snapshot = {}},
                       [&](std::string_view line) { text += line; });
-    const auto say = [&](std::string_view line) {
+    const auto transmit = [&](std::string_view line) {
       world.advance_to(world.now());  // earlier output comes first
       world.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
       world.advance_to(world.now() + 33'333us);
     };
-    say("SAY a\r");
-    say("AT 250\rAT 2");
+    transmit("SAY a\r");
+    transmit("AT 250\rAT 2");
     EXPECT_EQ(world.assign(0, "R0", 0.1), std::nullopt);
-    say("50\r?R0\r");
+    transmit("50\r?R0\r");
     world.switch_power(0, false);
-    say("SAY b\r");
+    transmit("SAY b\r");
     world.switch_power(0, true);
-    say("AT 250\r");
+    transmit("AT 250\r");
     world.load_program(0, "SAY c\n");
-    say("?N0\rLIST 400\r");
+    transmit("?N0\rLIST 400\r");
     world.advance_to(9s);
     state = world.device(0).save_state();
   }
@@ -197,7 +197,7 @@ TEST(TextBench, ARecordingOfItIsPlayedBitForBit) {
   EXPECT_EQ(again.result.verdict, ReplayResult::Verdict::same) << again.result.difference;
   EXPECT_TRUE(is_same);
   // HELLO twice, a, 0.1, TICK 250, -7 and 400 lines of 8 to 10 characters, with their ends.
-  EXPECT_EQ(again.result.bytes_said, 2 * 7u + 3 + 5 + 10 + 4 + 9 * 8 + 90 * 9 + 301 * 10);
+  EXPECT_EQ(again.result.bytes_sent, 2 * 7u + 3 + 5 + 10 + 4 + 9 * 8 + 90 * 9 + 301 * 10);
 }
 
 TEST(TextBench, ATraceOfItHasItsValues) {

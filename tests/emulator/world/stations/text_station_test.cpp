@@ -26,7 +26,7 @@ struct Rig {
     settings.firmware = 100;
     return settings;
   }
-  void say(std::string_view text) {
+  void transmit(std::string_view text) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     world.receive(0, bytes);
   }
@@ -38,7 +38,7 @@ struct Rig {
     return text;
   }
   std::string answer(std::string_view text, SimTime within = 200ms) {
-    say(text);
+    transmit(text);
     world.advance_to(world.now() + within);
     return heard();
   }
@@ -51,7 +51,7 @@ struct Rig {
 TEST(TextStation, AnswersALineInTheTimeOfTheWire) {
   Rig rig;
   const SimTime start = rig.world.now();
-  rig.say("SAY ab\r");  // seven characters to the device, four back
+  rig.transmit("SAY ab\r");  // seven characters to the device, four back
   rig.world.advance_to(start + characters(7) + characters(1) - 1ns);
   EXPECT_EQ(rig.heard(), "");
   rig.world.advance_to(start + characters(7) + characters(1));
@@ -97,7 +97,7 @@ TEST(TextStation, WhatItSaysUnaskedWaitsUntilTheWireIsFree) {
   rig.answer("AT 300\r");
   rig.world.advance_to(290ms);
   // Eight characters to the device: received at 298.3 ms; "line 1" to "line 3" with their ends are 24 back.
-  rig.say("LIST 3\r");
+  rig.transmit("LIST 3\r");
   rig.world.advance_to(400ms);
   EXPECT_EQ(rig.heard(), "line 1\r\nline 2\r\nline 3\r\nTICK 300\r\n");
 }
@@ -108,7 +108,7 @@ TEST(TextStation, ALongAnswerComesWhole) {
   ASSERT_GT(wanted.size(), 2 * pty::Line::kOutputCapacity);
   for (const pty::Timing timing : {pty::Timing::wire, pty::Timing::instant}) {
     Rig rig(timing);
-    rig.say("LIST 1000\r");
+    rig.transmit("LIST 1000\r");
     std::string heard;
     for (int i = 0; i < 200; ++i) {
       rig.world.advance_to(rig.world.now() + 100ms);
@@ -122,7 +122,7 @@ TEST(TextStation, ALongAnswerComesWhole) {
 TEST(TextStation, ALongAnswerLeavesNoGapOnTheWire) {
   Rig rig;
   const SimTime start = rig.world.now();
-  rig.say("LIST 1000\r");
+  rig.transmit("LIST 1000\r");
   // 9893 characters: nine lines of 8, ninety of 9, nine hundred of 10, one of 11.
   const SimTime end = start + characters(10) + characters(9 * 8 + 90 * 9 + 900 * 10 + 11);
   for (SimTime at = start; at < end - 100ms; at += 100ms) {
@@ -155,7 +155,7 @@ TEST(TextStation, WithoutPowerItHearsNothingAndForgetsWhatItHeard) {
 
 TEST(TextStation, WhatItWasSayingEndsWithItsPower) {
   Rig rig;
-  rig.say("LIST 9\r");
+  rig.transmit("LIST 9\r");
   rig.world.advance_to(rig.world.now() + characters(7) + characters(10) + 1us);
   rig.world.switch_power(0, false);
   rig.world.advance_to(rig.world.now() + 1s);
@@ -165,7 +165,7 @@ TEST(TextStation, WhatItWasSayingEndsWithItsPower) {
 
 TEST(TextStation, AnAnswerIsForTheHostThatAsked) {
   Rig rig;
-  rig.say("SAY a\r");
+  rig.transmit("SAY a\r");
   rig.world.host_closed(0);
   rig.world.host_opened(0);
   rig.world.advance_to(rig.world.now() + 100ms);
@@ -183,7 +183,7 @@ TEST(TextStation, CountsLinesAndAnswers) {
 
 TEST(TextStation, ActsFromOutsideMayMakeItSpeakAndAreSentAtTheirTime) {
   Rig rig;
-  rig.box().hear_line("SAY x");  // as an act does: not over the line
+  rig.box().receive_line("SAY x");  // as an act does: not over the line
   EXPECT_EQ(rig.world.assign(0, "N0", 7), std::nullopt);
   rig.world.advance_to(rig.world.now() + characters(3));
   EXPECT_EQ(rig.heard(), "x\r\n");
@@ -201,7 +201,7 @@ TEST(TextStation, AWorldThatIsRestoredSaysTheSameBytes) {
     const auto play = [](Rig& rig, int step) {
       static const std::vector<std::string> kLines{"SAY a\r", "AT 400\r", "ECHO=1\r", "LIST 30", "0\r",
                                                    "SAX\b",   "Y b\r",    "ECHO=0\r", "\x1B",    "N0=7\r"};
-      if (step % 7 == 0) rig.say(kLines[static_cast<std::size_t>(step / 7) % kLines.size()]);
+      if (step % 7 == 0) rig.transmit(kLines[static_cast<std::size_t>(step / 7) % kLines.size()]);
       rig.world.advance_to(rig.world.now() + 3700us);
       return rig.heard();
     };

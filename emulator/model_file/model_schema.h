@@ -1,0 +1,208 @@
+// Declares the keys of a model file (docs/import.md) and the schemas of their values.
+#pragma once
+
+#include <array>
+
+#include "emulator/model_file/list_reading.h"
+#include "emulator/model_file/list_text.h"
+#include "emulator/models/imported/description.h"
+#include "emulator/world/bench_file/schema.h"
+
+namespace understudy::emulator::model_file {
+
+using world::Key;
+using world::Schema;
+
+inline constexpr Schema kVersionSchema = world::integer_schema(1, 1);
+
+// --- the line ------------------------------------------------------------------------------------
+inline constexpr Schema kBaudSchema = world::integer_schema(50, 4'000'000);
+inline constexpr Schema kBaudsSchema = world::list_schema(kBaudSchema);
+inline constexpr std::array<const Schema*, 2> kBaudAlternatives{&kBaudSchema, &kBaudsSchema};
+inline constexpr Schema kBaudOrBaudsSchema = world::any_of_schemas(kBaudAlternatives);
+inline constexpr std::array<std::string_view, 3> kParities{"none", "even", "odd"};
+inline constexpr Schema kParitySchema = world::words_schema(kParities);
+inline constexpr Schema kStopBitsSchema = world::integer_schema(1, 2);
+inline constexpr Schema kStationSchema = world::integer_schema(1, 247);
+inline constexpr Schema kStationsSchema = world::list_schema(kStationSchema, 2);
+inline constexpr Schema kFunctionSchema = world::integer_schema(1, 127);
+inline constexpr Schema kFunctionsSchema = world::list_schema(kFunctionSchema);
+inline constexpr Schema kMaxSchema = world::integer_schema(1, 2000);
+inline constexpr Schema kMaxByFunctionSchema = world::names_schema(kMaxSchema);
+inline constexpr std::array<std::string_view, 2> kObeysOrIgnores{"obeyed", "ignored"};
+inline constexpr Schema kBroadcastSchema = world::words_schema(kObeysOrIgnores);
+/// The names of the objects of function 43/14, from object 0 on.
+inline constexpr std::array kIdentityKeys{
+    Key{"vendor", "Object 0, the vendor's name.", &world::kText},
+    Key{"product", "Object 1, the product code.", &world::kText},
+    Key{"revision", "Object 2, the revision.", &world::kText},
+    Key{"url", "Object 3, the vendor's page.", &world::kText},
+    Key{"product_name", "Object 4.", &world::kText},
+    Key{"model_name", "Object 5.", &world::kText},
+    Key{"application", "Object 6, the user application.", &world::kText}};
+inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
+inline constexpr std::array kLineKeys{
+    Key{"baud", "The speeds that it can be set to, the factory setting first ([19200, 9600]).",
+        &kBaudOrBaudsSchema},
+    Key{"parity", "none (default), even or odd.", &kParitySchema},
+    Key{"stop_bits", "1 (default) or 2.", &kStopBitsSchema},
+    Key{"silence", "The silence that ends a frame (3.5 characters; above 19200 baud 1.75 ms).",
+        &world::kDuration},
+    Key{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsSchema},
+    Key{"station_in", "The register that holds the station number.", &world::kText},
+    Key{"functions", "The functions that it supports ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
+        &kFunctionsSchema},
+    Key{"most", "The maximum number of registers or bits in one request, by function: { 3: 32 }.",
+        &kMaxByFunctionSchema},
+    Key{"identity", "The replies to function 43 (read device identification).", &kIdentitySchema},
+    Key{"server_id", "The reply to function 17 (the model's name).", &world::kText},
+    Key{"broadcast", "Requests to station 0: obeyed (default) or ignored.", &kBroadcastSchema}};
+
+// --- the map ---------------------------------------------------------------------------------------
+inline constexpr std::array<std::string_view, 2> kRefusedOrZero{"refused", "zero"};
+inline constexpr std::array<std::string_view, 3> kOutOfRange{"refused", "clamped", "stored"};
+inline constexpr std::array<std::string_view, 2> kRefusedOrIgnored{"refused", "ignored"};
+inline constexpr std::array<std::string_view, 2> kZeroOrRefused{"zero", "refused"};
+inline constexpr std::array<std::string_view, 2> kAloneOrWhole{"alone", "whole"};
+inline constexpr std::array<std::string_view, 2> kHighOrLow{"high", "low"};
+inline constexpr Schema kRefusedOrZeroSchema = world::words_schema(kRefusedOrZero);
+inline constexpr Schema kOutOfRangeSchema = world::words_schema(kOutOfRange);
+inline constexpr Schema kRefusedOrIgnoredSchema = world::words_schema(kRefusedOrIgnored);
+inline constexpr Schema kZeroOrRefusedSchema = world::words_schema(kZeroOrRefused);
+inline constexpr Schema kAloneOrWholeSchema = world::words_schema(kAloneOrWhole);
+inline constexpr Schema kHighOrLowSchema = world::words_schema(kHighOrLow);
+inline constexpr std::array kMapKeys{
+    Key{"holes", "Addresses without a register: refused (default), or read as zero.", &kRefusedOrZeroSchema},
+    Key{"out_of_range", "A value beyond min and max: refused (default), clamped or stored.",
+        &kOutOfRangeSchema},
+    Key{"read_only", "A write to such a register: refused (default) or ignored.", &kRefusedOrIgnoredSchema},
+    Key{"write_only", "A read of such a register: zero (default) or refused.", &kZeroOrRefusedSchema},
+    Key{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
+        &kAloneOrWholeSchema},
+    Key{"first_word", "The first word of 32 bits: high (default) or low.", &kHighOrLowSchema}};
+
+// --- the list --------------------------------------------------------------------------------------
+inline constexpr Schema kAddressesSchema = world::words_schema(kAddressReadings);
+inline constexpr std::array<std::string_view, 4> kTables{"holding", "input", "coil", "discrete"};
+inline constexpr Schema kTableSchema = world::words_schema(kTables);
+inline constexpr Schema kEncodingSchema = world::words_schema(kEncodings);
+inline constexpr std::array kListKeys{
+    Key{"columns", "The headings of its columns, by the column's name: { address: Reg, name: Tag }.",
+        &world::kTextByName},
+    Key{"addresses", "How its addresses are numbered: wire (default), from_one or modicon (40001).",
+        &kAddressesSchema},
+    Key{"table", "The table of rows that do not name one: holding (default), input, coil or discrete.",
+        &kTableSchema},
+    Key{"encoding", "Its encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
+
+// --- axes --------------------------------------------------------------------------------------------
+inline constexpr std::array<std::string_view, 2> kDirections{"minus", "plus"};
+inline constexpr Schema kDirectionSchema = world::words_schema(kDirections);
+inline constexpr std::array<std::string_view, 3> kWhileBusy{"replace", "ignore", "refuse"};
+inline constexpr Schema kWhileBusySchema = world::words_schema(kWhileBusy);
+inline constexpr std::array<std::string_view, 2> kWhileDisabled{"ignore", "refuse"};
+inline constexpr Schema kWhileDisabledSchema = world::words_schema(kWhileDisabled);
+inline constexpr Schema kCountsSchema = world::integer_schema(INT32_MIN, INT32_MAX);
+inline constexpr Schema kPerRevolutionSchema = world::integer_schema(1, 10'000'000);
+inline constexpr std::array kAxisInputKeys{
+    Key{"upper_limit", "The input of the upper limit switch.", &world::kText},
+    Key{"lower_limit", "The input of the lower limit switch.", &world::kText},
+    Key{"home", "The input of the home switch.", &world::kText},
+    Key{"alarm", "The input of the drive's alarm.", &world::kText}};
+inline constexpr Schema kAxisInputsSchema = world::keys_schema(kAxisInputKeys);
+
+/// The keys are in the order of imported::Number, then Command, then View, then the rest.
+inline constexpr std::array kAxisKeys{
+    Key{"target", "The target of `start`: a register, or a number.", &world::kText},
+    Key{"distance", "The distance of `start_relative`.", &world::kText},
+    Key{"speed", "The speed of moves.", &world::kText},
+    Key{"start_speed", "The speed at which moves begin and end (0).", &world::kText},
+    Key{"acceleration_time", "The time from 0 to the speed: a register, or a duration.", &world::kText},
+    Key{"deceleration_time", "The same for slowing down (acceleration_time).", &world::kText},
+    Key{"acceleration", "Change of speed per second, instead of a time.", &world::kText},
+    Key{"deceleration", "The same for slowing down (acceleration).", &world::kText},
+    Key{"rated_speed", "The speed that the times refer to (the speed of the move).", &world::kText},
+    Key{"home_speed", "The speed of homing (speed).", &world::kText},
+    Key{"stop_at_once", "Stops it at once, without deceleration: CONTROL.3, or COMMAND == 9.", &world::kText},
+    Key{"stop", "Stops it with deceleration.", &world::kText},
+    Key{"enable", "Condition that must be true for it to move (always true).", &world::kText},
+    Key{"home", "Starts homing.", &world::kText},
+    Key{"start", "Starts a move to `target`.", &world::kText},
+    Key{"start_relative", "Starts a move by `distance`.", &world::kText},
+    Key{"forward", "It runs in the positive direction while this is true.", &world::kText},
+    Key{"backward", "It runs in the negative direction while this is true.", &world::kText},
+    Key{"position", "The register that shows its position; a write sets the count.", &world::kText},
+    Key{"actual_speed", "The register that shows its speed.", &world::kText},
+    Key{"encoder", "The register that shows the count of its encoder.", &world::kText},
+    Key{"busy", "The bit (or register) that is 1 while it moves.", &world::kText},
+    Key{"ready", "1 while it is at rest, enabled, and without an alarm.", &world::kText},
+    Key{"arrived", "1 when the last move has reached its target.", &world::kText},
+    Key{"homed", "1 when home has been found.", &world::kText},
+    Key{"enabled", "1 while it is enabled.", &world::kText},
+    Key{"alarm", "1 while its alarm input is on.", &world::kText},
+    Key{"at_upper_limit", "1 while its upper limit switch is on.", &world::kText},
+    Key{"at_lower_limit", "1 while its lower limit switch is on.", &world::kText},
+    Key{"pulses_per_count", "Pulses for each count of a position (1): 10, or 25/4.", &world::kText},
+    Key{"pps_per_count", "Pulses a second for each count of a speed (1).", &world::kText},
+    Key{"inputs", "The inputs of its switches.", &kAxisInputsSchema},
+    Key{"home_way", "Direction of homing: minus (default) or plus.", &kDirectionSchema},
+    Key{"home_position", "The position at home (0).", &kCountsSchema},
+    Key{"pulses_per_revolution", "Pulses per motor revolution, for encoders on a bench.",
+        &kPerRevolutionSchema},
+    Key{"while_busy", "What a start does while the axis moves: replace (default), ignore or refuse.",
+        &kWhileBusySchema},
+    Key{"while_disabled", "What a start does while the axis is not enabled: ignore (default) or refuse.",
+        &kWhileDisabledSchema}};
+inline constexpr std::size_t kFirstCommandKey = models::imported::kNumbers;
+inline constexpr std::size_t kFirstViewKey = kFirstCommandKey + models::imported::kCommands;
+static_assert(kAxisKeys[kFirstCommandKey].key == "stop_at_once" &&
+                  kAxisKeys[kFirstViewKey].key == "position" &&
+                  kAxisKeys[kFirstViewKey + models::imported::kViews].key == "pulses_per_count",
+              "keys must be in the order of Number, Command and View");
+constexpr std::string_view key_of(models::imported::Number number) {
+  return kAxisKeys[static_cast<std::size_t>(number)].key;
+}
+constexpr std::string_view key_of(models::imported::Command command) {
+  return kAxisKeys[kFirstCommandKey + static_cast<std::size_t>(command)].key;
+}
+constexpr std::string_view key_of(models::imported::View view) {
+  return kAxisKeys[kFirstViewKey + static_cast<std::size_t>(view)].key;
+}
+
+// --- the rest ----------------------------------------------------------------------------------------
+inline constexpr std::array kFollowKeys{
+    Key{"of", "The value that it follows: a register, or a number.", &world::kText, true},
+    Key{"while", "Only while this holds: CONTROL.RUN, or MODE == 2 (always).", &world::kText},
+    Key{"rest", "The value that it follows otherwise: a register, or a number (its default).", &world::kText},
+    Key{"time_constant", "The time for 63.2 % of a change: 30s.", &world::kDuration},
+    Key{"rate", "The maximum change per second, in counts.", &world::kText},
+    Key{"every", "The interval of its updates (100ms).", &world::kDuration}};
+inline constexpr Schema kLineSchema = world::keys_schema(kLineKeys);
+inline constexpr Schema kListSchema = world::keys_schema(kListKeys);
+inline constexpr Schema kMapSchema = world::keys_schema(kMapKeys);
+inline constexpr Schema kAxisSchema = world::keys_schema(kAxisKeys);
+inline constexpr Schema kAxesSchema = world::names_schema(kAxisSchema);
+inline constexpr Schema kFollowSchema = world::keys_schema(kFollowKeys);
+inline constexpr Schema kFollowsSchema = world::names_schema(kFollowSchema);
+inline constexpr Schema kBitNamesSchema = world::names_schema(world::kTextByName);
+inline constexpr std::array kModelKeys{
+    Key{"understudy", "The version of the format.", &kVersionSchema, true},
+    Key{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
+    Key{"title", "A short description.", &world::kText},
+    Key{"firmware", "Its firmware versions, oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
+    Key{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText, true},
+    Key{"list", "How to read that list, if it differs from the defaults of `import`.", &kListSchema},
+    Key{"line", "Its settings on the serial line.", &kLineSchema},
+    Key{"map", "How it answers requests that the list leaves open.", &kMapSchema},
+    Key{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesSchema},
+    Key{"inputs", "Its inputs, and the bits that show them: { DI1: INPUTS.0, HOME: nowhere }.",
+        &world::kTextByName},
+    Key{"outputs", "Its outputs, and the registers that switch them: { DO1: OUTPUTS.0 }.",
+        &world::kTextByName},
+    Key{"axes", "Its motor axes, by name, and the registers that are bound to them.", &kAxesSchema},
+    Key{"follows", "Registers that follow another value with a lag.", &kFollowsSchema},
+    Key{"shows", "Bits that are 1 while a comparison is true: { STATUS.ALARM: TEMPERATURE > LIMIT }.",
+        &world::kTextByName},
+    Key{"momentary", "Registers that return to 0 once they have started something.", &world::kTextList}};
+
+}  // namespace understudy::emulator::model_file

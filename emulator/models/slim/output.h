@@ -1,0 +1,24 @@
+// Sends the text of a SLIM, in lines.
+#pragma once
+
+#include <string_view>
+
+#include "emulator/models/slim/rules/errors.h"
+#include "emulator/models/slim/setup.h"
+#include "emulator/models/slim/state.h"
+
+namespace understudy::emulator::models::slim {
+
+/// Adds text. Drops it beyond a limit that no listing reaches, because a host may type faster than its line
+/// sends.
+void send_line(State& state, const Setup& setup, std::string_view text);
+/// Returns true if there is room for unrequested output of a program, which is faster than its line.
+bool has_room_to_print(const State& state, const Setup& setup);
+/// Acknowledges a successful command that has no reply of its own.
+void acknowledge(State& state, const Setup& setup);
+/// Sends and stores an error. Returns the module that finally has it.
+int fail(State& state, const Setup& setup, int module, Error error);
+/// Sends the prompt, after each completed line.
+void conclude(State& state, const Setup& setup);
+
+}  // namespace understudy::emulator::models::slim

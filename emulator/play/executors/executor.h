@@ -1,0 +1,103 @@
+// An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There is one
+// in virtual time on the line itself (free_executor.h), one in real time over a real pty with libmodbus as
+// the host (real_executor.h), and one whose controllers are real (box/stage/). Scenarios must have the same
+// verdicts on all.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/world/protocol/received_lines.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::play {
+
+/// The answer to a request.
+struct HostReply {
+  enum class Kind : std::uint8_t {
+    good,
+    exception,  // `exception` has its code
+    silence,    // no answer in time
+    garbled,    // bytes that are not an answer to it
+  } kind = Kind::silence;
+  int exception = 0;
+  std::vector<std::uint16_t> words;  // the words that were read; in tables of bits, one bit each
+  std::vector<std::uint8_t> bytes;   // as received, with checksum; empty if libmodbus received them
+};
+
+/// A condition that may become true at the end of a tick.
+struct Awaited {
+  std::function<bool(world::World&)> is_met;
+  /// Like TickWatcher::next_poll(). If empty, the condition may become true at any tick, even if nothing
+  /// happens.
+  std::function<Tick(Tick)> next_poll{};
+};
+
+/// The command that runs with a scenario (`exec`). Its functions are called inside Executor::with_world().
+class HostCommand {
+ public:
+  virtual ~HostCommand() = default;
+  /// Returns nothing while it runs.
+  virtual std::optional<int> exit_code() const = 0;
+  /// Asks it to end.
+  virtual void stop() = 0;
+};
+
+class BoxStage;
+
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  /// Returns the stage if the controllers are real. Then the world only knows names, stations and the order
+  /// of words. Null: they are those of the world.
+  virtual BoxStage* box() { return nullptr; }
+
+  // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
+  // it. Each call lasts, in simulated time, until the reply has arrived or time runs out.
+  virtual HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) = 0;
+  /// Writes coils or holding registers.
+  virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
+                          std::span<const std::uint16_t> words) = 0;
+  /// Writes holding registers that take a request as one message, always by function 10.
+  virtual HostReply write_message(std::size_t line, int station, std::uint16_t first,
+                                  std::span<const std::uint16_t> words) = 0;
+  /// Sends raw bytes. Returns the bytes received until there are `wanted`, or `within` has passed.
+  virtual std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                             std::size_t wanted, SimTime within) = 0;
+
+  // --- the host on a line of text
+  /// Sends a line, with its line end added, as soon as the gap allows. Earlier received bytes are discarded.
+  /// Returns when the device has received the line.
+  virtual void send_text(std::size_t line, const std::string& text) = 0;
+  /// Sends a line if `text` is given, and receives lines until the wanted ones, or others instead, have
+  /// arrived, or `within` has passed. Later lines are left to the next call; an answer is everything that
+  /// arrives without a pause. The last line may be unfinished.
+  virtual std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
+                                                 const world::LinesWanted& wanted, SimTime within) = 0;
+
+  // --- the world -------------------------------------------------------------------------------------
+  /// Acts on the world between two ticks, or reads it. Exceptions of `act` are passed on.
+  virtual void with_world(const std::function<void(world::World&)>& act) = 0;
+  /// Lets time pass until the condition is true at the end of a tick (or now), but not beyond `deadline`.
+  /// Returns true if it is. `is_met` is called at every tick that may make a difference, on the thread that
+  /// runs the world.
+  virtual bool run_until(const Awaited& awaited, SimTime deadline) = 0;
+  virtual void advance(SimTime by) = 0;
+  virtual SimTime now() = 0;
+  /// Returns the tick from which the host's last write takes effect.
+  virtual Tick tick_of_last_write() = 0;
+
+  /// Returns since when each line has been quiet, as far as the host knows. This is not part of the world's
+  /// state, but the host's next request depends on it. Empty for a host in real time, which cannot go back.
+  virtual std::vector<SimTime> quiet_since() { return {}; }
+  /// Sets the times that another executor of this bench returned when its world was in the state that this
+  /// world was just put into.
+  virtual void set_quiet_since(const std::vector<SimTime>&) {}
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,21 @@
+// Something that runs in simulated time beside the host, such as a scenario. Time advances only while both
+// wait.
+#pragma once
+
+#include <optional>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::serve {
+
+class SimulatedTask {
+ public:
+  virtual ~SimulatedTask() = default;
+  /// Called while the host sleeps and time stands at `now`. If the companion's wait is over, it acts on the
+  /// world until it waits again.
+  virtual void act(SimTime now) = 0;
+  /// Returns the latest end of its wait, or nothing if it does not wait for a time.
+  virtual std::optional<SimTime> next_act() const = 0;
+};
+
+}  // namespace understudy::emulator::serve

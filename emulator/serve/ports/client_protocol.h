@@ -1,0 +1,48 @@
+// The protocol between a TCP client and a line. Bytes in, bytes out; the caller does the waiting.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::serve {
+
+class ClientProtocol {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+  virtual ~ClientProtocol() = default;
+
+  /// Returns true if it can take more bytes from the client; its buffer is bounded.
+  virtual bool has_room() const = 0;
+  /// Returns false if the bytes do not follow the protocol; the client is then disconnected.
+  [[nodiscard]] virtual bool receive_from_client(std::span<const std::uint8_t> bytes) = 0;
+  /// Returns the next bytes for the line, at most `room`. Empty if there are none yet.
+  virtual Bytes take_for_line(std::size_t room) = 0;
+  /// Returns the host's settings for the bytes taken last, or nothing if the client cannot tell them.
+  virtual std::optional<pty::HostSettings> settings() const { return std::nullopt; }
+  /// Return true, once, if the client flushes bytes that are not on the wire yet, or discards bytes that it
+  /// has not received yet. Called after each take_for_line().
+  virtual bool discards_input() { return false; }
+  virtual bool discards_output() { return false; }
+
+  /// Returns true if the client wants to receive from the line now.
+  virtual bool listens() const { return true; }
+  virtual void receive_from_line(std::span<const std::uint8_t> bytes) = 0;
+  virtual Bytes take_for_client() = 0;
+
+  /// Returns how long the request taken last waits for its answer, not counting the time on the wire, or
+  /// nothing if none waits.
+  virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
+  virtual void give_up() {}
+  /// Returns true if no request waits, for a protocol that puts its requests on the line one after another.
+  virtual bool is_idle() const { return true; }
+  /// The client no longer receives answers. The next waiting request is served.
+  virtual void client_gone() {}
+};
+
+}  // namespace understudy::emulator::serve

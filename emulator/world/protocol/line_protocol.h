@@ -1,0 +1,96 @@
+// The protocol of a line: how devices are connected to it, how hosts behave there, and the meaning of its
+// messages. All differences between protocols are behind this interface; a new protocol is one more object
+// (protocol_of() lists them).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/model.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/stations/line_station.h"
+#include "pty/capture_frames.h"
+#include "pty/rtu_framer.h"
+
+namespace understudy::emulator::world {
+
+/// How a line and its world treat the stations on it.
+struct StationConditions {
+  bool is_instant = false;      // characters take no time
+  bool strict_framing = false;  // silence alone ends a frame
+  SimTime patience{0};          // as in WorldOptions
+  SimTime rest_patience{0};     // LineSetup::byte_timeout in simulated time
+};
+
+class LineProtocol {
+ public:
+  virtual const Protocol& protocol() const = 0;
+  /// Returns "Modbus frames" or the like for messages.
+  virtual std::string_view messages() const = 0;
+
+  // --- stations ----------------------------------------------------------------------------------
+  /// Makes the station of a device at one of its ports.
+  virtual std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
+                                                    const StationConditions& conditions) const = 0;
+  /// Returns how a station of that model frames received bytes, if it does.
+  virtual pty::RtuFraming framing(const Model& /*model*/, const StationConditions& /*conditions*/) const {
+    return {};
+  }
+  /// Returns true if a device may send something unasked.
+  virtual bool may_be_unasked() const { return false; }
+
+  // --- hosts -------------------------------------------------------------------------------------
+  /// Returns true if scenario steps that send and receive text can use it.
+  virtual bool carries_text() const { return false; }
+  /// Returns true if a host leaves a silence between its messages.
+  virtual bool is_framed_by_silence() const { return false; }
+  /// Returns true if a host's message may change something in one of the stations.
+  virtual bool may_change(const LineStations& stations, const pty::CapturedPacket& message) const = 0;
+  /// Returns true if an answer says that nothing was changed.
+  virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
+
+  /// Like is_refusal(), for people: true for any answer of these stations that reports an error, although
+  /// something may have been changed.
+  virtual bool refuses(const LineStations& /*stations*/, std::span<const std::uint8_t> answer) const {
+    return is_refusal(answer);
+  }
+
+  // --- observers ---------------------------------------------------------------------------------
+  /// Makes packets of the traffic on the line with that number.
+  virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
+                                                      pty::CaptureFrames::Sink sink) const = 0;
+  /// Returns a host's message in words.
+  virtual std::string request_text(const LineStations& stations,
+                                   std::span<const std::uint8_t> request) const = 0;
+  /// Returns "mill: MOVE X 1000" for a message that is a command with a name
+  /// (emulator/device/command_window.h); otherwise an empty text.
+  virtual std::string command_text(const LineStations& /*stations*/,
+                                   std::span<const std::uint8_t> /*request*/) const {
+    return {};
+  }
+  /// Returns a station's answer in words. `request` is empty if it is not known.
+  virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+                                 std::span<const std::uint8_t> reply) const = 0;
+
+  // --- faults ------------------------------------------------------------------------------------
+  /// Returns the facts of a message that a fault's trigger asks for.
+  virtual FrameFacts facts_of(const ReceivedFrame& frame) const = 0;
+  /// Throws NameError for a fault that messages of this protocol cannot have.
+  virtual void require_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
+
+ protected:
+  ~LineProtocol() = default;
+};
+
+// Defined in modbus_protocol.cpp and text_protocol.cpp.
+const LineProtocol& modbus_protocol();
+const LineProtocol& text_protocol();
+
+/// Returns the object for a model's protocol. Throws std::logic_error if there is none.
+const LineProtocol& protocol_of(const Model& model);
+
+}  // namespace understudy::emulator::world
