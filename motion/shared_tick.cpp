@@ -34,7 +34,8 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
     const auto axis = static_cast<std::size_t>(std::countr_zero(left));
     const bool is_watched = (all.watched >> axis & 1U) != 0;
     Axis::QuietTick& quiet_tick = quiet[count++];
-    const bool is_quiet = !is_watched && all.axes[axis].step_quietly(all.tick, all.environment[axis], quiet_tick);
+    const bool is_quiet =
+        !is_watched && all.axes[axis].step_quietly(all.tick, all.environment[axis], quiet_tick);
     if (!is_quiet) [[unlikely]]
       restless |= 1U << axis;
   }

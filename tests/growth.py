@@ -25,7 +25,6 @@ class Rule:
 CIRCLE = Rule("files in a circle by calls of members", 3, 0, {})
 MEMBERS = Rule("member functions", 60, 2, {})
 LINES = Rule("lines", 60, 4, {
-    "emulator/command_line/poll_command.cpp parse_item": 61,
     "motion/homing_tables.cpp super40nc_homing": 64,
 })
 RULES = (CIRCLE, MEMBERS, LINES)

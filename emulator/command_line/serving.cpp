@@ -177,8 +177,8 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   if (!arguments.byte_timeout.empty()) {
     const auto time = world::parse_byte_timeout(arguments.byte_timeout);
     if (!time) {
-      throw UsageError("--byte-timeout: " + understudy::quoted(arguments.byte_timeout) +
-                       " is not valid; " + std::string(world::kByteTimeoutExpected));
+      throw UsageError("--byte-timeout: " + understudy::quoted(arguments.byte_timeout) + " is not valid; " +
+                       std::string(world::kByteTimeoutExpected));
     }
     for (world::LineSetup& line : bench.lines) line.byte_timeout = *time;
   }

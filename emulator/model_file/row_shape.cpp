@@ -41,8 +41,7 @@ Type plain_type(const ListRow& row, Table table) {
     return Type::bit;
   }
   if (!width.empty() && width != "16" && width != "32")
-    row.fail(Column::width,
-             quoted(width) + " is not valid; expected 16 or 32, and 1 in coil and discrete");
+    row.fail(Column::width, quoted(width) + " is not valid; expected 16 or 32, and 1 in coil and discrete");
   const bool is_wide = width == "32";
   if (row.yes_or_no(Column::real)) {
     if (!is_wide) row.fail(Column::real, "a real number has 32 bits; expected the width 32");

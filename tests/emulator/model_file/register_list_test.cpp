@@ -63,8 +63,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:11: access: hosts cannot write the table input; expected R"},
       {"address,name,width\n0,A,8\n",
        "l.csv:2:5: width: '8' is not valid; expected 16 or 32, and 1 in coil and discrete"},
-      {"address,name,table,width\n0,A,coil,16\n",
-       "l.csv:2:10: width: '16' is not valid there; expected 1"},
+      {"address,name,table,width\n0,A,coil,16\n", "l.csv:2:10: width: '16' is not valid there; expected 1"},
       {"address,name,type\n0,A,u12\n",
        "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another of "
        "docs/import.md"},

@@ -136,9 +136,8 @@ TEST(Switches, NearHomeMarkAndIndexAreLevelsToSuchAController) {
 TEST(Switches, OfTheseKindsThatCannotBeAreRefused) {
   EXPECT_EQ(diagnostic_of("near_home: { width: 5 }"),
             "bench.plant.x.A.near_home: 'at' is missing; expected it here");
-  EXPECT_EQ(
-      diagnostic_of("mark: { at: 5, width: 0 }"),
-      "bench.plant.x.A.mark.width: '0' is not valid; expected a whole number from 1 to 1000000000000");
+  EXPECT_EQ(diagnostic_of("mark: { at: 5, width: 0 }"),
+            "bench.plant.x.A.mark.width: '0' is not valid; expected a whole number from 1 to 1000000000000");
   EXPECT_EQ(diagnostic_of("mark: { at: 5, width: 1, input: DOUT_1 }").substr(0, 45),
             "bench.plant.x.A.mark.input: 'DOUT_1' is not a");
   EXPECT_EQ(
