@@ -33,12 +33,12 @@ int report(const std::exception& error, int code) {
 }
 
 /// Opens closed standard descriptors. Otherwise a port could get such a number, and printed text would go to
-/// it.
+/// it. Standard output is opened for reading, so that what is printed there fails as on a closed one.
 void open_standard_descriptors() {
-  int descriptor = 0;
-  while ((descriptor = open("/dev/null", O_RDWR)) >= 0 && descriptor <= STDERR_FILENO) {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (fcntl(descriptor, F_GETFD) >= 0) continue;
+    if (open("/dev/null", descriptor == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
   }
-  if (descriptor > STDERR_FILENO) close(descriptor);
 }
 
 /// Makes a write beyond the file size limit fail with an error, instead of a signal that ends the program.

@@ -229,6 +229,20 @@ std::string spool_of(const Process& process) {
   return "";
 }
 
+TEST_F(OutputPaths, AStandardOutputThatCannotBeWrittenIsReported) {
+  for (const char* target : {">&-", ">/dev/full"}) {
+    for (const Words& words :
+         {Words{"--version"}, Words{"check", at("play.yaml")}, Words{"run", at("play.yaml")}}) {
+      Words command{"bash", "-c", std::string("exec \"$@\" ") + target, "bash", UNDERSTUDY_BINARY};
+      command.insert(command.end(), words.begin(), words.end());
+      const Finished finished = run(command);
+      EXPECT_EQ(finished.exit_code, 3) << words.front() << target;
+      EXPECT_EQ(finished.errors, "understudy: standard output cannot be written\n")
+          << words.front() << target;
+    }
+  }
+}
+
 TEST(RunSpool, OfAKilledRunIsRemovedByTheNext) {
   const PrivateFolder folder;
   folder.write("bench.yaml",
