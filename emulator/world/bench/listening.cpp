@@ -127,9 +127,14 @@ TcpAddress parse_tcp_address(std::string_view text) {
   if (mark != std::string_view::npos) {
     if (address.protocol != TcpProtocol::modbus_tcp)
       throw ListeningError("has gateway settings; expected them only with modbus-tcp://");
+    std::vector<std::string_view> given;
     for (std::string_view rest = place.substr(mark + 1); !rest.empty();) {
       const std::size_t end = std::min(rest.find('&'), rest.size());
-      read_setting(address.gateway, rest.substr(0, end));
+      const std::string_view setting = rest.substr(0, end);
+      given.push_back(setting.substr(0, setting.find('=')));
+      if (std::ranges::count(given, given.back()) > 1)
+        throw ListeningError("has " + std::string(given.back()) + " twice; expected it once");
+      read_setting(address.gateway, setting);
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     place = place.substr(0, mark);
