@@ -140,7 +140,11 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   }
   if (arguments.page) require_page_port("replay: --page", *arguments.page);
   if (wants_story(arguments)) {
-    print_story(arguments, replay_whole(models, arguments, at).setup);
+    const Travelled travelled = replay_whole(models, arguments, at);
+    if (at && *at != travelled.setup.at_first)
+      throw UsageError("--at: " + arguments.at + " is not in the recording; its nearest moment is " +
+                       format_duration(travelled.setup.at_first));
+    print_story(arguments, travelled.setup);
     return kExitWell;
   }
   if (arguments.page || arguments.serve) {

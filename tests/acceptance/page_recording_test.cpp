@@ -408,7 +408,8 @@ TEST_F(PageOfAFailure, RefusesWhatDoesNotFitWithOneFile) {
        {Words{"--panel", "bus"}, Words{"--picture", folder_ / "picture.gif"},
         Words{"--picture", folder_ / "picture.svg", "--panel", "nonsense"}, Words{"--at", "1s"},
         Words{"--export", file, "--page"}, Words{"--export", file, "--report", folder_ / "other.html"},
-        Words{"--export", recording_}, Words{"--export", file, "--at", "soon"}}) {
+        Words{"--export", recording_}, Words{"--export", file, "--at", "soon"},
+        Words{"--export", file, "--at", "9000s"}}) {
     Words all{"replay", recording_};
     all.insert(all.end(), words.begin(), words.end());
     const Finished run = understudy(all);
