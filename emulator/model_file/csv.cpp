@@ -139,7 +139,11 @@ class CsvReader {
 }  // namespace
 
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file) {
-  return CsvReader(text, file).read();
+  if (text.find('\n') != std::string::npos) return CsvReader(text, file).read();
+  // Some spreadsheets on a Mac end lines with carriage returns alone.
+  std::string lines = text;
+  std::ranges::replace(lines, '\r', '\n');
+  return CsvReader(lines, file).read();
 }
 
 }  // namespace understudy::emulator::model_file

@@ -122,6 +122,7 @@ TEST(RegisterList, MayBeWrittenInSeveralWays) {
       "address,name,min,max,default\n0x10,A,-5,5,1\n",
       "\xEF\xBB\xBF"
       "Address;Name;Min;Max;Default\r\n16;A;-5;5;1\r\n",
+      "address,name,min,max,default\r0x10,A,-5,5,1\r",
       "# a list\n\naddress\tname\trange\tdefault\n16\t A \t-5..5\t1\n",
       "address,name,range,default,comment\n16,\"A\",-5 to 5,1,\"what, ever\"",
       "name,type,address,min,max,default\nA,int16,16,-5,5,1\n",
