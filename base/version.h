@@ -4,7 +4,7 @@
 
 namespace understudy {
 
-/// Returns the version of the program: "0.2.0".
+/// Returns the version of the program: "0.3.0".
 std::string_view program_version();
 
 }  // namespace understudy

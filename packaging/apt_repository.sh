@@ -7,7 +7,7 @@ fail() {
   echo "apt_repository.sh: $*" >&2
   exit 1
 }
-[ $# -ge 2 ] || fail "expected FOLDER SUITE=DEB..., such as /srv/apt bookworm=understudy_0.2.0-1_amd64.deb"
+[ $# -ge 2 ] || fail "expected FOLDER SUITE=DEB..., such as /srv/apt bookworm=understudy_0.3.0-1_amd64.deb"
 for tool in dpkg-scanpackages gpg; do
   command -v $tool >/dev/null || fail "$tool is missing; expected the packages dpkg-dev and gpg"
 done
