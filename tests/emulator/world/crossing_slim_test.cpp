@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/emulator/world/stepping.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::world {
 namespace crossing_slim_test {
@@ -131,7 +132,7 @@ TEST(SlimCrossing, RandomDialoguesAreTheSameInBulkAndByTicks) {
   std::uint64_t run = 0;
   std::uint64_t single = 0;
   std::int64_t moved = 0;
-  for (int i = 0; i < courses(120); ++i) {
+  for (int i = 0; i < courses(fewer_if_sanitized(120, 3)); ++i) {
     const std::uint64_t course = seed() + static_cast<std::uint64_t>(i);
     RandomDialogue dialogue(course);
     const Bench bench = dialogue.bench();
@@ -157,7 +158,7 @@ TEST(SlimCrossing, RandomDialoguesAreTheSameInBulkAndByTicks) {
     single += twin.ticks_run();
   }
   EXPECT_LT(run * 2, single);
-  EXPECT_GT(moved, 100'000);
+  EXPECT_GT(moved, fewer_if_sanitized(100'000, 3));
 }
 
 TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {

@@ -7,6 +7,7 @@
 
 #include "interpreter/simple2/instructions.h"
 #include "tests/interpreter/facts.h"
+#include "tests/sanitized.h"
 
 namespace understudy::interpreter::simple2 {
 namespace listing_test {
@@ -200,7 +201,7 @@ TEST(Simple2ListingRoundTrip, KeepsProgramsThatAreNearlyRight) {
 }
 
 TEST(Simple2ListingRoundTrip, KeepsEveryValueOfEveryCellOfEveryCommand) {
-  for (int command = 0; command < 256; ++command) {
+  for (int command = 0; command < 256; command += is_sanitized() ? 5 : 1) {
     for (const int other : {0, 1, 7, 128}) {
       Lines by_data1{};
       Lines by_data2{};
