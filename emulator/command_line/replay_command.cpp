@@ -115,6 +115,15 @@ Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::
   return {std::move(replayed), std::move(setup)};
 }
 
+/// Throws UsageError if `at` is not in the recording.
+Travelled replay_to(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
+  Travelled travelled = replay_whole(models, arguments, at);
+  if (at && *at != travelled.setup.at_first)
+    throw UsageError("--at: " + arguments.at + " is not in the recording; its nearest moment is " +
+                     format_duration(travelled.setup.at_first));
+  return travelled;
+}
+
 std::optional<SimTime> duration_of_flag(const char* flag, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto duration = parse_duration(text);
@@ -140,11 +149,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   }
   if (arguments.page) require_page_port("replay: --page", *arguments.page);
   if (wants_story(arguments)) {
-    const Travelled travelled = replay_whole(models, arguments, at);
-    if (at && *at != travelled.setup.at_first)
-      throw UsageError("--at: " + arguments.at + " is not in the recording; its nearest moment is " +
-                       format_duration(travelled.setup.at_first));
-    print_story(arguments, travelled.setup);
+    print_story(arguments, replay_to(models, arguments, at).setup);
     return kExitWell;
   }
   if (arguments.page || arguments.serve) {
