@@ -173,8 +173,8 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
                .speed = kFast,
                .then = kRunOn,
                .distance_pulses = how.distance_pulses + direction * behind,
-               .ignores = how.looks_all_the_way ? Signals{0} : bit(mark),
-               .if_limit = how.looks_all_the_way ? HomingPhase::kRowBelow : kFail});
+               .ignores = how.searches_all_the_way ? Signals{0} : bit(mark),
+               .if_limit = how.searches_all_the_way ? HomingPhase::kRowBelow : kFail});
   program.add({.direction = direction,
                .speed = kCreep,
                .until = mark,

@@ -76,7 +76,7 @@ void CaptureFile::add(const CapturedPacket& packet) {
   ++lost_;
   if (outcome == BackgroundWriter::Outcome::failed) {
     report_failure();
-  } else if (!std::exchange(has_told_slow_, true)) {
+  } else if (!std::exchange(has_reported_slow_, true)) {
     log_(path_ + ": the disk is too slow; packets are missing from the capture");
   }
 }

@@ -50,7 +50,7 @@ class CaptureFile {
   OutputFile file_;
   std::vector<std::uint64_t> lost_before_;  // of each line, since its last packet in the file
   std::uint64_t lost_ = 0;
-  bool has_told_slow_ = false;
+  bool has_reported_slow_ = false;
   std::string failure_;
   bool is_finished_ = false;
   std::string piece_;

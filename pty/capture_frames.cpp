@@ -42,11 +42,11 @@ void CaptureFrames::on_start_bit(SimTime at) {
   give_what_was_dropped();
 }
 
-void CaptureFrames::on_character(const TimedByte& character, bool is_heard) {
+void CaptureFrames::on_character(const TimedByte& character, bool is_received) {
   give_strikes();
-  if (is_heard != is_heard_) {
+  if (is_received != is_received_) {
     finish();  // the host has changed its speed
-    is_heard_ = is_heard;
+    is_received_ = is_received;
   }
   waiting_.push_back(character);
   if (is_text_) {
@@ -150,7 +150,7 @@ void CaptureFrames::give_packet(std::size_t count, Remark remark) {
   std::array<std::uint8_t, kRtuMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
   sink_({line_, Direction::from_host, waiting_.front().start, std::span(bytes).first(count),
-         is_heard_ ? remark : Remark::unheard, is_text_});
+         is_received_ ? remark : Remark::unheard, is_text_});
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 

@@ -22,7 +22,7 @@ class CaptureFrames final : public LineObserver {
   CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 
   void on_start_bit(SimTime at) override;
-  void on_character(const TimedByte& character, bool is_heard) override;
+  void on_character(const TimedByte& character, bool is_received) override;
   void on_nothing_more() override;
   void on_transmission(const Transmission& transmission) override;
   void on_strike(const StruckMessage& message) override;
@@ -45,7 +45,7 @@ class CaptureFrames final : public LineObserver {
   RtuFramer framer_;
   bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
-  bool is_heard_ = true;            // true of all of them
+  bool is_received_ = true;         // true of all of them
   std::string faults_;              // of the next reply
   SimTime struck_at_{0};            // when the faults acted on that reply
 };

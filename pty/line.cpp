@@ -72,7 +72,7 @@ void Line::set_settings(const LineSettings& settings) {
   // A burst counts characters of one length, so a change of speed begins another burst.
   const auto end = [](Burst& burst) { burst = {burst.end, 0, burst.end}; };
   end(state_.arriving);
-  for (Member& member : state_.members) end(member.speech);
+  for (Member& member : state_.members) end(member.transmission);
 }
 
 // --- the host's side ---------------------------------------------------------------------------
@@ -266,8 +266,8 @@ void Line::begin_character(SimTime at) {
       stations_[i]->on_start_bit(at);
     }
   }
-  state_.is_heard = deaf == 0 || deaf < stations_.size();
-  if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;
+  state_.is_received = deaf == 0 || deaf < stations_.size();
+  if (!state_.is_received) ++state_.edge.counters.bytes_unheard;
   if (is_instant()) return;
   for (LineObserver* observer : observers_) observer->on_start_bit(at);
 }
@@ -285,7 +285,7 @@ void Line::deliver_characters() {
   for (std::size_t left = quiet_characters(); left > 0; --left) {
     report_character();
     if (left > 1 && is_of_lump() && is_departed() == begun_departed) {
-      if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;  // as the character before
+      if (!state_.is_received) ++state_.edge.counters.bytes_unheard;  // as the character before
       continue;
     }
     if (!state_.input.empty()) begin_character(state_.input.front().start);
@@ -313,7 +313,7 @@ void Line::report_character() {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (!state_.members[i].is_deaf) stations_[i]->receive(byte);
   }
-  for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_heard);
+  for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_received);
   const bool echoes = options_.echoes || state_.adapter.echoes;
   if (echoes && state_.is_host_open && byte.number > state_.last_departed)
     leave_wire(std::span(&byte.value, 1));
@@ -330,7 +330,7 @@ void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool
   if (bytes.empty()) return;
   Member& member = state_.members[index];
   const SimTime clock = state_.edge.clock;
-  const bool is_new = is_instant() || clock >= member.speech.end;
+  const bool is_new = is_instant() || clock >= member.transmission.end;
   // The backlog of a station that transmits faster than the wire is bounded.
   const SimTime latest = clock + state_.settings.duration_of(kOutputCapacity);
   SimTime first_start = clock;
@@ -338,12 +338,12 @@ void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool
   bool has_collided = false;
   if (is_instant() && is_anybody_listening) leave_wire(bytes);
   for (std::size_t i = 0; i < bytes.size() && !is_instant(); ++i) {
-    if (member.speech.end >= latest) {
+    if (member.transmission.end >= latest) {
       state_.edge.counters.bytes_discarded += bytes.size() - i;
       bytes = bytes.first(i);
       break;
     }
-    TimedByte character = place(member.speech, bytes[i], clock);
+    TimedByte character = place(member.transmission, bytes[i], clock);
     character.number = index;
     if (i == 0) {
       first_start = character.start;
@@ -390,17 +390,17 @@ void Line::discard_pending(const Station& station, SimTime now) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (stations_[i] != &station) continue;
     state_.leaving.remove_if([&](const TimedByte& sent) { return sent.number == i && sent.start >= now; });
-    state_.members[i].speech = {};
+    state_.members[i].transmission = {};
   }
 }
 
 /// Notifies the other stations, except those that are transmitting: they receive only themselves.
-void Line::notify_others(std::size_t speaker) {
-  state_.members[speaker].noticed_at.reset();
+void Line::notify_others(std::size_t sender) {
+  state_.members[sender].noticed_at.reset();
   --notices_;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const bool is_talking = !is_instant() && state_.members[i].speech.end > state_.edge.clock;
-    if (i != speaker && !is_talking) stations_[i]->on_other_station();
+    const bool is_talking = !is_instant() && state_.members[i].transmission.end > state_.edge.clock;
+    if (i != sender && !is_talking) stations_[i]->on_other_station();
   }
 }
 

@@ -144,7 +144,7 @@ class Line {
   /// What the line knows about a station.
   struct Member {
     bool is_deaf = false;                 // to the character on the wire
-    Burst speech;                         // its last transmission
+    Burst transmission;                   // its last transmission
     std::optional<SimTime> noticed_at{};  // when the other stations notice that it transmits
   };
   struct Warned {
@@ -169,7 +169,7 @@ class Line {
     Warned warned;
     Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
-    bool is_heard = true;      // at least one station receives the character that arrives
+    bool is_received = true;   // at least one station receives the character that arrives
     Queue<TimedByte> leaving;  // to the host, on the wire, in chronological order; numbered by their stations
     Adapter adapter;
     Queue<std::uint8_t> lump;          // held back by the adapter
@@ -213,7 +213,7 @@ class Line {
   void run_station(std::size_t index);
   void transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);
-  void notify_others(std::size_t speaker);
+  void notify_others(std::size_t sender);
   void leave_wire(std::span<const std::uint8_t> bytes);
   void give_lump();
   void give_host(std::span<const std::uint8_t> bytes);

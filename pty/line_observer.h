@@ -41,8 +41,8 @@ class LineObserver {
 
   /// A character from the host has begun; on_character() follows. Called only if characters take time.
   virtual void on_start_bit(SimTime at) = 0;
-  /// A character from the host has ended. `is_heard` is true if at least one station received it.
-  virtual void on_character(const TimedByte& character, bool is_heard) = 0;
+  /// A character from the host has ended. `is_received` is true if at least one station received it.
+  virtual void on_character(const TimedByte& character, bool is_received) = 0;
   /// The clock is stopped, and no more characters have arrived for a while (Station::on_idle).
   virtual void on_nothing_more() = 0;
 

@@ -29,7 +29,7 @@ void Line::check(const State& state) const {
   };
   require_burst(state.arriving);
   for (const Member& member : state.members) {
-    require_burst(member.speech);
+    require_burst(member.transmission);
     require(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters have impossible times");
   }
   const auto require_characters = [&](const Queue<TimedByte>& characters) {

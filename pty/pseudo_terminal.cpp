@@ -187,25 +187,25 @@ PseudoTerminal::Presence PseudoTerminal::poll_presence() {
   return std::exchange(news_, {});
 }
 
-void PseudoTerminal::follow_presence(bool must_look) {
+void PseudoTerminal::follow_presence(bool must_poll) {
   const bool was_in_doubt = is_in_doubt();
   const bool has_closed = read_presence_events();
-  bool is_second_look = was_in_doubt && !has_closed && is_in_doubt();
+  bool is_second_poll = was_in_doubt && !has_closed && is_in_doubt();
   const bool is_abandoned = !slave_ && is_hung_up(master_.get());
-  must_look = must_look || has_closed || is_second_look || is_abandoned;
+  must_poll = must_poll || has_closed || is_second_poll || is_abandoned;
   // Hosts may open and close while we look. If they keep doing so, the watch stays readable for the next
   // call.
-  constexpr int kMaxLooks = 8;
-  for (int look = 0; must_look && look < kMaxLooks; ++look) {
+  constexpr int kMaxPolls = 8;
+  for (int poll = 0; must_poll && poll < kMaxPolls; ++poll) {
     if (!is_somebody_there()) {
       opens_ = 0;
       if (is_present_) count_departure();
-    } else if (!is_present_ || is_second_look) {
+    } else if (!is_present_ || is_second_poll) {
       if (!is_present_) count_arrival();
       opens_ = 1;  // merged openings
     }
-    is_second_look = false;
-    must_look = read_presence_events();
+    is_second_poll = false;
+    must_poll = read_presence_events();
   }
 }
 

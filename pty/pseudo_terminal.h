@@ -82,7 +82,7 @@ class PseudoTerminal {
   std::optional<HostSettings> poll_host_settings() const { return settings_; }
 
  private:
-  void follow_presence(bool must_look);
+  void follow_presence(bool must_poll);
   bool read_presence_events();
   bool count_event(std::uint32_t mask);
   void count_arrival();

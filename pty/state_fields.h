@@ -53,7 +53,7 @@ template <>
 struct StateOf<pty::Line::Member> {
   using Value = pty::Line::Member;
   static constexpr auto fields =
-      FieldList{field<&Value::is_deaf>(), field<&Value::speech>(), field<&Value::noticed_at>()};
+      FieldList{field<&Value::is_deaf>(), field<&Value::transmission>(), field<&Value::noticed_at>()};
 };
 
 template <>
@@ -83,7 +83,7 @@ struct StateOf<pty::Line::State> {
                                            field<&Value::warned>(),
                                            field<&Value::input>(),
                                            field<&Value::arriving>(),
-                                           field<&Value::is_heard>(),
+                                           field<&Value::is_received>(),
                                            field<&Value::leaving>(),
                                            field<&Value::adapter>(),
                                            field<&Value::lump>(),

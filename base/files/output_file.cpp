@@ -38,15 +38,15 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
 }
 
 /// Throws if a folder on the way to a file is another user's link in a folder that everyone can write to.
-void require_own_way(const fs::path& absolute) {
-  fs::path way;
+void require_own_path(const fs::path& absolute) {
+  fs::path so_far;
   for (const fs::path& step : absolute.parent_path()) {
-    way /= step;
+    so_far /= step;
     struct stat status = {};
-    if (::lstat(way.c_str(), &status) != 0) return;  // opening it reports the error
-    if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
+    if (::lstat(so_far.c_str(), &status) != 0) return;  // opening it reports the error
+    if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(so_far, status)) {
       throw OutputError(
-          way.string() +
+          so_far.string() +
           ": it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
   }
@@ -82,7 +82,7 @@ std::string output_target(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
   for (int links = 0; links <= kMaxLinks; ++links) {
-    require_own_way(target);
+    require_own_path(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
       if (errno == ENOENT) return target.string();  // free; if a folder is missing, opening it says so

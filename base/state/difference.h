@@ -98,7 +98,7 @@ std::string difference_in_map(const T& a, const T& b, const std::string& path) {
 }
 
 template <class Named, class T>
-void look_at_field(const Named& named, const T& a, const T& b, const std::string& path, std::string& found) {
+void compare_field(const Named& named, const T& a, const T& b, const std::string& path, std::string& found) {
   if (!found.empty()) return;
   if (named.element == nullptr) {
     found = first_difference(a, b, path_to(path, named.name));
@@ -111,7 +111,7 @@ template <class T>
 std::string difference_in_fields(const T& a, const T& b, const std::string& path) {
   std::string found;
   fields_of<T>().apply(
-      [&](const auto&... named) { (look_at_field(named, a.*named.at, b.*named.at, path, found), ...); });
+      [&](const auto&... named) { (compare_field(named, a.*named.at, b.*named.at, path, found), ...); });
   return found;
 }
 
@@ -123,10 +123,10 @@ std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>
                                  const std::string& path) {
   std::string found;
   fields_of<T>().apply([&](const auto&... named) {
-    const auto look = [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (state_fields::look_at_field(named, std::get<i>(a), std::get<i>(b), path, found), ...);
+    const auto compare_all = [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (state_fields::compare_field(named, std::get<i>(a), std::get<i>(b), path, found), ...);
     };
-    look(std::index_sequence_for<decltype(named)...>());
+    compare_all(std::index_sequence_for<decltype(named)...>());
   });
   return found;
 }

@@ -267,7 +267,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
 namespace {
 
 /// Prints a hint for people only. In a script's log it would look like an error.
-void say_how_to_have_parity(const serve::Daemon& daemon) {
+void print_parity_hint(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {
     const pty::Line& line = daemon.world().line(port->line_number()).line;
@@ -284,7 +284,7 @@ void say_how_to_have_parity(const serve::Daemon& daemon) {
 }  // namespace
 
 void print_ready(const serve::Daemon& daemon) {
-  say_how_to_have_parity(daemon);
+  print_parity_hint(daemon);
   for (const auto& port : daemon.ports()) {
     const std::string place = port->place();
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),

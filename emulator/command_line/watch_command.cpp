@@ -31,25 +31,25 @@ using Clock = std::chrono::steady_clock;
 /// Reads single keys without an echo while it exists. Ctrl-C keeps its meaning.
 class Keyboard {
  public:
-  Keyboard() : is_there_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
-    if (!is_there_) return;
+  Keyboard() : exists_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (!exists_) return;
     termios raw = before_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
-    is_there_ = tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
+    exists_ = tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
   }
   ~Keyboard() {
-    if (is_there_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+    if (exists_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
   }
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
-  bool is_there() const { return is_there_; }
-  void forget() { is_there_ = false; }  // the terminal has hung up
+  bool exists() const { return exists_; }
+  void forget() { exists_ = false; }  // the terminal has hung up
 
  private:
   termios before_{};
-  bool is_there_ = false;
+  bool exists_ = false;
 };
 
 /// Uses the terminal's alternate screen, without a cursor, while it exists. Afterwards the user's content
@@ -75,7 +75,7 @@ class Screen {
   /// Waits this long, or until a signal or a key comes. Returns false if the user wants to end it.
   bool wait(Clock::duration time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
-    pollfd keyboard{keyboard_.is_there() ? STDIN_FILENO : -1, POLLIN, 0};
+    pollfd keyboard{keyboard_.exists() ? STDIN_FILENO : -1, POLLIN, 0};
     if (poll(&keyboard, 1, static_cast<int>(std::max<std::int64_t>(left, 0))) <= 0) return true;
     std::array<char, 64> keys{};
     const ssize_t size = read(STDIN_FILENO, keys.data(), keys.size());

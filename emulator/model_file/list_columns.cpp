@@ -100,7 +100,7 @@ class Planner {
         plan_.names.push_back(claim.cell);
     }
     require_needed();
-    tell_passed_over();
+    report_passed_over();
     return std::move(plan_);
   }
 
@@ -204,7 +204,7 @@ class Planner {
     }
   }
 
-  void tell_passed_over() {
+  void report_passed_over() {
     std::string passed;
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < row().cells.size(); ++i) {

@@ -27,9 +27,9 @@ class OutcomeHash::LineHasher final : public pty::LineObserver {
   LineHasher& operator=(const LineHasher&) = delete;
 
   void on_start_bit(SimTime) override {}
-  void on_character(const pty::TimedByte& character, bool is_heard) override {
+  void on_character(const pty::TimedByte& character, bool is_received) override {
     begin(character.end);
-    hash_.add(static_cast<std::uint64_t>(character.value) << 1 | (is_heard ? 1 : 0));
+    hash_.add(static_cast<std::uint64_t>(character.value) << 1 | (is_received ? 1 : 0));
   }
   void on_nothing_more() override {}
   void on_transmission(const pty::Transmission& transmission) override {

@@ -20,7 +20,7 @@ struct EventOptions {
   /// or it is dropped.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
   /// Conditions are checked in the milliseconds that this divides; changes in between are not seen.
-  int look_every_ms = 1;
+  int check_interval_ms = 1;
 
   bool operator==(const EventOptions&) const = default;
 };

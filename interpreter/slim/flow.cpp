@@ -321,7 +321,7 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
 Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program& program,
                        const FlowOptions& options, const Machine& machine) {
   if (options.events_need_program) return Error::none;
-  if (now_ms % options.events.look_every_ms == 0) {
+  if (now_ms % options.events.check_interval_ms == 0) {
     const Error error = check_events(execution.events, options.events, machine);
     if (error != Error::none) return error;
   }
@@ -377,7 +377,7 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
   if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.next_line();
   if (!execution.running) return Error::none;
   Error event_error = Error::none;
-  if (now_ms % options.events.look_every_ms == 0) {
+  if (now_ms % options.events.check_interval_ms == 0) {
     event_error = check_events(execution.events, options.events, machine);
   }
   if (is_lines_turn && event_error == Error::none) event_error = serve_events(execution, program, options);
@@ -398,12 +398,13 @@ std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, co
                             const FlowOptions& options, const Machine& machine) {
   if (!execution.running && options.events_need_program) return kNever;
   const bool sees_event = would_change(execution.events, machine);
-  const std::int64_t look_ms = sees_event ? moment_from(done_ms + 1, options.events.look_every_ms) : kNever;
+  const std::int64_t check_ms =
+      sees_event ? moment_from(done_ms + 1, options.events.check_interval_ms) : kNever;
   if (!execution.running) {
     const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
-    return is_pending ? done_ms + 1 : look_ms;
+    return is_pending ? done_ms + 1 : check_ms;
   }
-  return std::min(look_ms, next_line_ms(execution, done_ms, program, options, machine));
+  return std::min(check_ms, next_line_ms(execution, done_ms, program, options, machine));
 }
 
 }  // namespace understudy::interpreter::slim

@@ -121,13 +121,13 @@ struct Options {
   bool waits_stand_inhibited = false;   // TMR is suspended under M8004
   /// True: a start in the middle of a line continues after that line; false: it stops the program.
   bool starts_inside_lines = false;
-  bool marks_by_rpm = true;        // true: MRK goes to its target by RPM; false: by X14 alone
-  bool contact_off_stops = false;  // true: M8x00 OFF stops an axis program; false: it pauses it
-  bool start_begins_anew = false;  // true: STR restarts a running program
-  bool c3p_is_in_xy = false;       // true: C3P is in XY, whatever plane is set
-  bool joins_paths = false;        // LIN and arcs that follow each other are joined while D9005 is ON
-  bool rotation_0_waits = true;    // VDRV 0 waits until its axes stop
-  bool continuous_by_key = true;   // M8600 acts as M8007
+  bool marks_by_rpm = true;         // true: MRK goes to its target by RPM; false: by X14 alone
+  bool contact_off_stops = false;   // true: M8x00 OFF stops an axis program; false: it pauses it
+  bool start_begins_again = false;  // true: STR restarts a running program
+  bool c3p_is_in_xy = false;        // true: C3P is in XY, whatever plane is set
+  bool joins_paths = false;         // LIN and arcs that follow each other are joined while D9005 is ON
+  bool rotation_0_waits = true;     // VDRV 0 waits until its axes stop
+  bool continuous_by_key = true;    // M8600 acts as M8007
 
   bool operator==(const Options&) const = default;
 };

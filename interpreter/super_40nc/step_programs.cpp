@@ -68,7 +68,7 @@ void StepPrograms::take(Event event, Area area) {
 /// STR.
 void StepPrograms::start(Area area) {
   const bool runs_on = reaction_of(Event::start, state(area).phase) == Reaction::nothing;
-  if (runs_on && options_.start_begins_anew && !machine_.is_held_in_reset(area)) take(Event::stop, area);
+  if (runs_on && options_.start_begins_again && !machine_.is_held_in_reset(area)) take(Event::stop, area);
   take(Event::start, area);
 }
 

@@ -21,7 +21,7 @@ TEST(LineHost, DemandsABaud) {
 TEST(LineHost, AStationIsDeafToOtherSettings) {
   struct Case {
     HostSettings host;
-    bool is_heard;
+    bool is_received;
     const char* warning;
   };
   const std::vector<Case> cases = {
@@ -60,10 +60,10 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
     rig.run(1s);
     rig.send(kRequest, 1s);
     rig.run(2s);
-    EXPECT_EQ(rig.out.size(), host.is_heard ? 2 * kReply.size() : 0);
-    EXPECT_EQ(rig.line.counters().bytes_unheard, host.is_heard ? 0 : 2 * kRequest.size());
+    EXPECT_EQ(rig.out.size(), host.is_received ? 2 * kReply.size() : 0);
+    EXPECT_EQ(rig.line.counters().bytes_unheard, host.is_received ? 0 : 2 * kRequest.size());
     EXPECT_EQ(rig.warnings,
-              host.is_heard ? std::vector<std::string>{} : std::vector<std::string>{host.warning});
+              host.is_received ? std::vector<std::string>{} : std::vector<std::string>{host.warning});
   }
 }
 
@@ -71,7 +71,7 @@ TEST(LineHost, HearsASpeedWithinTheTolerance) {
   struct Case {
     std::int64_t tolerance_ppm;
     int baud;
-    bool is_heard;
+    bool is_received;
   };
   for (const Case& each :
        {Case{20'000, 18'816, true}, Case{20'000, 18'815, false}, Case{20'000, 19'584, true},
@@ -83,7 +83,7 @@ TEST(LineHost, HearsASpeedWithinTheTolerance) {
     rig.line.host_settings(HostSettings{.baud = each.baud});
     rig.send(kRequest, 0s);
     rig.run(1s);
-    EXPECT_EQ(rig.out, each.is_heard ? kReply : Bytes{}) << each.tolerance_ppm << " " << each.baud;
+    EXPECT_EQ(rig.out, each.is_received ? kReply : Bytes{}) << each.tolerance_ppm << " " << each.baud;
   }
 }
 

@@ -225,7 +225,8 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
           [](Line::State& s) { s.edge.output.resize(Line::kOutputCapacity + 1); });
   refused("its characters have impossible times", [](Line::State& s) { s.input[0].end = SimTime::max(); });
   refused("its characters have impossible times", [](Line::State& s) { s.arriving.count = 19'200; });
-  refused("its characters have impossible times", [](Line::State& s) { s.members[1].speech.count = -1; });
+  refused("its characters have impossible times",
+          [](Line::State& s) { s.members[1].transmission.count = -1; });
   refused("its characters have impossible times",
           [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
   refused("its clock is after the end of simulated time",

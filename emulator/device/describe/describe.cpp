@@ -121,7 +121,7 @@ bool has_meaning(const RegisterRow& row) { return !row.meaning.in_english.empty(
 
 /// Returns true if the sheets of registers and parameters say what each of them stands for. In CSV, the
 /// columns of registers are those that `import` reads.
-bool tells_meanings(const Model& model, SheetFormat format) {
+bool shows_meanings(const Model& model, SheetFormat format) {
   return format != SheetFormat::csv && any_row(model, has_meaning);
 }
 
@@ -144,7 +144,7 @@ Sheet registers(const Model& model, SheetFormat format) {
       any_row(model, [](const RegisterRow& row) { return row.swaps_words || row.swaps_bytes; });
   if (has_fields) sheet.columns.emplace_back("bits");
   if (has_orders) sheet.columns.emplace_back("order");
-  const bool has_meanings = tells_meanings(model, format);
+  const bool has_meanings = shows_meanings(model, format);
   if (has_meanings) {
     for (const char* column : {"meaning", "heading"}) sheet.columns.emplace_back(column);
   }
@@ -182,7 +182,7 @@ std::string number_of(const ParameterRow& row, int index) {
 /// Lists the parameters. If they are registers, the table of registers has the other facts about them.
 Sheet parameters(const Model& model, SheetFormat format) {
   const bool has_named = !model.named_parameters.empty();
-  const bool has_meanings = tells_meanings(model, format);
+  const bool has_meanings = shows_meanings(model, format);
   Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
   if (has_named) {
     for (const char* column : {"min", "max", "unit", "default"}) sheet.columns.emplace_back(column);

@@ -80,9 +80,9 @@ lang::Outcome::Program program_after_stop(const Setup& setup, From from) {
   switch (outcome_of(ActiveTask::program_runs, Event::stop, from)) {
     case Outcome::ends: return Program::ends;
     case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
-    case Outcome::comes_to_a_stand:
-    case Outcome::does_as_before:
-    case Outcome::is_forgotten:
+    case Outcome::decelerates:
+    case Outcome::continues_as_before:
+    case Outcome::is_dropped:
     case Outcome::stops_at_once:
     case Outcome::continues:
     case Outcome::cannot_be: break;

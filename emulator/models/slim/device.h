@@ -54,8 +54,8 @@ class Slim final : public StatefulDevice<Slim, State>,
   void receive_overlong() override;
   DeviceAnswer take_command(std::string_view line) override;
   void receive_escape() override;
-  bool has_text() const override { return !state_.speech.empty(); }
-  std::string take_text() override { return std::exchange(state_.speech, {}); }
+  bool has_text() const override { return !state_.output.empty(); }
+  std::string take_text() override { return std::exchange(state_.output, {}); }
 
   // --- by name ---
   std::optional<double> value_named(std::string_view name) const override;

@@ -135,9 +135,9 @@ DeviceAnswer take_command(State& state, const Setup& setup, const lang::Machine&
                           std::string_view line) {
   const bool is_number = takes_for_number(state, setup, line);
   if (is_editing(state.editor) || is_number) return Refusal::busy;
-  std::string before = std::exchange(state.speech, {});
+  std::string before = std::exchange(state.output, {});
   const Error error = receive_command(state, setup, machine, line);
-  state.speech = std::move(before);
+  state.output = std::move(before);
   if (error == Error::none) return Refusal::none;
   return {error == Error::not_allowed ? Refusal::busy : Refusal::bad_value, static_cast<int>(error)};
 }

@@ -20,13 +20,13 @@ constexpr std::size_t kMaxOutput = 256 * 1024;
 }  // namespace
 
 void send_line(State& state, const Setup& setup, std::string_view text) {
-  if (state.speech.size() >= kMaxOutput) return;
-  state.speech += text;
-  state.speech += setup.line_end();
+  if (state.output.size() >= kMaxOutput) return;
+  state.output += text;
+  state.output += setup.line_end();
 }
 
 bool has_room_to_print(const State& state, const Setup& setup) {
-  return state.speech.size() < static_cast<std::size_t>(setup.number(numbers("print_ahead")));
+  return state.output.size() < static_cast<std::size_t>(setup.number(numbers("print_ahead")));
 }
 
 void acknowledge(State& state, const Setup& setup) {
@@ -43,9 +43,9 @@ int fail(State& state, const Setup& setup, int module, Error error) {
 void conclude(State& state, const Setup& setup) {
   if (!setup.chose(option("prompt", "greater_than"))) return;
   if (const auto number = next_line_number(state.editor, state.program, setup.of_programs())) {
-    state.speech += std::to_string(*number);
+    state.output += std::to_string(*number);
   }
-  state.speech += ">";
+  state.output += ">";
 }
 
 }  // namespace understudy::emulator::models::slim

@@ -68,7 +68,7 @@ lang::FlowOptions flow_options(const ChainOptions& chosen) {
     options.bare_number = lang::FlowOptions::BareNumber::into_n0_or_r0;
   if (chosen.chose(option("events_without_program", "run_their_routine")))
     options.events_need_program = false;
-  if (chosen.chose(option("event_check", "each_4_milliseconds"))) options.events.look_every_ms = 4;
+  if (chosen.chose(option("event_check", "each_4_milliseconds"))) options.events.check_interval_ms = 4;
   if (chosen.chose(option("failed_line", "is_passed_over")))
     options.failed_line = lang::FlowOptions::FailedLine::is_passed;
   if (chosen.chose(option("interrupted_wait", "have_gone_on")))

@@ -33,7 +33,7 @@ struct StateOf<emulator::models::slim::State> {
                 field<&Value::kept_revision>(), field<&Value::chain>(),      field<&Value::program>(),
                 field<&Value::editor>(),        field<&Value::execution>(),  field<&Value::errors>(),
                 field<&Value::inputs>(),        field<&Value::powered_at>(), field<&Value::clock_zero>(),
-                field<&Value::speech>(),        field<&Value::touched>()};
+                field<&Value::output>(),        field<&Value::touched>()};
   static void check(const Value& state);
 };
 

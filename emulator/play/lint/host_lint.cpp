@@ -102,12 +102,12 @@ void HostLint::restart() {
   last_number_ = 0;
 }
 
-void HostLint::on_character(const pty::TimedByte& character, bool is_heard) {
+void HostLint::on_character(const pty::TimedByte& character, bool is_received) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_heard) restart();  // a host that no device receives has other problems
+  if (!follows || !is_received) restart();  // a host that no device receives has other problems
   last_number_ = character.number;
   under_way_.reset();
-  if (!is_heard) return;
+  if (!is_received) return;
   const SimTime idle = busy_until_ ? character.start - *busy_until_ : kForever;
   waiting_.push_back({character.number, character.start, idle});
   if (waiting_.size() > kMaxWaiting) waiting_.erase(waiting_.begin(), waiting_.end() - pty::kRtuMaxFrame);

@@ -38,7 +38,7 @@ class HostLint final : public pty::LineObserver {
     framer_.start_bit(at);
     under_way_ = at;
   }
-  void on_character(const pty::TimedByte& character, bool is_heard) override;
+  void on_character(const pty::TimedByte& character, bool is_received) override;
   void on_nothing_more() override { framer_.give_up_waiting(); }
   void on_transmission(const pty::Transmission& transmission) override;
   std::optional<SimTime> due() const override { return framer_.due(); }

@@ -58,7 +58,7 @@ void PerformanceRecorder::world_restored(std::size_t) {
   begin();
 }
 
-void PerformanceRecorder::step_over() { spool_->look(); }
+void PerformanceRecorder::step_over() { spool_->poll(); }
 
 void PerformanceRecorder::finish(ScenarioResult& result) {
   // Most recordings are discarded, so only those of failures end with a state. Saving it takes a third of the

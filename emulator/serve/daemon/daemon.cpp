@@ -373,7 +373,7 @@ void Daemon::run() {
       port->flush();
     }
     memories_->poll(now);
-    if (recording_) recording_->look();
+    if (recording_) recording_->poll();
   }
   // The recording or trace of a quiet bench must end now, not at its last event.
   if (!advance_done_) catch_up();

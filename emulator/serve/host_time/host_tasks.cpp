@@ -103,7 +103,7 @@ bool HostTasks::is_one_thread() const {
 }
 
 /// Returns false if a thread does not sleep.
-bool HostTasks::look(Tasks& tasks, const std::set<int>& waiting) const {
+bool HostTasks::read_tasks(Tasks& tasks, const std::set<int>& waiting) const {
   bool are_asleep = true;
   std::array<char, 512> buffer{};
   for (const auto& known : processes_) {
@@ -126,7 +126,7 @@ bool HostTasks::look(Tasks& tasks, const std::set<int>& waiting) const {
 bool HostTasks::are_all_asleep(const std::set<int>& waiting) const {
   Tasks before;
   Tasks after;
-  return look(before, waiting) && look(after, waiting) && before == after;
+  return read_tasks(before, waiting) && read_tasks(after, waiting) && before == after;
 }
 
 std::optional<std::string> HostTasks::running_one() const {

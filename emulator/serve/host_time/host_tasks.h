@@ -46,7 +46,7 @@ class HostTasks {
   };
   using Tasks = std::map<int, Task>;
 
-  bool look(Tasks& tasks, const std::set<int>& waiting) const;
+  bool read_tasks(Tasks& tasks, const std::set<int>& waiting) const;
 
   EventLoop& loop_;
   std::function<void(int)> ended_;

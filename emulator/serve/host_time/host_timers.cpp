@@ -19,9 +19,9 @@ void HostTimers::set(const host_time::Message& message, Descriptor counter) {
   const std::pair key{message.process, message.sequence};
   timers_.erase(key);
   if (message.until_ns == host_time::kNever) return;
-  const Expired told{message.process, message.target, message.signal, message.value};
+  const Expired notice{message.process, message.target, message.signal, message.value};
   timers_.emplace(key,
-                  Timer{SimTime{message.until_ns}, SimTime{message.interval_ns}, told, std::move(counter)});
+                  Timer{SimTime{message.until_ns}, SimTime{message.interval_ns}, notice, std::move(counter)});
 }
 
 void HostTimers::process_ended(int process) {
@@ -44,7 +44,7 @@ std::vector<HostTimers::Expired> HostTimers::expire(SimTime now) {
       ++it;
       continue;
     }
-    expired.push_back(timer.told);
+    expired.push_back(timer.notice);
     std::uint64_t count = 1;
     if (timer.interval > SimTime{0}) count += static_cast<std::uint64_t>((now - timer.next) / timer.interval);
     // It cannot be full: a host would have to leave 2^64 expirations unread.

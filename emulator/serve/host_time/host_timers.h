@@ -38,7 +38,7 @@ class HostTimers {
   struct Timer {
     SimTime next{0};
     SimTime interval{0};
-    Expired told{};
+    Expired notice{};
     Descriptor counter;
   };
   std::map<std::pair<int, std::uint32_t>, Timer> timers_;  // by process and number

@@ -75,7 +75,7 @@ Child::Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& 
   }
   loop_.watch(timer_, EventLoop::readable, [this](std::uint32_t) {
     std::uint64_t ignored = 0;
-    if (read(timer_, &ignored, sizeof ignored) > 0) look_at_group();
+    if (read(timer_, &ignored, sizeof ignored) > 0) check_group();
   });
 }
 
@@ -147,7 +147,7 @@ void Child::look_after_children() {
       on_end(told);
     }
   }
-  if (has_ended_) look_at_group();
+  if (has_ended_) check_group();
 }
 
 void Child::on_end(const siginfo_t& how) {
@@ -177,7 +177,7 @@ void Child::end_with(int signal_number) {
   set_timer(kLook);
 }
 
-void Child::look_at_group() {
+void Child::check_group() {
   if (is_over_) return;
   if (has_ended_ && kill(-pid_, 0) != 0 && errno == ESRCH) return be_over();
   if (deadline_ == WallTime{0}) return end_with(SIGTERM);  // ends processes that the command has left behind

@@ -59,7 +59,7 @@ class Child {
   [[noreturn]] void become(char* const* words, char* const* environment, int diagnostics, int output);
   void on_end(const siginfo_t& how);
   void on_stop();
-  void look_at_group();
+  void check_group();
   void be_over();
   void give_terminal_to(pid_t group) const;
   void set_timer(WallTime interval) const;

@@ -42,7 +42,7 @@ void apply(World& world, const RecordedEvent& event) {
     case What::assign: world.assign(event.where, event.text, event.real); break;
     case What::program: load_as_recorded(world, event); break;
     case What::command: world.command(event.where, event.text); break;
-    case What::said:
+    case What::sent:
     case What::wait:
     case What::end: break;
   }

@@ -75,7 +75,7 @@ std::string text_of(const RecordedEvent& event, const World& world) {
     case What::bytes:
     case What::departed:
     case What::nothing_more:
-    case What::said:
+    case What::sent:
     case What::wait:
     case What::end: break;
   }

@@ -20,7 +20,7 @@ RecentCourse::RecentCourse(World& world)
 
 void RecentCourse::take(RecordedEvent event) {
   // What stations send follows from the rest.
-  if (is_paused_ || is_too_long_ || event.what == RecordedEvent::What::said ||
+  if (is_paused_ || is_too_long_ || event.what == RecordedEvent::What::sent ||
       event.what == RecordedEvent::What::end)
     return;
   timeline_.reset();

@@ -72,7 +72,7 @@ class Recorder::LineRecorder final : public pty::LineObserver {
     recorder_.take(std::move(event));
   }
   void on_transmission(const pty::Transmission& transmission) override {
-    note(What::said, transmission.bytes);
+    note(What::sent, transmission.bytes);
   }
   std::optional<SimTime> due() const override { return std::nullopt; }
   void run(SimTime) override {}

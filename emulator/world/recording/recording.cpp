@@ -39,7 +39,7 @@ constexpr std::array<std::pair<What, std::string_view>, 18> kEventWords{{
     {What::departed, "left"},
     {What::purged, "purge"},
     {What::nothing_more, "pause"},
-    {What::said, "out"},
+    {What::sent, "out"},
     {What::input, "input"},
     {What::power, "power"},
     {What::inject, "inject"},
@@ -62,7 +62,7 @@ constexpr std::string_view word_of(What what) {
 // In the order of pty::Parity.
 constexpr std::array<std::string_view, 5> kParities{"none", "odd", "even", "mark", "space"};
 
-bool is_of_a_line(What what) { return what <= What::said; }
+bool is_of_a_line(What what) { return what <= What::sent; }
 bool is_of_a_device(What what) {
   return what == What::input || what == What::power || what == What::write || what == What::assign ||
          what == What::program || what == What::command;
@@ -294,7 +294,7 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
   switch (event.what) {
     case What::bytes:
     case What::departed:
-    case What::said: line.hexadecimal("bytes", event.bytes); break;
+    case What::sent: line.hexadecimal("bytes", event.bytes); break;
     case What::settings:
       if (event.host) {
         line.number("baud", event.host->baud);
@@ -380,7 +380,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
   switch (event.what) {
     case What::bytes:
     case What::departed:
-    case What::said: event.bytes = bytes_at(line, "bytes"); break;
+    case What::sent: event.bytes = bytes_at(line, "bytes"); break;
     case What::settings:
       if (line.contains("baud")) event.host = host_at(line);
       break;

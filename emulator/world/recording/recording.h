@@ -45,7 +45,7 @@ struct RecordedEvent {
     departed,  // bytes of a host that has closed since
     purged,    // the host flushed bytes that were not on the wire yet
     nothing_more,
-    said,     // stations sent `bytes` on the line, which a replay must match
+    sent,     // stations sent `bytes` on the line, which a replay must match
     input,    // terminal `place` of device `where` was set to `value`
     power,    // the device was switched to `value`
     inject,   // `fault`
@@ -82,7 +82,7 @@ struct RecordingError : std::runtime_error {
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Applies an event to the world at the world's current time. `said`, `wait` and `end` have no effect.
+/// Applies an event to the world at the world's current time. `sent`, `wait` and `end` have no effect.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

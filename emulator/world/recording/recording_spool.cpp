@@ -83,7 +83,7 @@ std::string RecordingSpool::close() {
   return failure_;
 }
 
-void RecordingSpool::look() {
+void RecordingSpool::poll() {
   if (!recorder_ || bytes_ < cap_bytes_) return;
   recorder_->finish();
   recorder_.reset();

@@ -40,7 +40,7 @@ class RecordingSpool {
   std::string close();
 
   /// Starts a new file if this one is too large. Call it outside World::advance_to().
-  void look();
+  void poll();
 
  private:
   void begin();

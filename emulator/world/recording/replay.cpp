@@ -33,32 +33,32 @@ namespace {
 using What = RecordedEvent::What;
 
 /// Collects what stations send in the replay until it is compared.
-class Speeches {
+class SentBytes {
  public:
-  struct Speech {
+  struct Sent {
     std::size_t line = 0;
     SimTime at{0};
     std::vector<std::uint8_t> bytes;
   };
 
-  explicit Speeches(World& world) : world_(world) {
+  explicit SentBytes(World& world) : world_(world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
       line_collectors_.push_back(std::make_unique<LineCollector>(*this, i));
       world.add_observer(i, *line_collectors_.back());
     }
   }
-  ~Speeches() {
+  ~SentBytes() {
     for (std::size_t i = 0; i < line_collectors_.size(); ++i) world_.remove_observer(i, *line_collectors_[i]);
   }
-  Speeches(const Speeches&) = delete;
-  Speeches& operator=(const Speeches&) = delete;
+  SentBytes(const SentBytes&) = delete;
+  SentBytes& operator=(const SentBytes&) = delete;
 
-  std::deque<Speech>& waiting() { return waiting_; }
+  std::deque<Sent>& waiting() { return waiting_; }
 
  private:
   class LineCollector final : public pty::LineObserver {
    public:
-    LineCollector(Speeches& all, std::size_t line) : all_(all), line_(line) {}
+    LineCollector(SentBytes& all, std::size_t line) : all_(all), line_(line) {}
     void on_start_bit(SimTime) override {}
     void on_character(const pty::TimedByte&, bool) override {}
     void on_nothing_more() override {}
@@ -71,13 +71,13 @@ class Speeches {
     void run(SimTime) override {}
 
    private:
-    Speeches& all_;
+    SentBytes& all_;
     std::size_t line_;
   };
 
   World& world_;
   std::vector<std::unique_ptr<LineCollector>> line_collectors_;
-  std::deque<Speech> waiting_;
+  std::deque<Sent> waiting_;
 };
 
 std::string hex_words_of(const std::vector<std::uint8_t>& bytes) {
@@ -97,22 +97,22 @@ std::string text_of(const World& world, std::size_t line, SimTime at,
 }
 
 /// Returns the first difference, or an empty text if the output is as recorded.
-std::string compare(const World& world, Speeches& speeches, const RecordedEvent& recorded,
+std::string compare(const World& world, SentBytes& sent_bytes, const RecordedEvent& recorded,
                     std::uint64_t bytes_before) {
   const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
-  if (speeches.waiting().empty()) return "expected " + expected + "; nothing was sent";
-  const Speeches::Speech said = speeches.waiting().front();
-  speeches.waiting().pop_front();
-  const std::string came = text_of(world, said.line, said.at, said.bytes);
+  if (sent_bytes.waiting().empty()) return "expected " + expected + "; nothing was sent";
+  const SentBytes::Sent sent = sent_bytes.waiting().front();
+  sent_bytes.waiting().pop_front();
+  const std::string came = text_of(world, sent.line, sent.at, sent.bytes);
   std::size_t same = 0;
-  while (same < said.bytes.size() && same < recorded.bytes.size() &&
-         said.bytes[same] == recorded.bytes[same]) {
+  while (same < sent.bytes.size() && same < recorded.bytes.size() &&
+         sent.bytes[same] == recorded.bytes[same]) {
     ++same;
   }
-  if (said.bytes != recorded.bytes) {
+  if (sent.bytes != recorded.bytes) {
     return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; got " + came;
   }
-  if (said.line != recorded.where || said.at != recorded.at) {
+  if (sent.line != recorded.where || sent.at != recorded.at) {
     return "expected " + expected + "; got " + came;
   }
   return {};
@@ -204,11 +204,11 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
   World world(replayed.bench, replayed.header.options, {});
   restore_beginning(world, lines, replayed);
   const std::unique_ptr<ReplayWatcher> watcher = watch ? watch(world) : nullptr;
-  Speeches speeches(world);
+  SentBytes sent_bytes(world);
   const auto expect_silence = [&] {
-    if (speeches.waiting().empty()) return;
-    const Speeches::Speech& said = speeches.waiting().front();
-    result.difference = "got " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
+    if (sent_bytes.waiting().empty()) return;
+    const SentBytes::Sent& sent = sent_bytes.waiting().front();
+    result.difference = "got " + text_of(world, sent.line, sent.at, sent.bytes) + "; expected nothing";
   };
   while (result.difference.empty() && !result.has_end && lines.next()) {
     if (lines.is_torn()) break;
@@ -216,8 +216,8 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     if (until && event.at > *until) break;
     world.advance_to(event.at);
     ++result.events;
-    if (event.what == What::said) {
-      result.difference = compare(world, speeches, event, result.bytes_sent);
+    if (event.what == What::sent) {
+      result.difference = compare(world, sent_bytes, event, result.bytes_sent);
       result.bytes_sent += event.bytes.size();
       continue;
     }

@@ -46,10 +46,10 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
   while (const auto frame = state_.framer.take_due(now)) {
-    tell_errors(state_.framer);  // the errors before the frame
+    report_errors(state_.framer);  // the errors before the frame
     take_frame(*frame, now, out);
   }
-  tell_errors(state_.framer);
+  report_errors(state_.framer);
 }
 
 void RtuStation::reset() {
@@ -59,7 +59,7 @@ void RtuStation::reset() {
 
 // --- receiving -----------------------------------------------------------------------------------
 
-void RtuStation::tell_each_error(pty::RtuFramer& framer) {
+void RtuStation::report_each_error(pty::RtuFramer& framer) {
   while (const auto error = framer.take_error()) device_.modbus()->receive_failed(port_, *error);
 }
 
@@ -89,7 +89,7 @@ void RtuStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t 
     framer.push({.start = now, .end = now, .value = value, .number = last_character});
   }
   while (const auto frame = framer.take(now + kInstant)) serve_frame(*frame, now, out);
-  tell_errors(framer);
+  report_errors(framer);
 }
 
 void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out) {

@@ -18,12 +18,12 @@ class RtuStation final : public LineStation {
   void on_start_bit(pty::SimTime at) override {
     if (!device_.powered()) return;
     state_.framer.start_bit(at);
-    tell_errors(state_.framer);
+    report_errors(state_.framer);
   }
   void receive(const pty::TimedByte& byte) override {
     if (!device_.powered()) return;
     state_.framer.push(byte);
-    tell_errors(state_.framer);
+    report_errors(state_.framer);
     if (wire_.is_broken()) check_completed(byte.number, byte.end);
   }
   void on_other_station() override {
@@ -32,7 +32,7 @@ class RtuStation final : public LineStation {
   }
   void on_idle() override {
     state_.framer.give_up_waiting();
-    tell_errors(state_.framer);
+    report_errors(state_.framer);
   }
   std::optional<pty::SimTime> due() const override;
   std::size_t quiet_characters() const override {
@@ -56,10 +56,10 @@ class RtuStation final : public LineStation {
 
  private:
   /// Must be called after each call of the framer. It reports errors to the device.
-  void tell_errors(pty::RtuFramer& framer) {
-    if (framer.has_errors()) tell_each_error(framer);
+  void report_errors(pty::RtuFramer& framer) {
+    if (framer.has_errors()) report_each_error(framer);
   }
-  void tell_each_error(pty::RtuFramer& framer);
+  void report_each_error(pty::RtuFramer& framer);
   ReceivedFrame received_frame(const pty::RtuFrame& frame, pty::SimTime now) const;
   void check_completed(std::uint64_t last_character, pty::SimTime now);
   void take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);

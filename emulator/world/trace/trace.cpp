@@ -86,7 +86,7 @@ Trace::Trace(World& world, const std::vector<TraceSignal>& signals, std::unique_
       format_(std::move(format)) {
   for (const TraceSignal& signal : signals) handles_.push_back(probes_.resolve(signal.name).handle);
   format_->begin(signals);
-  look(world_.now());
+  sample(world_.now());
   world_.add_watcher(*this);
 }
 
@@ -95,7 +95,7 @@ Trace::~Trace() {
   if (tick_at(world_.now()) > last_row_) format_->end(world_.now(), values_);
 }
 
-void Trace::on_tick(Tick tick) { look(time_of(tick)); }
+void Trace::on_tick(Tick tick) { sample(time_of(tick)); }
 
 Tick Trace::next_poll(Tick done) const {
   Tick next = kNever;
@@ -103,7 +103,7 @@ Tick Trace::next_poll(Tick done) const {
   return next;
 }
 
-void Trace::look(SimTime at) {
+void Trace::sample(SimTime at) {
   bool anything = false;
   for (std::size_t i = 0; i < handles_.size(); ++i) {
     const Number value = probes_.value(handles_[i]);

@@ -53,7 +53,7 @@ class Trace final : private TickWatcher {
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override;
   void on_rest(Tick) override {}  // it writes only changes
-  void look(SimTime at);
+  void sample(SimTime at);
 
   World& world_;
   Probes probes_;

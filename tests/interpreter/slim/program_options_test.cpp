@@ -87,7 +87,7 @@ TEST(SlimProgramOptions, SlowLinesMissNoEvent) {
 
 TEST(SlimProgramOptions, EventsLookedAtInEachFourthTick) {
   for (const int every_ms : {1, 4}) {
-    ProgramRun run(interrupted("WT 1000"), {.events = {.look_every_ms = every_ms}});
+    ProgramRun run(interrupted("WT 1000"), {.events = {.check_interval_ms = every_ms}});
     run.begin();
     run.until(48);
     run.machine.inputs = {8};  // at 49, 50 and 51
@@ -103,7 +103,7 @@ TEST(SlimProgramOptions, EventsLookedAtInEachFourthTick) {
 /// A line that checks its input itself still sees it in each tick.
 TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   ProgramRun run({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "WI 1", "SET P1", "RET", "$E SET P2", "RET"},
-                 {.events = {.look_every_ms = 4}});
+                 {.events = {.check_interval_ms = 4}});
   run.begin();
   run.until(20);
   run.machine.inputs = {1};
@@ -113,7 +113,7 @@ TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   EXPECT_EQ(run.machine.log, (Log{"22 SET P1"}));
 
   // A condition that cannot be tested is detected at a check.
-  ProgramRun wrong({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "$E WT 1000"}, {.events = {.look_every_ms = 4}});
+  ProgramRun wrong({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "$E WT 1000"}, {.events = {.check_interval_ms = 4}});
   wrong.begin();
   wrong.until(20);
   wrong.machine.variables["N0"] = 2001;

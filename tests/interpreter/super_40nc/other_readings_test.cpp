@@ -109,7 +109,7 @@ TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
     EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE in the manual's table";
 
     options = {};
-    options.start_begins_anew = stops;
+    options.start_begins_again = stops;
     Running anew = running("AREA X;INC D0;TMR K100;END;AREA Y;TMR K5;STR K1", options);
     anew.start(Area::x);
     anew.start(Area::y);

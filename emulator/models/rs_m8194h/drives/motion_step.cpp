@@ -66,14 +66,14 @@ void MotionStep::on_path_speed(Tick tick) {
   const bool is_constant = along.speed_u_s > 0 && along.acceleration_u_s2 == 0;
   const std::int8_t first = paths.together.axis_of[0];
   if (is_constant == (paths.constant_axis >= 0) || (is_constant && first < 0)) return;
-  const auto tell = [&](motion::Event event) {
+  const auto record = [&](motion::Event event) {
     interrupts_.check_factors(static_cast<std::size_t>(paths.constant_axis), motion::bit(event), tick);
   };
   if (is_constant) {
     paths.constant_axis = first;
-    tell(motion::Event::constant_started);
+    record(motion::Event::constant_started);
   } else {
-    tell(motion::Event::constant_ended);
+    record(motion::Event::constant_ended);
     paths.constant_axis = motion::Coordinated::kNone;
   }
 }

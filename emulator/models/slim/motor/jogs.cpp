@@ -75,7 +75,7 @@ void order_jog(const Motor& motor, int direction, std::int32_t force) {
   }
   module.next_jog_direction = static_cast<std::int8_t>(direction);
   module.next_thrust = force;
-  take_off(module, MarkEvent::told_to_stop);
+  take_off(module, MarkEvent::stop_requested);
   axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }
@@ -84,7 +84,7 @@ void stop_jog(const Motor& motor) {
   Module& module = motor.module;
   take_off(module, MarkEvent::jogs_dropped);
   if (!module.jogs_or_pushes()) return;
-  take_off(module, MarkEvent::told_to_stop);
+  take_off(module, MarkEvent::stop_requested);
   motor.axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }
@@ -117,7 +117,7 @@ void resume_jog(const Motor& motor) {
 
 void slow_down_for_good(const Motor& motor) {
   motor.module.activity = Activity::stopping;
-  take_off(motor.module, MarkEvent::told_to_stop);
+  take_off(motor.module, MarkEvent::stop_requested);
   motor.axis.slow_down(motor.now);
   after_jog(motor, motor.now + 1);
 }

@@ -14,14 +14,14 @@
 namespace understudy::emulator::models::slim {
 
 enum class MarkEvent : std::uint8_t {
-  begins,        // a motion of the module: MA, MR, H, JGF, JGR, FT
-  continues,     // JGF or JGR in the direction of the jog that runs
-  jogs_dropped,  // JG0, TAUPZ, CLR BUF in a pause; also a pause, before it sets its own marks
-  told_to_stop,  // the motion has begun to decelerate, and then ends
-  stands,        // the motion has ended, or it is interrupted and starts again from the FIFO
-  pause_over,    // TAREDO, REDO
-  cut,           // TASTOP, IHOFF, HOFF, RESET, each at once
-  servo_off,     // IHOFF, HOFF, RESET; TASTOP if it switches the servo off
+  begins,          // a motion of the module: MA, MR, H, JGF, JGR, FT
+  continues,       // JGF or JGR in the direction of the jog that runs
+  jogs_dropped,    // JG0, TAUPZ, CLR BUF in a pause; also a pause, before it sets its own marks
+  stop_requested,  // the motion has begun to decelerate, and then ends
+  stands,          // the motion has ended, or it is interrupted and starts again from the FIFO
+  pause_over,      // TAREDO, REDO
+  cut,             // TASTOP, IHOFF, HOFF, RESET, each at once
+  servo_off,       // IHOFF, HOFF, RESET; TASTOP if it switches the servo off
 };
 using MarkEvents = std::uint8_t;
 static_assert(static_cast<int>(MarkEvent::servo_off) < std::numeric_limits<MarkEvents>::digits);
@@ -53,7 +53,7 @@ inline constexpr auto kModuleMarks = [] {
       module_mark<&Module::next_thrust>("next_thrust", events_of(begins, continues, jogs_dropped, cut)),
       module_mark<&Module::held_jog_direction>("held_jog_direction", events_of(jogs_dropped, pause_over, cut)),
       module_mark<&Module::held_thrust>("held_thrust", events_of(jogs_dropped, pause_over, cut)),
-      module_mark<&Module::starved>("starved", events_of(begins, told_to_stop, stands, cut)),
+      module_mark<&Module::starved>("starved", events_of(begins, stop_requested, stands, cut)),
       module_mark<&Module::analog_speed>("analog_speed", events_of(servo_off)),
   };
 }();

@@ -42,10 +42,10 @@ inline constexpr std::size_t kSources = 3;
 
 enum class Outcome : std::uint8_t {
   // of a motion:
-  comes_to_a_stand,  // decelerates along its ramp, on its path; nothing of it is lost
-  does_as_before,    // continues what it did before the pause
-  is_forgotten,      // is at rest and does not continue
-  stops_at_once,     // stops without another pulse and does not continue
+  decelerates,          // decelerates along its ramp, on its path; nothing of it is lost
+  continues_as_before,  // continues what it did before the pause
+  is_dropped,           // is at rest and does not continue
+  stops_at_once,        // stops without another pulse and does not continue
   // of a program:
   continues,           // continues as if nothing had happened: it keeps waiting, or takes its next line
   ends,                // takes no further line
@@ -69,11 +69,11 @@ constexpr std::array<Outcome, kSources> of_waiting(Outcome outcome) {
 
 inline constexpr Transition kTransitions[] = {
     // --- TAPZ: "each motor that moves slows down at once, in step, and keeps to its path"
-    {ActiveTask::line, Event::pause, transitions::any(Outcome::comes_to_a_stand), "list, TAPZ"},
-    {ActiveTask::move, Event::pause, transitions::any(Outcome::comes_to_a_stand), "list, TAPZ"},
-    {ActiveTask::homing, Event::pause, transitions::any(Outcome::comes_to_a_stand), "list, TAPZ"},
-    {ActiveTask::jog, Event::pause, transitions::any(Outcome::comes_to_a_stand), "list, TAPZ"},
-    {ActiveTask::thrust, Event::pause, transitions::any(Outcome::comes_to_a_stand), "list, TAPZ"},
+    {ActiveTask::line, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
+    {ActiveTask::move, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
+    {ActiveTask::homing, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
+    {ActiveTask::jog, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
+    {ActiveTask::thrust, Event::pause, transitions::any(Outcome::decelerates), "list, TAPZ"},
     {ActiveTask::program_runs, Event::pause, transitions::any(Outcome::continues), "pause_in_program"},
     {ActiveTask::program_waits_for_number, Event::pause, transitions::of_waiting(Outcome::continues),
      "lines_for_a_number"},
@@ -82,11 +82,11 @@ inline constexpr Transition kTransitions[] = {
     {ActiveTask::program_waits_for_motion, Event::pause, transitions::of_waiting(Outcome::continues),
      "pause_in_program"},
     // --- TAREDO: "each motor does at once what it did before the pause"
-    {ActiveTask::line, Event::resume, transitions::any(Outcome::does_as_before), "list, TAREDO"},
-    {ActiveTask::move, Event::resume, transitions::any(Outcome::does_as_before), "list, TAREDO"},
-    {ActiveTask::homing, Event::resume, transitions::any(Outcome::does_as_before), "list, TAREDO"},
-    {ActiveTask::jog, Event::resume, transitions::any(Outcome::does_as_before), "list, TAREDO"},
-    {ActiveTask::thrust, Event::resume, transitions::any(Outcome::does_as_before), "list, TAREDO"},
+    {ActiveTask::line, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
+    {ActiveTask::move, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
+    {ActiveTask::homing, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
+    {ActiveTask::jog, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
+    {ActiveTask::thrust, Event::resume, transitions::any(Outcome::continues_as_before), "list, TAREDO"},
     {ActiveTask::program_runs, Event::resume, transitions::any(Outcome::continues), "while_program_runs"},
     {ActiveTask::program_waits_for_number, Event::resume, transitions::of_waiting(Outcome::continues),
      "lines_for_a_number"},
@@ -95,11 +95,11 @@ inline constexpr Transition kTransitions[] = {
     {ActiveTask::program_waits_for_motion, Event::resume, transitions::of_waiting(Outcome::continues),
      "while_program_runs"},
     // --- TAUPZ: "the command that is half done, and all in the buffer, are given up"
-    {ActiveTask::line, Event::give_up, transitions::any(Outcome::is_forgotten), "list, TAUPZ"},
-    {ActiveTask::move, Event::give_up, transitions::any(Outcome::is_forgotten), "list, TAUPZ"},
-    {ActiveTask::homing, Event::give_up, transitions::any(Outcome::is_forgotten), "list, TAUPZ"},
-    {ActiveTask::jog, Event::give_up, transitions::any(Outcome::is_forgotten), "list, TAUPZ"},
-    {ActiveTask::thrust, Event::give_up, transitions::any(Outcome::is_forgotten), "list, TAUPZ"},
+    {ActiveTask::line, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
+    {ActiveTask::move, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
+    {ActiveTask::homing, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
+    {ActiveTask::jog, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
+    {ActiveTask::thrust, Event::give_up, transitions::any(Outcome::is_dropped), "list, TAUPZ"},
     {ActiveTask::program_runs, Event::give_up, transitions::any(Outcome::continues), "while_program_runs"},
     {ActiveTask::program_waits_for_number, Event::give_up, transitions::of_waiting(Outcome::continues),
      "lines_for_a_number"},
@@ -130,11 +130,11 @@ inline constexpr Transition kTransitions[] = {
      {Outcome::ends, Outcome::cannot_be, Outcome::ends_after_routine},
      "emergency_stop_program"},
     // --- PZ and REDO: like TAPZ and TAREDO for motions; for programs by a row of their own
-    {ActiveTask::line, Event::pause_q, transitions::any(Outcome::comes_to_a_stand), "pause_scope"},
-    {ActiveTask::move, Event::pause_q, transitions::any(Outcome::comes_to_a_stand), "pause_scope"},
-    {ActiveTask::homing, Event::pause_q, transitions::any(Outcome::comes_to_a_stand), "pause_scope"},
-    {ActiveTask::jog, Event::pause_q, transitions::any(Outcome::comes_to_a_stand), "pause_scope"},
-    {ActiveTask::thrust, Event::pause_q, transitions::any(Outcome::comes_to_a_stand), "pause_scope"},
+    {ActiveTask::line, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
+    {ActiveTask::move, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
+    {ActiveTask::homing, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
+    {ActiveTask::jog, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
+    {ActiveTask::thrust, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::program_runs, Event::pause_q, transitions::any(Outcome::continues), "pause_and_program"},
     {ActiveTask::program_waits_for_number, Event::pause_q, transitions::of_waiting(Outcome::continues),
      "pause_and_program"},
@@ -142,11 +142,11 @@ inline constexpr Transition kTransitions[] = {
      "pause_and_program"},
     {ActiveTask::program_waits_for_motion, Event::pause_q, transitions::of_waiting(Outcome::continues),
      "pause_and_program"},
-    {ActiveTask::line, Event::resume_q, transitions::any(Outcome::does_as_before), "list, REDO"},
-    {ActiveTask::move, Event::resume_q, transitions::any(Outcome::does_as_before), "list, REDO"},
-    {ActiveTask::homing, Event::resume_q, transitions::any(Outcome::does_as_before), "list, REDO"},
-    {ActiveTask::jog, Event::resume_q, transitions::any(Outcome::does_as_before), "list, REDO"},
-    {ActiveTask::thrust, Event::resume_q, transitions::any(Outcome::does_as_before), "list, REDO"},
+    {ActiveTask::line, Event::resume_q, transitions::any(Outcome::continues_as_before), "list, REDO"},
+    {ActiveTask::move, Event::resume_q, transitions::any(Outcome::continues_as_before), "list, REDO"},
+    {ActiveTask::homing, Event::resume_q, transitions::any(Outcome::continues_as_before), "list, REDO"},
+    {ActiveTask::jog, Event::resume_q, transitions::any(Outcome::continues_as_before), "list, REDO"},
+    {ActiveTask::thrust, Event::resume_q, transitions::any(Outcome::continues_as_before), "list, REDO"},
     {ActiveTask::program_runs, Event::resume_q, transitions::any(Outcome::continues), "while_program_runs"},
     {ActiveTask::program_waits_for_number, Event::resume_q, transitions::of_waiting(Outcome::continues),
      "lines_for_a_number"},

@@ -103,7 +103,7 @@ bool Drives::begin_mark(int axis_number, std::int64_t distance, std::int64_t sea
        .creep = line_law(axis_number, static_cast<double>(settings.of(kept_x(d9x::kCreepSpeed), axis_number)),
                          mover),
        .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
-       .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
+       .searches_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp")),
        .needs_edge = chose(option("mark_edge", "has_to_come_anew"))});
   starts_.begun(axis_number, chip(axis_number).home(program, before_motion()), Activity::move);

@@ -71,7 +71,7 @@ constexpr LanguageChoice kLanguageChoices[] = {
      [](Options& made) { made.quotient = Options::Quotient::downwards; }},
     {option("rpm_not_positive", "keeps_the_speed"), [](Options& made) { made.rpm_0_keeps_speed = true; }},
     {option("axis_contact_off", "stops_the_program"), [](Options& made) { made.contact_off_stops = true; }},
-    {option("str_running", "begins_anew"), [](Options& made) { made.start_begins_anew = true; }},
+    {option("str_running", "begins_anew"), [](Options& made) { made.start_begins_again = true; }},
     {option("mrk_speed", "by_x14_alone"), [](Options& made) { made.marks_by_rpm = false; }},
     {option("mset", "refused_at_load"), [](Options& made) { made.knows_mset = false; }},
     {option("plc_moves_axes_of_c", "whenever_they_are_free"),

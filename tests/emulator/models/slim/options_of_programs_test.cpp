@@ -117,7 +117,7 @@ std::size_t max_waiting(const Choices& choices) {
   for (int ms = 1; ms <= 5000; ++ms) {
     world.advance_to(std::chrono::milliseconds(ms));
     world.take_output(0, line.output().size());
-    max = std::max(max, dynamic_cast<const Slim&>(world.device(0)).state().speech.size());
+    max = std::max(max, dynamic_cast<const Slim&>(world.device(0)).state().output.size());
   }
   return max;
 }

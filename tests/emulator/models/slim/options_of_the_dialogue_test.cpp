@@ -149,7 +149,7 @@ TEST(SlimDialogueOptions, WhatOfErrorsHasNoRoomIsRememberedOnly) {
   script.send("\x13");
   script.pass(5000);
   // Lines of 7 characters, until there are 1024: 147.
-  EXPECT_EQ(script.device().state().speech.size(), 7 * 147u);
+  EXPECT_EQ(script.device().state().output.size(), 7 * 147u);
   script.send("\x11");
   // 1024 of them go at once.
   for (int i = 0; i < 146; ++i) EXPECT_EQ(script.next(), "ERR 5");

@@ -187,7 +187,7 @@ TEST(SlimPrograms, PrintsNoFasterThanItsLineCarries) {
     world.advance_to(std::chrono::seconds(second));
     said += line.output().size();
     world.take_output(0, line.output().size());
-    EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().speech.size(), 2 * 1024u);
+    EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().output.size(), 2 * 1024u);
   }
   // 960 characters per second, except for the typed commands and for pauses of a tick between texts.
   EXPECT_GT(said, 17'000U);

@@ -82,15 +82,15 @@ class Cell {
     EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : said_by(expected));
     if (is_of_program(row_.task)) return check_program(expected);
     switch (expected) {
-      case Outcome::comes_to_a_stand:
+      case Outcome::decelerates:
         EXPECT_EQ(chain().speed_pps(0), 0);
         EXPECT_TRUE(chain().busy(0));
         break;
-      case Outcome::does_as_before:
+      case Outcome::continues_as_before:
         EXPECT_EQ(chain().status(0).mode, mode);
         EXPECT_DOUBLE_EQ(chain().speed_pps(0), speed_pps);
         break;
-      case Outcome::is_forgotten:
+      case Outcome::is_dropped:
         EXPECT_EQ(chain().status(0).mode, Mode::idle);
         EXPECT_FALSE(chain().busy(0));
         break;

@@ -37,7 +37,7 @@ struct SpooledWorld {
       world.receive(0, write_request(1, 0x1002, i % 500 + 1));
       world.advance_to(world.now() + std::chrono::milliseconds(20));
       take_output(world);
-      recording.look();
+      recording.poll();
     }
   }
   ReplayResult replayed(const std::string& file, std::uint64_t* end = nullptr) const {
