@@ -141,15 +141,15 @@ TEST(ServiceManager, HearsThatTheDaemonIsReadyAndThatItStops) {
   std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
   const Descriptor socket_of_manager(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   ASSERT_EQ(bind(socket_of_manager.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  const auto heard = [&] {
+  const auto received = [&] {
     std::array<char, 256> text{};
     const ssize_t size = recv(socket_of_manager.get(), text.data(), text.size(), 0);
     return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : std::string();
   };
   RunningUnderstudy daemon({}, {{"NOTIFY_SOCKET", path}});
-  EXPECT_TRUE(eventually([&] { return heard().find("READY=1") != std::string::npos; }));
+  EXPECT_TRUE(eventually([&] { return received().find("READY=1") != std::string::npos; }));
   EXPECT_EQ(daemon.stop(SIGTERM), 0);
-  EXPECT_NE(heard().find("STOPPING=1"), std::string::npos);
+  EXPECT_NE(received().find("STOPPING=1"), std::string::npos);
 }
 
 // --- idle ----------------------------------------------------------------------------------------

@@ -284,10 +284,10 @@ lines:
   ASSERT_FALSE(command.empty());
   EXPECT_EQ(command[0], program());
   Process daemon(command, {{"NOTIFY_SOCKET", manager}});
-  std::array<char, 256> heard{};
-  ASSERT_TRUE(eventually([&] { return recv(listener.get(), heard.data(), heard.size(), 0) > 0; }))
+  std::array<char, 256> received{};
+  ASSERT_TRUE(eventually([&] { return recv(listener.get(), received.data(), received.size(), 0) > 0; }))
       << daemon.errors();
-  EXPECT_STREQ(heard.data(), "READY=1");
+  EXPECT_STREQ(received.data(), "READY=1");
   const std::string port = folder() / "run/understudy/feeder/bus.port";
   EXPECT_EQ(fs::status(port).permissions(), fs::perms(0660)) << "open to the group";
   EXPECT_EQ(ModbusHost(port).read(kHardwareCode), Registers{0xC001});

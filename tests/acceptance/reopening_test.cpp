@@ -124,13 +124,13 @@ TEST(HostThatReopensAtOnce, IsNotHeardAtAnotherSpeed) {
   const RunningUnderstudy daemon({"--baud", "115200"});
   const OnTwoProcessors pinned(daemon.process().pid());
   constexpr int kTimes = 40;
-  int heard = 0;
+  int received = 0;
   for (int time = 1; time <= kTimes; ++time) {
     EXPECT_EQ(ModbusHost(daemon.port(), {.baud = 115200}).read(kHardwareCode), Registers{0xC001});
     ModbusHost wrong(daemon.port(), {.baud = 9600, .patience = Wait(25)});
-    if (!wrong.read(kHardwareCode).empty()) ++heard;
+    if (!wrong.read(kHardwareCode).empty()) ++received;
   }
-  EXPECT_EQ(heard, 0) << "of " << kTimes;
+  EXPECT_EQ(received, 0) << "of " << kTimes;
 }
 
 // --- a host that never reads ----------------------------------------------------------------------

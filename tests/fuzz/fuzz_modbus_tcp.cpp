@@ -33,21 +33,21 @@ struct Expected {
   bool is_refused = false;
 };
 
-Expected expected_of(std::span<const std::uint8_t> said) {
+Expected expected_of(std::span<const std::uint8_t> sent) {
   Expected expected;
-  while (said.size() >= kHeader) {
-    const std::size_t length = std::size_t{said[4]} << 8 | said[5];
+  while (sent.size() >= kHeader) {
+    const std::size_t length = std::size_t{sent[4]} << 8 | sent[5];
     if (length < 2 || length > 254) {
       expected.is_refused = true;
       break;
     }
-    if (said.size() < kHeader + length) break;
-    Bytes frame(said.begin() + kHeader, said.begin() + static_cast<std::ptrdiff_t>(kHeader + length));
-    if (said[2] == 0 && said[3] == 0) {
+    if (sent.size() < kHeader + length) break;
+    Bytes frame(sent.begin() + kHeader, sent.begin() + static_cast<std::ptrdiff_t>(kHeader + length));
+    if (sent[2] == 0 && sent[3] == 0) {
       pty::append_rtu_crc(frame);
       expected.frames.push_back(frame);
     }
-    said = said.subspan(kHeader + length);
+    sent = sent.subspan(kHeader + length);
   }
   return expected;
 }
@@ -73,9 +73,9 @@ void serve(ModbusTcp& gateway, Frames& frames, unsigned how) {
     frames.push_back(frame);
     answer(gateway, frame, how + static_cast<unsigned>(frames.size()));
     require(!gateway.waits(), "and for no more");
-    const Bytes said = gateway.take_for_client();
-    require(said.size() <= 260, "answers are bounded");
-    if (!said.empty()) require(said.size() >= 8 && said.size() == kHeader + said[5], "and whole");
+    const Bytes sent = gateway.take_for_client();
+    require(sent.size() <= 260, "answers are bounded");
+    if (!sent.empty()) require(sent.size() >= 8 && sent.size() == kHeader + sent[5], "and whole");
   }
 }
 
@@ -83,19 +83,19 @@ void serve(ModbusTcp& gateway, Frames& frames, unsigned how) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1 || size > kLongest) return 0;
-  const std::span<const std::uint8_t> said(data + 1, size - 1);
-  const Expected expected = expected_of(said);
-  const std::size_t pieces[] = {said.size() + 1, std::size_t{1} + data[0] % 16, 1};
+  const std::span<const std::uint8_t> sent(data + 1, size - 1);
+  const Expected expected = expected_of(sent);
+  const std::size_t pieces[] = {sent.size() + 1, std::size_t{1} + data[0] % 16, 1};
   for (const std::size_t piece : pieces) {
     ModbusTcp gateway;
     Frames frames;
     bool is_refused = false;
-    for (std::size_t at = 0; at < said.size() && !is_refused; at += piece) {
+    for (std::size_t at = 0; at < sent.size() && !is_refused; at += piece) {
       require(gateway.has_room(), "what is served makes room");
-      is_refused = !gateway.receive_from_client(said.subspan(at, std::min(piece, said.size() - at)));
+      is_refused = !gateway.receive_from_client(sent.subspan(at, std::min(piece, sent.size() - at)));
       serve(gateway, frames, data[0] >> 4);
     }
-    if (is_refused) require(!gateway.receive_from_client(said), "what was refused stays so");
+    if (is_refused) require(!gateway.receive_from_client(sent), "what was refused stays so");
     require(is_refused == expected.is_refused, "a length is refused that no message has");
     gateway.client_gone();
     serve(gateway, frames, data[0] >> 4);

@@ -58,12 +58,12 @@ void serve_line(Rfc2217& port, std::size_t room, Outcome& outcome) {
   outcome.answers.insert(outcome.answers.end(), answers.begin(), answers.end());
 }
 
-Outcome outcome_of(std::span<const std::uint8_t> said, std::size_t piece, std::size_t room) {
+Outcome outcome_of(std::span<const std::uint8_t> sent, std::size_t piece, std::size_t room) {
   Rfc2217 port(pty::LineSettings{});
   Outcome outcome;
-  for (std::size_t at = 0; at < said.size(); at += piece) {
+  for (std::size_t at = 0; at < sent.size(); at += piece) {
     require(port.has_room(), "what is served makes room");
-    require(port.receive_from_client(said.subspan(at, std::min(piece, said.size() - at))),
+    require(port.receive_from_client(sent.subspan(at, std::min(piece, sent.size() - at))),
             "nobody is let go");
     serve_line(port, room, outcome);
   }
@@ -72,33 +72,33 @@ Outcome outcome_of(std::span<const std::uint8_t> said, std::size_t piece, std::s
 
 /// Only commands and replies, because nothing came from the line: each begins with 255 and ends where it
 /// should.
-void require_telnet(std::span<const std::uint8_t> said) {
+void require_telnet(std::span<const std::uint8_t> sent) {
   std::size_t at = 0;
-  while (at < said.size()) {
-    require(at + 1 < said.size() && said[at] == 255, "a command begins with 255");
-    const std::uint8_t verb = said[at + 1];
+  while (at < sent.size()) {
+    require(at + 1 < sent.size() && sent[at] == 255, "a command begins with 255");
+    const std::uint8_t verb = sent[at + 1];
     if (verb >= 251 && verb <= 254) {
       at += 3;
     } else if (verb == 250) {
       at += 2;
-      while (at + 1 < said.size() && !(said[at] == 255 && said[at + 1] == 240)) at += said[at] == 255 ? 2 : 1;
+      while (at + 1 < sent.size() && !(sent[at] == 255 && sent[at + 1] == 240)) at += sent[at] == 255 ? 2 : 1;
       at += 2;
     } else {
       require(verb == 241, "nothing else is said");
       at += 2;
     }
   }
-  require(at == said.size(), "each answer is whole");
+  require(at == sent.size(), "each answer is whole");
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0 || size > kLongest) return 0;
-  const std::span<const std::uint8_t> said(data + 1, size - 1);
+  const std::span<const std::uint8_t> sent(data + 1, size - 1);
   // A whole break is dropped if the line has no room for it, so it has some.
-  const Outcome whole = outcome_of(said, 4096, 4096);
+  const Outcome whole = outcome_of(sent, 4096, 4096);
   require_telnet(whole.answers);
-  require(outcome_of(said, 1 + data[0] % 16, 1 + data[0] / 16) == whole, "pieces make no difference");
+  require(outcome_of(sent, 1 + data[0] % 16, 1 + data[0] / 16) == whole, "pieces make no difference");
   return 0;
 }

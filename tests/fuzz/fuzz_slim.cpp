@@ -123,7 +123,7 @@ class Listener {
   void restart() {
     make_anew_();
     world_.take_output(0, line().output().size());
-    said_.clear();
+    sent_.clear();
   }
 
   void type(std::string_view bytes) {
@@ -135,7 +135,7 @@ class Listener {
     const auto due = world_.next_due();
     require(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
-    said_.append(output.begin(), output.end());
+    sent_.append(output.begin(), output.end());
     world_.take_output(0, output.size());
   }
   void set_terminal(std::size_t number, int level) {
@@ -149,21 +149,21 @@ class Listener {
   /// Nothing more is sent without a request.
   bool comes_to_rest() {
     for (int round = 0; round < kMaxRounds; ++round) {
-      const std::size_t before = said_.size();
+      const std::size_t before = sent_.size();
       advance(kUntilQuiet);
-      if (said_.size() == before) return true;
+      if (sent_.size() == before) return true;
     }
     return false;
   }
 
   const emulator::Device& device() { return world_.device(0); }
   const pty::Line& line() const { return world_.line(0).line; }
-  const std::string& said() const { return said_; }
+  const std::string& sent() const { return sent_; }
 
  private:
   emulator::world::World world_;
   std::function<void()> make_anew_;
-  std::string said_;
+  std::string sent_;
 };
 
 Tick ticks_of(std::uint8_t code) {
@@ -197,11 +197,11 @@ void play(Listener& listener, std::string_view input, Tick left) {
 /// To be called at rest: a long text is sent in pieces. While time passes nothing reads here, so a program
 /// that prints without end fills what the line can hold, and loses the rest.
 void check_whole_lines(const Listener& listener, const Options& options) {
-  const std::string& said = listener.said();
+  const std::string& sent = listener.sent();
   const bool has_lost = listener.line().counters().bytes_discarded > 0;
-  if (options.echo || options.prompt || said.empty() || has_lost) return;
-  if (said.ends_with("\r\n")) return;
-  std::fprintf(stderr, "...%s\n", said.substr(said.size() - std::min<std::size_t>(said.size(), 80)).c_str());
+  if (options.echo || options.prompt || sent.empty() || has_lost) return;
+  if (sent.ends_with("\r\n")) return;
+  std::fprintf(stderr, "...%s\n", sent.substr(sent.size() - std::min<std::size_t>(sent.size(), 80)).c_str());
   require(false, "what is said are whole lines");
 }
 
@@ -211,9 +211,9 @@ void check_answers_again(Listener& listener, const Options& options) {
   listener.type("EXIT\r");
   require(listener.comes_to_rest(), "it comes to rest");
   check_whole_lines(listener, options);
-  const std::size_t before = listener.said().size();
+  const std::size_t before = listener.sent().size();
   listener.type("?PE\r");
-  std::string answer = listener.said().substr(before);
+  std::string answer = listener.sent().substr(before);
   const auto take_away = [&](std::string_view beginning, bool is_there) {
     if (!is_there) return;
     require(answer.starts_with(beginning), "an answer has what was chosen");
@@ -283,7 +283,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Listener& stepped = chains.stepped(settings);
   stepped.restart();
   play(stepped, input, kMaxTicks);
-  require(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  require(stepped.sent() == listener.sent(), "ticks left out are not to be seen on the line");
   fuzzing::require_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
   stepped.restart();

@@ -88,7 +88,7 @@ class Listener {
   void restart() {
     make_anew_();
     world_.take_output(0, line().output().size());
-    said_.clear();
+    sent_.clear();
   }
 
   void hear(const Lump& lump) {
@@ -101,7 +101,7 @@ class Listener {
     const auto due = world_.next_due();
     require(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
-    said_.insert(said_.end(), output.begin(), output.end());
+    sent_.insert(sent_.end(), output.begin(), output.end());
     world_.take_output(0, output.size());
   }
 
@@ -115,7 +115,7 @@ class Listener {
   const emulator::Device& device() { return world_.device(0); }
   const emulator::world::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
   SimTime now() const { return world_.now(); }
-  const std::vector<std::uint8_t>& said() const { return said_; }
+  const std::vector<std::uint8_t>& sent() const { return sent_; }
 
  private:
   static emulator::world::Bench bench_for(const Input& input, int rotary_switch) {
@@ -139,16 +139,16 @@ class Listener {
 
   emulator::world::World world_;
   std::function<void()> make_anew_;
-  std::vector<std::uint8_t> said_;
+  std::vector<std::uint8_t> sent_;
 };
 
 /// Returns the length of the reply that begins here; nothing if it is not a reply.
-std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
-  if (said.size() < 5) return std::nullopt;
-  if ((said[1] & 0x80) != 0) return 5;
-  switch (said[1]) {
+std::optional<std::size_t> reply_size(std::span<const std::uint8_t> sent) {
+  if (sent.size() < 5) return std::nullopt;
+  if ((sent[1] & 0x80) != 0) return 5;
+  switch (sent[1]) {
     case 0x03:
-    case 0x04: return 5U + said[2];
+    case 0x04: return 5U + sent[2];
     case 0x06:
     case 0x10: return 8;
     default: return std::nullopt;
@@ -157,21 +157,21 @@ std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
 
 void check_replies(Listener& listener, int rotary_switch) {
   if (listener.line().counters().bytes_discarded > 0) return;  // it sent faster than the wire carries
-  std::span<const std::uint8_t> said = listener.said();
+  std::span<const std::uint8_t> sent = listener.sent();
   std::uint64_t replies = 0;
   std::uint64_t exceptions = 0;
-  while (!said.empty()) {
-    const auto size = reply_size(said);
-    require(size && *size <= said.size(), "replies are whole frames");
+  while (!sent.empty()) {
+    const auto size = reply_size(sent);
+    require(size && *size <= sent.size(), "replies are whole frames");
     require(*size <= 256, "a reply is no longer than 256 bytes");
-    require(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
-    require(rotary_switch == 0 || said[0] == rotary_switch, "a station gives its own number");
-    if ((said[1] & 0x80) != 0) {
+    require(pty::rtu_crc_ok(sent.first(*size)), "a reply has a right checksum");
+    require(rotary_switch == 0 || sent[0] == rotary_switch, "a station gives its own number");
+    if ((sent[1] & 0x80) != 0) {
       ++exceptions;
-      require(said[2] >= 1 && said[2] <= 3, "there are three exceptions");
+      require(sent[2] >= 1 && sent[2] <= 3, "there are three exceptions");
     }
     ++replies;
-    said = said.subspan(*size);
+    sent = sent.subspan(*size);
   }
   require(replies == listener.counters().replies, "every reply leaves");
   require(exceptions == listener.counters().exceptions, "exceptions are counted");
@@ -219,7 +219,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   Listener& stepped = crowd.stepped;
   play(stepped, input);
-  require(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  require(stepped.sent() == listener.sent(), "ticks left out are not to be seen on the line");
   require(stepped.now() == listener.now(), "nor do they take another time");
   fuzzing::require_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
@@ -231,7 +231,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     untouched.restart();
     untouched.advance(other.now());
     fuzzing::require_same_state(other.device(), untouched.device(), "frames for others change nothing");
-    require(other.said().empty(), "frames for others are not answered");
+    require(other.sent().empty(), "frames for others are not answered");
   }
   return 0;
 }

@@ -187,9 +187,9 @@ class Listener {
   }
   void take(std::size_t port, std::optional<std::uint8_t> function) {
     const auto output = world_.line(port).line.output();
-    std::vector<std::uint8_t> said(output.begin(), output.end());
-    world_.take_output(port, said.size());
-    std::span<const std::uint8_t> left = said;
+    std::vector<std::uint8_t> sent(output.begin(), output.end());
+    world_.take_output(port, sent.size());
+    std::span<const std::uint8_t> left = sent;
     while (!left.empty()) {
       require(left.size() >= 5, "a reply is a whole frame");
       std::size_t size = 8;

@@ -79,15 +79,15 @@ class Client {
   void hear() {
     std::array<std::uint8_t, 4096> bytes;
     const ssize_t count = recv(mine_.get(), bytes.data(), bytes.size(), 0);
-    if (count > 0) heard.insert(heard.end(), bytes.begin(), bytes.begin() + count);
+    if (count > 0) received.insert(received.end(), bytes.begin(), bytes.begin() + count);
     is_over = is_over || count == 0;
   }
   bool has(const Bytes& reply) const {
-    return std::search(heard.begin(), heard.end(), reply.begin(), reply.end()) != heard.end();
+    return std::search(received.begin(), received.end(), reply.begin(), reply.end()) != received.end();
   }
   void close_sending_half() const { shutdown(mine_.get(), SHUT_WR); }
   void close() { mine_.close(); }
-  Bytes heard;
+  Bytes received;
   bool is_over = false;
 
  private:

@@ -75,7 +75,7 @@ class Listener {
   void play(std::span<const Lump> lumps) {
     make_anew_();
     take();
-    said_ = {};
+    sent_ = {};
     for (const Lump& lump : lumps) {
       world_.advance_to(world_.now() + lump.gap);
       world_.receive(lump.line, lump.bytes);
@@ -103,13 +103,13 @@ class Listener {
   }
   SimTime now() const { return world_.now(); }
   /// On each line.
-  const std::array<std::vector<std::uint8_t>, kPorts>& said() const { return said_; }
+  const std::array<std::vector<std::uint8_t>, kPorts>& sent() const { return sent_; }
 
  private:
   void take() {
     for (std::size_t i = 0; i < lines(); ++i) {
       const auto output = line(i).output();
-      said_[i].insert(said_[i].end(), output.begin(), output.end());
+      sent_[i].insert(sent_[i].end(), output.begin(), output.end());
       world_.take_output(i, output.size());
     }
   }
@@ -132,7 +132,7 @@ class Listener {
 
   world::World world_;
   std::function<void()> make_anew_;
-  std::array<std::vector<std::uint8_t>, kPorts> said_;
+  std::array<std::vector<std::uint8_t>, kPorts> sent_;
 };
 
 const world::FunctionRow* function_called(std::uint8_t code) {
@@ -143,32 +143,32 @@ const world::FunctionRow* function_called(std::uint8_t code) {
 }
 
 /// Returns the length of the reply that begins here; nothing if it is not a reply.
-std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
-  if (said.size() < 5) return std::nullopt;
-  if ((said[1] & 0x80) != 0) return 5;
-  const world::FunctionRow* const row = function_called(said[1]);
+std::optional<std::size_t> reply_size(std::span<const std::uint8_t> sent) {
+  if (sent.size() < 5) return std::nullopt;
+  if ((sent[1] & 0x80) != 0) return 5;
+  const world::FunctionRow* const row = function_called(sent[1]);
   if (row == nullptr) return std::nullopt;
-  return row->kind == world::FunctionRow::Kind::read ? 5U + said[2] : 8U;
+  return row->kind == world::FunctionRow::Kind::read ? 5U + sent[2] : 8U;
 }
 
 /// A request is answered on its own line, and nowhere else.
 void check_replies(Listener& listener, std::size_t line) {
   if (listener.line(line).counters().bytes_discarded > 0) return;  // it sent faster than the wire carries
-  std::span<const std::uint8_t> said = listener.said()[line];
+  std::span<const std::uint8_t> sent = listener.sent()[line];
   std::uint64_t replies = 0;
   std::uint64_t exceptions = 0;
-  while (!said.empty()) {
-    const auto size = reply_size(said);
-    require(size && *size <= said.size(), "replies are whole frames");
+  while (!sent.empty()) {
+    const auto size = reply_size(sent);
+    require(size && *size <= sent.size(), "replies are whole frames");
     require(*size <= 256, "a reply is no longer than 256 bytes");
-    require(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
-    require(said[0] == 1, "a station gives its own number");
-    if ((said[1] & 0x80) != 0) {
+    require(pty::rtu_crc_ok(sent.first(*size)), "a reply has a right checksum");
+    require(sent[0] == 1, "a station gives its own number");
+    if ((sent[1] & 0x80) != 0) {
       ++exceptions;
-      require((said[2] >= 1 && said[2] <= 4) || said[2] == 6, "there are five exceptions");
+      require((sent[2] >= 1 && sent[2] <= 4) || sent[2] == 6, "there are five exceptions");
     }
     ++replies;
-    said = said.subspan(*size);
+    sent = sent.subspan(*size);
   }
   require(replies == listener.counters(line).replies, "every reply leaves");
   require(exceptions == listener.counters(line).exceptions, "exceptions are counted");
@@ -240,7 +240,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(crowd.listener.device().state.fifo.size() <= workbench::kFifo, "the FIFO holds what it can");
   if (!fuzzing::is_checked_wholly({data, size})) return 0;
   crowd.stepped.play(lumps);
-  require(crowd.stepped.said() == crowd.listener.said(), "ticks left out are not to be seen on the line");
+  require(crowd.stepped.sent() == crowd.listener.sent(), "ticks left out are not to be seen on the line");
   require(crowd.stepped.now() == crowd.listener.now(), "nor do they take another time");
   require(crowd.stepped.device().same_state(crowd.listener.device()), "ticks left out leave the same state");
   return 0;

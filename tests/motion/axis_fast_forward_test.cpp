@@ -7,12 +7,12 @@ namespace understudy::motion {
 namespace axis_crossing_test {
 
 /// Equals `single` single ticks, in as few steps as possible.
-void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed) {
+void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& skipped) {
   while (course.now < until) {
     const Tick max = scenario.between(0, 2) == 0 ? course.now + scenario.between(1, 200) : until;
     const Tick quiet = course.axis.quiet_until(course.now + 1, std::min(max, until), course.environment, {});
     if (quiet > course.now) {
-      crossed += quiet - course.now;
+      skipped += quiet - course.now;
       course.now = quiet;
       course.note(course.axis.fast_forward_to(quiet));
     } else {
@@ -23,7 +23,7 @@ void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed
 
 TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
   RandomMoves seeds(seed() + 5);
-  Tick crossed = 0;
+  Tick skipped = 0;
   Tick stepped = 0;
   for (int i = 0; i < random_cases(800); ++i) {
     AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
@@ -39,7 +39,7 @@ TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
         bulk.axis.stop();
         single.axis.stop();
       }
-      go_to(bulk, until, scenario, crossed);
+      go_to(bulk, until, scenario, skipped);
       while (single.now < until) single.step();
       // Skipped ticks have no events: what remains belongs to the last tick.
       ASSERT_EQ(bulk.axis, single.axis) << scenario.code() << " " << single.now;
@@ -48,7 +48,7 @@ TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
       ASSERT_EQ(bulk.endings, single.endings) << scenario.code() << " " << single.now;
     }
   }
-  EXPECT_GT(crossed, stepped / 2);
+  EXPECT_GT(skipped, stepped / 2);
 }
 
 TEST(AxisCrossing, StaysWithinTheRangeItIsGiven) {

@@ -24,7 +24,7 @@ class FakeSlave : public Station {
   LineSettings settings() const override { return listens_to; }
   void on_start_bit(SimTime at) override { framer_.start_bit(at); }
   void receive(const TimedByte& byte) override {
-    heard.push_back(byte);
+    received.push_back(byte);
     framer_.push(byte);
   }
   void on_other_station() override {
@@ -41,7 +41,7 @@ class FakeSlave : public Station {
   }
 
   LineSettings listens_to;
-  std::vector<TimedByte> heard;
+  std::vector<TimedByte> received;
   std::vector<SimTime> served_at;
   int others = 0;
 
@@ -57,7 +57,7 @@ class FakeSlave : public Station {
 class FakeTalker : public Station {
  public:
   LineSettings settings() const override { return {}; }
-  void receive(const TimedByte& byte) override { heard.push_back(byte.value); }
+  void receive(const TimedByte& byte) override { received.push_back(byte.value); }
   void on_other_station() override { ++others; }
   std::optional<SimTime> due() const override {
     return says.empty() ? std::nullopt : std::optional(says.begin()->first);
@@ -70,7 +70,7 @@ class FakeTalker : public Station {
   }
 
   std::map<SimTime, std::vector<Bytes>> says;
-  Bytes heard;
+  Bytes received;
   int others = 0;
 };
 

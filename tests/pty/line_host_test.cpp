@@ -116,15 +116,15 @@ TEST(LineHost, JudgesEachCharacterOnceAtItsStartBit) {
     rig.send(rest, 100us);
     rig.run(1s);
     EXPECT_EQ(rig.line.counters().bytes_unheard, is_corrected ? 1 : kRequest.size());
-    EXPECT_EQ(slave.heard.size(), is_corrected ? rest.size() : 0);
+    EXPECT_EQ(slave.received.size(), is_corrected ? rest.size() : 0);
     EXPECT_EQ(start_bits.count, static_cast<int>(kRequest.size()));
     rig.line.remove_observer(start_bits);
   }
 }
 
-Bytes values_of(const std::vector<TimedByte>& heard) {
+Bytes values_of(const std::vector<TimedByte>& received) {
   Bytes values;
-  for (const TimedByte& byte : heard) values.push_back(byte.value);
+  for (const TimedByte& byte : received) values.push_back(byte.value);
   return values;
 }
 
@@ -140,9 +140,9 @@ TEST(LineHost, TakesBackWhatIsNotOnTheWire) {
   EXPECT_EQ(rig.line.room(), Line::kInputCapacity - 1);
   rig.send({0x55}, 2ms);
   rig.run(1s);
-  Bytes heard(kRequest.begin(), kRequest.begin() + 4);
-  heard.push_back(0x55);
-  EXPECT_EQ(values_of(slave.heard), heard);
+  Bytes received(kRequest.begin(), kRequest.begin() + 4);
+  received.push_back(0x55);
+  EXPECT_EQ(values_of(slave.received), received);
   rig.line.host_purged();  // nothing is there
   rig.send(kRequest, 1s);
   rig.run(2s);
@@ -160,7 +160,7 @@ TEST(LineHost, TakesBackNothingOfTheHostBefore) {
   rig.send({0x55}, 0s);
   rig.line.host_purged();
   rig.run(1s);
-  EXPECT_EQ(values_of(slave.heard), kRequest);
+  EXPECT_EQ(values_of(slave.received), kRequest);
 }
 
 // The length of 0x41 is only known after silence.
@@ -172,8 +172,8 @@ TEST(LineHost, NothingMoreIsServedAtThatMoment) {
   rig.run(1s);
   EXPECT_EQ(rig.out, Bytes{});
   rig.line.nothing_more(1s);
-  const auto said = rig.line.output();
-  EXPECT_EQ(Bytes(said.begin(), said.end()), kReply);
+  const auto sent = rig.line.output();
+  EXPECT_EQ(Bytes(sent.begin(), sent.end()), kReply);
 }
 
 TEST(LineHost, WarnsAgainForTheNextHostOnly) {
@@ -224,7 +224,7 @@ TEST(LineHost, OnlyTheStationsWithOtherSettingsAreDeaf) {
   rig.send(kRequest, 0s);
   rig.run(1s);
   EXPECT_EQ(rig.out, kReply);
-  EXPECT_TRUE(two.heard.empty());
+  EXPECT_TRUE(two.received.empty());
   EXPECT_EQ(rig.line.counters().bytes_unheard, 0u);
   EXPECT_EQ(rig.warnings,
             std::vector<std::string>{"line rs485: the host set 19200 baud, 1 stop bit; station 2 of the line "
@@ -232,7 +232,7 @@ TEST(LineHost, OnlyTheStationsWithOtherSettingsAreDeaf) {
   two.listens_to.baud = 19200;  // as after a change of its own settings
   rig.send(kRequest, 1s);
   rig.run(2s);
-  EXPECT_EQ(two.heard.size(), kRequest.size());
+  EXPECT_EQ(two.received.size(), kRequest.size());
 }
 
 TEST(LineHost, TakesNoMoreThanItHasRoomFor) {
@@ -248,8 +248,8 @@ TEST(LineHost, TakesNoMoreThanItHasRoomFor) {
   EXPECT_EQ(rig.line.room(), 1u);
   rig.run(10s);
   EXPECT_EQ(rig.line.room(), 1024u);
-  EXPECT_EQ(slave.heard.size(), 1024u);
-  EXPECT_EQ(slave.heard.back().value, 0x66);
+  EXPECT_EQ(slave.received.size(), 1024u);
+  EXPECT_EQ(slave.received.back().value, 0x66);
   EXPECT_EQ(rig.line.counters().bytes_in, 1024u);
 }
 

@@ -162,7 +162,7 @@ TEST(LineState, WhatIsRestoredGoesOnAsItDid) {
   int in_reply = 0;
   int ready = 0;
   int collided = 0;
-  std::size_t said = 0;
+  std::size_t sent = 0;
   for (std::uint64_t seed = 1; seed <= 360; ++seed) {
     std::mt19937_64 random(seed);
     const Timing timing = seed % 3 == 0 ? Timing::instant : Timing::wire;
@@ -189,13 +189,13 @@ TEST(LineState, WhatIsRestoredGoesOnAsItDid) {
     fresh.restore(state);
     EXPECT_EQ(live(fresh, events, stop), once) << "a new line, seed " << seed;
     collided += once.counted[4] > 0 ? 1 : 0;
-    said += once.out.size();
+    sent += once.out.size();
   }
   EXPECT_GT(in_request, 20);
   EXPECT_GT(in_reply, 6);
   EXPECT_GT(ready, 3);
   EXPECT_GT(collided, 10);
-  EXPECT_GT(said, 5000u);
+  EXPECT_GT(sent, 5000u);
 }
 
 TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
@@ -286,11 +286,11 @@ TEST(LineState, AnotherSpeedBeginsAfterWhatIsOnItsWay) {
   rig.line.set_settings({.baud = 38400});
   rig.send(Bytes(2, 0x66), 1ms);  // of the same burst
   rig.run(1s);
-  ASSERT_EQ(slave.heard.size(), 12u);
-  EXPECT_EQ(slave.heard[9].end, 5'729'166ns);  // 10 * 11 / 19200 s
-  EXPECT_EQ(slave.heard[10].start, 5'729'166ns);
-  EXPECT_EQ(slave.heard[10].end, 5'729'166ns + 286'458ns);
-  EXPECT_EQ(slave.heard[11].end, 5'729'166ns + 572'916ns);
+  ASSERT_EQ(slave.received.size(), 12u);
+  EXPECT_EQ(slave.received[9].end, 5'729'166ns);  // 10 * 11 / 19200 s
+  EXPECT_EQ(slave.received[10].start, 5'729'166ns);
+  EXPECT_EQ(slave.received[10].end, 5'729'166ns + 286'458ns);
+  EXPECT_EQ(slave.received[11].end, 5'729'166ns + 572'916ns);
 }
 
 }  // namespace line_state_test

@@ -61,11 +61,11 @@ TEST(Line, CharactersTakeTheTimeThatTheWireTakes) {
     rig.line.attach(slave);
     rig.send(hex("11 22 33 44"), 5s);
     rig.run(10s);
-    ASSERT_EQ(slave.heard.size(), 4u);
+    ASSERT_EQ(slave.received.size(), 4u);
     SimTime start{0};
     for (std::size_t i = 0; i < ends.size(); ++i) {
-      EXPECT_EQ(slave.heard[i].start, 5s + start) << to_string(settings) << " character " << i;
-      EXPECT_EQ(slave.heard[i].end, 5s + ends[i]) << to_string(settings) << " character " << i;
+      EXPECT_EQ(slave.received[i].start, 5s + start) << to_string(settings) << " character " << i;
+      EXPECT_EQ(slave.received[i].end, 5s + ends[i]) << to_string(settings) << " character " << i;
       start = ends[i];
     }
   }
@@ -120,9 +120,9 @@ TEST(Line, LumpsFollowEachOtherWithoutDrift) {
     sent += lump;
   }
   rig.run(1h);
-  ASSERT_EQ(slave.heard.size(), count);
+  ASSERT_EQ(slave.received.size(), count);
   for (std::size_t k : {1u, 2u, 3u, 19'199u, 19'200u, 19'201u, 38'400u, 40'000u}) {
-    EXPECT_EQ(slave.heard[k - 1].end, SimTime(static_cast<std::int64_t>(k) * 11 * 1'000'000'000 / 19200))
+    EXPECT_EQ(slave.received[k - 1].end, SimTime(static_cast<std::int64_t>(k) * 11 * 1'000'000'000 / 19200))
         << k;
   }
 }
@@ -135,10 +135,10 @@ TEST(Line, ABurstBeginsWhenTheBytesComeAndNotBefore) {
   rig.send({0x02}, 572'915ns);  // the first is still on the wire
   rig.send({0x03}, 2ms);        // idle since 1,145,833
   rig.run(1s);
-  ASSERT_EQ(slave.heard.size(), 3u);
-  EXPECT_EQ(slave.heard[1].start, 572'916ns);
-  EXPECT_EQ(slave.heard[1].end, 1'145'833ns);
-  EXPECT_EQ(slave.heard[2].start, 2ms);
+  ASSERT_EQ(slave.received.size(), 3u);
+  EXPECT_EQ(slave.received[1].start, 572'916ns);
+  EXPECT_EQ(slave.received[1].end, 1'145'833ns);
+  EXPECT_EQ(slave.received[2].start, 2ms);
 }
 
 TEST(Line, AStrictStationSeesGapsShorterThanACharacter) {
@@ -167,8 +167,8 @@ TEST(Line, EveryStationHearsTheHostAndNoneTheReply) {
   rig.send(kRequest, 0ns);
   rig.run(1s);
   EXPECT_EQ(rig.out, kReply);
-  EXPECT_EQ(one.heard.size(), kRequest.size());
-  EXPECT_EQ(two.heard.size(), kRequest.size());
+  EXPECT_EQ(one.received.size(), kRequest.size());
+  EXPECT_EQ(two.received.size(), kRequest.size());
   EXPECT_EQ(one.others, 0);
   EXPECT_EQ(two.others, 1);
 }
@@ -261,7 +261,7 @@ TEST(Line, BothDirectionsAreIndependent) {
   rig.run(1s);
   EXPECT_EQ(rig.out, hex("01 02"));
   EXPECT_EQ(rig.out_at.back(), 1'145'833ns);
-  EXPECT_EQ(talker.heard, hex("AA BB"));
+  EXPECT_EQ(talker.received, hex("AA BB"));
 }
 
 TEST(Line, AtEqualTimesCharactersPrecedeStationsInOrder) {

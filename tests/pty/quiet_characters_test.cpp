@@ -93,7 +93,7 @@ class QuietSlave final : public FakeSlave {
 };
 
 struct Course {
-  Bytes heard, out;
+  Bytes received, out;
   std::vector<SimTime> served_at, out_at;
   std::uint64_t unheard = 0;
 
@@ -123,7 +123,7 @@ Course course(std::uint64_t seed) {
   made.out = rig.out;
   made.served_at = slave.served_at;
   made.out_at = rig.out_at;
-  for (const TimedByte& byte : slave.heard) made.heard.push_back(byte.value);
+  for (const TimedByte& byte : slave.received) made.received.push_back(byte.value);
   made.unheard = rig.line.counters().bytes_unheard;
   return made;
 }

@@ -46,7 +46,7 @@ struct Case {
   const char* request;
   int exception;  // 0: valid; the table has valid requests too
   Cause cause = Cause::none;
-  Heard heard{};
+  Heard received{};
   int reason = 0;
 };
 
@@ -204,11 +204,11 @@ TEST(BadRequests, GetTheRightExceptionAndChangeNothing) {
     after.cause = before.cause;
     after.reason = before.reason;
     EXPECT_EQ(after, before) << c.request << ": part of it was executed";
-    const RefusedRequest& heard = rig.bench().last_refused;
-    EXPECT_EQ(heard.function, function) << c.request;
-    EXPECT_EQ(heard.exception, c.exception) << c.request;
-    EXPECT_EQ(heard.first, c.heard.first) << c.request;
-    EXPECT_EQ(heard.count, c.heard.count) << c.request;
+    const RefusedRequest& received = rig.bench().last_refused;
+    EXPECT_EQ(received.function, function) << c.request;
+    EXPECT_EQ(received.exception, c.exception) << c.request;
+    EXPECT_EQ(received.first, c.received.first) << c.request;
+    EXPECT_EQ(received.count, c.received.count) << c.request;
   }
 }
 
@@ -254,11 +254,11 @@ TEST(BadRequests, AFunctionThatIsNotServedIsHeardOfToo) {
     OneStation rig(true);
     const auto function = static_cast<std::uint8_t>(world::hex(request)[0]);
     EXPECT_EQ(rig.ask(request), world::text(world::Bytes{static_cast<std::uint8_t>(function | 0x80), 1}));
-    const RefusedRequest& heard = rig.bench().last_refused;
-    EXPECT_EQ(heard.function, function);
-    EXPECT_EQ(heard.exception, 1);
-    EXPECT_EQ(heard.objection.cause, Cause::unknown_function);
-    EXPECT_EQ(heard.count, 0U) << "the meaning of its bytes is unknown";
+    const RefusedRequest& received = rig.bench().last_refused;
+    EXPECT_EQ(received.function, function);
+    EXPECT_EQ(received.exception, 1);
+    EXPECT_EQ(received.objection.cause, Cause::unknown_function);
+    EXPECT_EQ(received.count, 0U) << "the meaning of its bytes is unknown";
   }
 }
 

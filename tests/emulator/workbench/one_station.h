@@ -24,7 +24,7 @@ struct OneStation final : pty::Transmitter {
                                                                   .patience = std::chrono::milliseconds(10)});
   }
   void transmit(std::span<const std::uint8_t> bytes) override {
-    said = world::text(bytes.subspan(1, bytes.size() - 3));
+    sent = world::text(bytes.subspan(1, bytes.size() - 3));
   }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
 
@@ -33,7 +33,7 @@ struct OneStation final : pty::Transmitter {
     world::Bytes frame{address};
     for (const std::uint8_t byte : world::hex(pdu)) frame.push_back(byte);
     pty::append_rtu_crc(frame);
-    said.clear();
+    sent.clear();
     for (const std::uint8_t value : frame) {
       station->receive({.start = now, .end = now + kCharacter, .value = value});
       now += kCharacter;
@@ -43,14 +43,14 @@ struct OneStation final : pty::Transmitter {
       station->run(now, *this);
     }
     now += std::chrono::milliseconds(10);
-    return said;
+    return sent;
   }
   const Workbench& bench() const { return static_cast<const Workbench&>(*device); }
   const WorkbenchState& state() const { return bench().state; }
 
   std::unique_ptr<Device> device;
   std::unique_ptr<world::RtuStation> station;
-  std::string said;
+  std::string sent;
   pty::SimTime now{0};
   static constexpr pty::SimTime kCharacter = std::chrono::microseconds(87);
 };

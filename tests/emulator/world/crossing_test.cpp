@@ -169,7 +169,7 @@ World world_of(const std::string& bench) {
 }
 
 TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   std::uint64_t run = 0;
   std::uint64_t single = 0;
   for (int i = 0; i < courses(150); ++i) {
@@ -195,13 +195,13 @@ TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
     plain.advance_to(end);
     by_single_ticks(twin, end);
     ASSERT_TRUE(same(plain, twin)) << name << "at the end";
-    crossed += plain.ticks_skipped();
+    skipped += plain.ticks_skipped();
     run += plain.ticks_run();
     single += twin.ticks_run();
   }
   // The test is meaningful only if many ticks are skipped, and axes move.
   EXPECT_LT(run * 3, single);
-  EXPECT_GT(crossed, 10'000u);
+  EXPECT_GT(skipped, 10'000u);
 }
 
 std::string one_device(const std::string& plant) {

@@ -67,7 +67,7 @@ void say(World& world, const std::string& line) {
 
 TEST(RestingWatchers, SeeTheSameOfTwoSimple2AsByTicks) {
   const std::uint64_t seed = seed_or(63'001);
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   for (std::uint64_t i = 0; i < 2; ++i) {
     World plain = make_world(i % 2 == 0 ? "wire" : "instant");
     World twin = make_world(i % 2 == 0 ? "wire" : "instant");
@@ -80,9 +80,9 @@ TEST(RestingWatchers, SeeTheSameOfTwoSimple2AsByTicks) {
                                       "UNDERSTUDY_SEED=" + std::to_string(seed + i), [] {}));
     ASSERT_TRUE(one.text == other.text) << "UNDERSTUDY_SEED=" << seed + i;
     EXPECT_GT(std::count(one.text.begin(), one.text.end(), '\n'), 200);
-    crossed += plain.ticks_skipped();
+    skipped += plain.ticks_skipped();
   }
-  EXPECT_GT(crossed, 10'000u);
+  EXPECT_GT(skipped, 10'000u);
 }
 
 /// The encoder's speed is calculated from the time of its last counts, so it is checked in every tick.

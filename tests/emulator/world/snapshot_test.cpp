@@ -201,9 +201,9 @@ TEST(Snapshot, TheHashDoesNotDependOnHowTicksWereRunOrWhoReads) {
   EXPECT_GT(world.ticks_skipped(), 1000u);
   EXPECT_EQ(single.ticks_skipped(), 0u);
   // They are part of the saved state, though.
-  const std::uint64_t crossed = world.ticks_skipped();
+  const std::uint64_t skipped = world.ticks_skipped();
   restore(single, save(world));
-  EXPECT_EQ(single.ticks_skipped(), crossed);
+  EXPECT_EQ(single.ticks_skipped(), skipped);
   EXPECT_EQ(take_output(single), take_output(world));
 }
 

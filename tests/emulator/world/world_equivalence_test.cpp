@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 std::uint64_t seed() { return seed_or(77'001); }
 
 struct Lively {
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   std::uint64_t run = 0;
   std::uint64_t replies = 0;
   std::int64_t moved = 0;
@@ -34,14 +34,14 @@ void compare(std::uint64_t seed_value, const std::string& timing, const Stepping
                                       const std::int64_t now = plain.plant(0, 0).position_pulses();
                                       sum.moved += std::abs(now - std::exchange(before, now));
                                     }));
-  sum.crossed += plain.ticks_skipped();
+  sum.skipped += plain.ticks_skipped();
   sum.run += plain.ticks_run();
   for (const auto& station : plain.line(0).stations) sum.replies += station->counters().replies;
 }
 
 /// The sequences are meaningful only if much happens in them.
 void expect_lively(const Lively& sum) {
-  EXPECT_GT(sum.crossed, 10'000u);
+  EXPECT_GT(sum.skipped, 10'000u);
   EXPECT_GT(sum.run, 5'000u);
   EXPECT_GT(sum.replies, 1000u);
   EXPECT_GT(sum.moved, 1000);

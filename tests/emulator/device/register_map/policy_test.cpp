@@ -228,7 +228,7 @@ TEST(Policy, ACutRegisterIsRefusedAsThePolicySays) {
 }
 
 /// The reader of a window: refuses as the first word says.
-DeviceAnswer heard(ToyDevice& toy, Cell, std::span<const std::uint16_t> words) {
+DeviceAnswer received(ToyDevice& toy, Cell, std::span<const std::uint16_t> words) {
   toy.events.push_back("heard");
   return {static_cast<Refusal>(words[0]), 40 + words[0]};
 }
@@ -242,7 +242,7 @@ TEST(WriteWords, AWindowSaysWhyItRefuses) {
                              {Refusal::bad_value, Cause::bad_message},
                              {Refusal::busy, Cause::busy},
                              {Refusal::failure, Cause::failure}};
-  const RegisterRow rows[] = {window<heard>(0x0030, "W{}", 3)};
+  const RegisterRow rows[] = {window<received>(0x0030, "W{}", 3)};
   for (const auto& [refusal, cause] : kCases) {
     Toy toy(rows);
     const world::Words words{static_cast<std::uint16_t>(refusal), 1};

@@ -72,7 +72,7 @@ void act_on(OneDescribed& one, const Course::Act& act) {
 }
 
 TEST(DescribedCourses, AreTheSameBySingleTicksAndAfterARestore) {
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   for (std::uint64_t seed = 0; seed < fewer_if_sanitized(60U, 4U); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Course course(seed);
@@ -101,10 +101,10 @@ TEST(DescribedCourses, AreTheSameBySingleTicksAndAfterARestore) {
         ASSERT_TRUE(world::same_state(other.world, same.world)) << "after act " << i;
       }
     }
-    crossed += plain.world.ticks_skipped();
+    skipped += plain.world.ticks_skipped();
     EXPECT_EQ(twin.world.ticks_skipped(), 0U);
   }
-  EXPECT_GT(crossed, fewer_if_sanitized(500'000U, 4U));
+  EXPECT_GT(skipped, fewer_if_sanitized(500'000U, 4U));
 }
 
 TEST(DescribedMemory, KeepsWhatTheListCallsPersistent) {

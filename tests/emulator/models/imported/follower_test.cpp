@@ -44,9 +44,9 @@ TEST(Following, IsTheClosedFormOfAFirstOrderLag) {
     }
     one.advance(100'000);
     EXPECT_EQ(one.read("VALUE"), 1000);
-    const auto crossed = one.world.ticks_skipped();
+    const auto skipped = one.world.ticks_skipped();
     one.advance(1'000'000);
-    EXPECT_GE(one.world.ticks_skipped() - crossed, 999'000U) << "once there, it costs nothing";
+    EXPECT_GE(one.world.ticks_skipped() - skipped, 999'000U) << "once there, it costs nothing";
   }
 }
 

@@ -216,9 +216,9 @@ TEST(RsM8194hMemory, AFlippedByteIsRefusedOrCanBeLivedOn) {
 TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
   // The same sequence, with and without an observer of every tick.
   OneRsm stepped;
-  OneRsm crossed;
+  OneRsm skipped;
   const auto both = [&](std::string_view command) {
-    EXPECT_EQ(stepped.exception(command), crossed.exception(command));
+    EXPECT_EQ(stepped.exception(command), skipped.exception(command));
   };
   const std::string_view commands[] = {
       "RSM_SET_SV XYZ 1000",     "RSM_SET_V XYZ 9000",        "RSM_SET_A XYZ 3000", "RSM_FIXED_MOVE X 70000",
@@ -226,14 +226,14 @@ TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
   for (const std::string_view command : commands) {
     both(command);
     for (int i = 0; i < 1700; ++i) stepped.run(1);
-    crossed.run(1700);
-    ASSERT_EQ(stepped.device().state_difference(stepped.device().save_state(), crossed.device().save_state()),
+    skipped.run(1700);
+    ASSERT_EQ(stepped.device().state_difference(stepped.device().save_state(), skipped.device().save_state()),
               "")
         << command;
   }
   stepped.run(10000);
-  crossed.run(10000);
-  EXPECT_EQ(stepped.positions(), crossed.positions());
+  skipped.run(10000);
+  EXPECT_EQ(stepped.positions(), skipped.positions());
 }
 
 /// A command of a random sequence: most of those that move, stop, hold and wait.
@@ -281,20 +281,20 @@ TEST(RsM8194hMemory, RandomCoursesAreTheSameSteppedOrCrossed) {
     std::uint32_t seed = first;
     std::string course;
     OneRsm stepped({.program = program});
-    OneRsm crossed({.program = program});
-    for (OneRsm* rsm : {&stepped, &crossed}) {
+    OneRsm skipped({.program = program});
+    for (OneRsm* rsm : {&stepped, &skipped}) {
       rsm->send({"RSM_SET_SV XYZU 1000", "RSM_SET_A XYZU 90000", "RSM_AXIS_ASSIGN X Y 0", "RSM_SET_VV 8000",
                  "RSM_ENABLE_INT", "RSM_SYNC_ACTION Z U 1 3 1 0 0 1 0 0 0 1"});
     }
     for (int i = 0; i < 40; ++i) {
       const std::string command = random_command(seed);
       course += command + "\n";
-      ASSERT_EQ(stepped.exception(command), crossed.exception(command)) << course;
+      ASSERT_EQ(stepped.exception(command), skipped.exception(command)) << course;
       const Tick ticks = static_cast<Tick>(seed >> 16) % 400 + 1;
       for (Tick tick = 0; tick < ticks; ++tick) stepped.run(1);
-      crossed.run(ticks);
+      skipped.run(ticks);
       ASSERT_EQ(
-          stepped.device().state_difference(stepped.device().save_state(), crossed.device().save_state()), "")
+          stepped.device().state_difference(stepped.device().save_state(), skipped.device().save_state()), "")
           << course << first;
     }
   }

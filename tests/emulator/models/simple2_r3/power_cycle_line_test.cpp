@@ -33,13 +33,13 @@ struct PoweredLine {
     power(device, false);
     power(device, true);
   }
-  world::Bytes heard() { return world::take_output(world); }
+  world::Bytes received() { return world::take_output(world); }
   /// Says it now, and what comes back within 100 ms.
   world::Bytes ask(const world::Bytes& bytes) {
-    heard();
+    received();
     say(bytes);
     to(world.now() + 100ms);
-    return heard();
+    return received();
   }
 
   std::vector<std::string> log;
@@ -61,7 +61,7 @@ TEST(PowerCycleOnTheLine, AFrameOfWhichItMissedABeginningIsNotHeard) {
       line.cycle(kFeeder);
       line.say(world::Bytes(kSetSpeed.begin() + static_cast<std::ptrdiff_t>(before), kSetSpeed.end()));
       line.to(200ms);
-      EXPECT_EQ(line.heard(), world::Bytes{}) << before << timing;
+      EXPECT_EQ(line.received(), world::Bytes{}) << before << timing;
       EXPECT_EQ(world::get(line.world, "feeder.Aaxis_Speed"), 0) << before;
       EXPECT_EQ(line.ask(kReadHardware), kHardware) << "and it receives the next one";
     }
@@ -75,7 +75,7 @@ TEST(PowerCycleOnTheLine, ARequestThatWasHeardButNotServedYetIsForgotten) {
   line.to(20ms + characters(8) + 749us);
   line.cycle(kFeeder);
   line.to(200ms);
-  EXPECT_EQ(line.heard(), world::Bytes{});
+  EXPECT_EQ(line.received(), world::Bytes{});
   EXPECT_EQ(world::get(line.world, "feeder.Aaxis_Speed"), 0);
 }
 
@@ -94,7 +94,8 @@ TEST(PowerCycleOnTheLine, OfAReplyTheHostGetsTheCharactersThatHadBegun) {
       line.to(200ms);
       std::size_t begun = 0;
       while (begun < reply.size() && begins + characters(static_cast<std::int64_t>(begun)) < cut) ++begun;
-      ASSERT_EQ(line.heard(), world::Bytes(reply.begin(), reply.begin() + static_cast<std::ptrdiff_t>(begun)))
+      ASSERT_EQ(line.received(),
+                world::Bytes(reply.begin(), reply.begin() + static_cast<std::ptrdiff_t>(begun)))
           << cut_us;
       if (!comes_back) continue;
       ASSERT_EQ(line.ask(kReadHardware), kHardware) << "whole again";
@@ -163,8 +164,8 @@ TEST(PowerCycleOnTheLine, LeavesAReplyOfTheOtherStationAndItsWorkAlone) {
   }
   line.to(300ms);
   undisturbed.to(300ms);
-  EXPECT_EQ(line.heard(), kHardwareOfTurner);
-  EXPECT_EQ(undisturbed.heard(), kHardwareOfTurner);
+  EXPECT_EQ(line.received(), kHardwareOfTurner);
+  EXPECT_EQ(undisturbed.received(), kHardwareOfTurner);
   EXPECT_TRUE(same_state(line.world.device(kTurner), undisturbed.world.device(kTurner)));
 }
 
@@ -208,12 +209,12 @@ TEST(PowerCycleOnTheLine, TheSpeedIsThatOfTheSwitchWhenThePowerComes) {
   for (const std::size_t device : {kFeeder, kTurner}) line.world.set_external_input(device, dip1, 1);
   expect_about(ask_and_time(), 19'200);
   line.to(line.world.now() + 100ms);
-  line.heard();
+  line.received();
   for (const std::size_t device : {kFeeder, kTurner}) line.cycle(device);
   EXPECT_EQ(line.world.line(0).line.options().settings.baud, 115'200);
   expect_about(ask_and_time(), 115'200);
   line.to(line.world.now() + 100ms);
-  line.heard();
+  line.received();
   for (const std::size_t device : {kFeeder, kTurner}) line.world.set_external_input(device, dip1, 0);
   for (const std::size_t device : {kFeeder, kTurner}) line.cycle(device);
   expect_about(ask_and_time(), 19'200);

@@ -350,11 +350,11 @@ TEST(SlimMarks, AMoveWithoutVoltageLeavesNoneToItsSuccessor) {
   bench.chain.set_coordinate(kIt, 0.4);
   bench.step();
   EXPECT_EQ(bench.chain.module_at(kIt).place_units, 0.4);
-  Chain crossed = bench.chain;
+  Chain skipped = bench.chain;
   std::array<std::int64_t, kModules> pulses{};
-  crossed.fast_forward_to(bench.tick + 100, pulses);
+  skipped.fast_forward_to(bench.tick + 100, pulses);
   bench.steps(100);
-  EXPECT_EQ(crossed, bench.chain);
+  EXPECT_EQ(skipped, bench.chain);
 }
 
 }  // namespace marks_test

@@ -283,7 +283,7 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
       {{"time_unit", "4_milliseconds"}, {"held_event", "is_dropped"}, {"event_check", "each_4_milliseconds"}},
       {{"lines_a_tick", "one_in_4_milliseconds"}, {"interrupted_wait", "have_gone_on"}},
   };
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   for (Choices choices : all) {
     SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->second);
     choices["program_check"] = "when_it_runs";  // for the line that is not a command
@@ -318,9 +318,9 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
     }
     EXPECT_NE(said[0].find("E|"), std::string::npos) << said[0];
     EXPECT_NE(said[0].find("12|"), std::string::npos) << said[0];
-    crossed += bulk.world().ticks_skipped();
+    skipped += bulk.world().ticks_skipped();
   }
-  EXPECT_GT(crossed, 1000u);
+  EXPECT_GT(skipped, 1000u);
 }
 
 }  // namespace options_of_programs_test

@@ -24,7 +24,7 @@ struct Wire {
   }
   void pass(SimTime time) { world->advance_to(world->now() + time); }
   /// Returns what has arrived since the last call.
-  std::string heard() {
+  std::string received() {
     const pty::Line& line = world->line(0).line;
     const std::string text(line.output().begin(), line.output().end());
     world->take_output(0, text.size());
@@ -32,7 +32,7 @@ struct Wire {
   }
   std::string answer(std::string_view text) {
     send(text);
-    return heard();
+    return received();
   }
   Slim& device() { return dynamic_cast<Slim&>(world->device(0)); }
 
@@ -56,9 +56,9 @@ TEST(SlimLineOptions, WhatEndsALineThatIsSaid) {
   EXPECT_EQ(terminal.answer("?PE\r"), "?PE\r0\r");
   EXPECT_EQ(Wire(Choices{{"echo", "on"}}).answer("?PE\r"), "?PE\r\n0\r\n");
   terminal.send("PG\rOUT 5\rOUT \"A\"\r\rPL\rG\r");
-  terminal.heard();
+  terminal.received();
   terminal.pass(10ms);
-  EXPECT_EQ(terminal.heard(), "A\r");
+  EXPECT_EQ(terminal.received(), "A\r");
 }
 
 TEST(SlimLineOptions, LongLines) {
@@ -85,7 +85,7 @@ TEST(SlimLineOptions, LongLines) {
     Wire other(Choices{{"longest_line", one.option}});
     world::restore(*other.world, state);
     other.pass(5ms);
-    EXPECT_EQ(other.heard(), text + "\r\n") << one.option;
+    EXPECT_EQ(other.received(), text + "\r\n") << one.option;
   }
 }
 
@@ -113,7 +113,7 @@ TEST(SlimLineOptions, XoffHoldsWhatIsSaidAndXonLetsItGoOn) {
             "");  // it receives
   EXPECT_EQ(wire.answer("nonsense\r\x13"), "");
   wire.pass(5s);
-  EXPECT_EQ(wire.heard(), "");
+  EXPECT_EQ(wire.received(), "");
   EXPECT_EQ(wire.answer("\x11"), "0\r\nERR 1\r\n");
   EXPECT_EQ(wire.answer("\x11?PE\r"), "0\r\n");
   // Without a request too: a program has its text ready, and that follows the previous reply.
@@ -163,12 +163,12 @@ TEST(SlimLineOptions, OnAWireXoffHoldsFromTheNextCharacterOn) {
   wire.pass(SimTime{4'687'500});
   wire.send("\x13");  // ends at 5.729 ms; the second character ends at 6.250 ms
   wire.pass(100ms);
-  EXPECT_EQ(wire.heard(), "10");
+  EXPECT_EQ(wire.received(), "10");
   wire.send("\x11");
   wire.pass(SimTime{1'041'667});  // XON itself
-  EXPECT_EQ(wire.heard(), "");
+  EXPECT_EQ(wire.received(), "");
   wire.pass(100ms);
-  EXPECT_EQ(wire.heard(), "00\r\n");
+  EXPECT_EQ(wire.received(), "00\r\n");
 }
 
 }  // namespace options_of_the_line_test

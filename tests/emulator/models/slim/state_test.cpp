@@ -230,7 +230,7 @@ TEST(SlimState, SpoiltBytesAreRefusedOrCanBeLivedOn) {
 }
 
 TEST(SlimState, QuietTicksMakeNoDifference) {
-  std::uint64_t crossed = 0;
+  std::uint64_t skipped = 0;
   for (const Moment& moment : moments()) {
     SCOPED_TRACE(moment.name);
     DialogueScript bulk(kModulesHere);
@@ -248,9 +248,9 @@ TEST(SlimState, QuietTicksMakeNoDifference) {
       ASSERT_TRUE(same_state(bulk.device(), single.device()));
     }
     EXPECT_EQ(single.world().ticks_skipped(), 0u);
-    crossed += bulk.world().ticks_skipped();
+    skipped += bulk.world().ticks_skipped();
   }
-  EXPECT_GT(crossed, 100'000u);
+  EXPECT_GT(skipped, 100'000u);
 }
 
 /// It returns like a device that has only kept its memory, and stays so.

@@ -112,12 +112,12 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
     std::mt19937_64 random(seed);
     const Given given = drawn(seed);
     OneSuper40nc single(given);
-    OneSuper40nc crossed(given);
+    OneSuper40nc skipped(given);
     OneSuper40nc restored(given);
     single.world().set_bulk_ticks(false);
     for (int acts = 0; acts < 40; ++acts) {
       const Act act = draw(random);
-      for (OneSuper40nc* const one : {&single, &crossed, &restored}) act_on(*one, act);
+      for (OneSuper40nc* const one : {&single, &skipped, &restored}) act_on(*one, act);
       const Tick ticks = std::uniform_int_distribution<Tick>(1, acts % 5 == 0 ? 3000 : 200)(random);
       const Tick before = std::uniform_int_distribution<Tick>(0, ticks)(random);
       for (Tick i = 0; i < before; ++i) single.run(1);
@@ -128,14 +128,14 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
       }
       for (Tick i = before; i < ticks; ++i) single.run(1);
       restored.run(ticks - before);
-      crossed.run(ticks);
-      for (OneSuper40nc* const other : {&crossed, &restored}) {
+      skipped.run(ticks);
+      for (OneSuper40nc* const other : {&skipped, &restored}) {
         ASSERT_TRUE(world::same_state(single.world(), other->world()))
             << "seed " << seed << ", act " << acts << " " << act.name << " = " << act.value << ", "
-            << (other == &crossed ? "crossed" : "restored");
+            << (other == &skipped ? "crossed" : "restored");
       }
     }
-    ticks_skipped += crossed.world().ticks_skipped();
+    ticks_skipped += skipped.world().ticks_skipped();
     EXPECT_EQ(single.world().ticks_skipped(), 0U);
   }
   EXPECT_GT(ticks_skipped, 10'000U) << "meaningful only if much is";

@@ -37,7 +37,7 @@ class HeardStage : public pty::LineObserver {
     if (starts.empty() || at - last_start > std::chrono::milliseconds(1)) starts.push_back(at);
     last_start = at;
   }
-  void on_character(const pty::TimedByte& character, bool) override { heard.push_back(character.value); }
+  void on_character(const pty::TimedByte& character, bool) override { received.push_back(character.value); }
   void on_nothing_more() override {}
   void on_transmission(const pty::Transmission& transmission) override {
     answers.push_back(transmission.start);
@@ -48,7 +48,7 @@ class HeardStage : public pty::LineObserver {
   FreeExecutor executor;
   std::vector<SimTime> starts;
   std::vector<SimTime> answers;
-  std::vector<std::uint8_t> heard;
+  std::vector<std::uint8_t> received;
   SimTime last_start{0};
 };
 
@@ -70,71 +70,72 @@ TEST(FreeExecutor, T35IsCountedInCharactersUpTo19200AndFixedAbove) {
 }
 
 TEST(FreeExecutor, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
-  HeardStage heard(kAt19200);
-  const HostReply code = heard.executor.read(0, 1, Table::holding, 0x0001, 1);  // HW_Code
+  HeardStage received(kAt19200);
+  const HostReply code = received.executor.read(0, 1, Table::holding, 0x0001, 1);  // HW_Code
   EXPECT_EQ(code.kind, Kind::good);
   EXPECT_EQ(code.words, std::vector<std::uint16_t>{0xC001});
   // 01 03 00 01 00 01 D5 CA is the manual's request, 01 03 02 C0 01 29 84 its reply.
-  EXPECT_EQ(heard.heard, (std::vector<std::uint8_t>{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA}));
+  EXPECT_EQ(received.received, (std::vector<std::uint8_t>{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA}));
   EXPECT_EQ(code.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84}));
   // 8 characters: 4,583,333; + 750,000; 7 characters: 4,010,416.
-  EXPECT_EQ(heard.answers, std::vector{ns(5'333'333)});
-  EXPECT_EQ(heard.executor.now(), ns(9'343'749));
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
-  EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(9'343'749 + 2'005'209)}));
-  EXPECT_EQ(heard.executor.now(), ns(11'348'958 + 9'343'749));
+  EXPECT_EQ(received.answers, std::vector{ns(5'333'333)});
+  EXPECT_EQ(received.executor.now(), ns(9'343'749));
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
+  EXPECT_EQ(received.starts, (std::vector{ns(0), ns(9'343'749 + 2'005'209)}));
+  EXPECT_EQ(received.executor.now(), ns(11'348'958 + 9'343'749));
 }
 
 TEST(FreeExecutor, TheSameAt115200Baud) {
-  HeardStage heard(kAt115200);
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
+  HeardStage received(kAt115200);
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
   // 11 bits are 95,486.11 ns: 8 of them 763,888, 7 of them 668,402.
-  EXPECT_EQ(heard.answers[0], ns(763'888 + 750'000));
-  EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(1'513'888 + 668'402 + 1'750'000)}));
+  EXPECT_EQ(received.answers[0], ns(763'888 + 750'000));
+  EXPECT_EQ(received.starts, (std::vector{ns(0), ns(1'513'888 + 668'402 + 1'750'000)}));
 }
 
 TEST(FreeExecutor, TheGapComesOnTopOfT35ButTimeThatHasPassedCounts) {
-  HeardStage heard(kAt19200, {.gap = std::chrono::milliseconds(5)});
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
-  EXPECT_EQ(heard.starts[1], ns(9'343'749 + 2'005'209 + 5'000'000));
-  heard.executor.advance(std::chrono::seconds(1));
-  const SimTime now = heard.executor.now();
-  heard.executor.read(0, 1, Table::holding, 0x0001, 1);
-  EXPECT_EQ(heard.starts[2], now);
+  HeardStage received(kAt19200, {.gap = std::chrono::milliseconds(5)});
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
+  EXPECT_EQ(received.starts[1], ns(9'343'749 + 2'005'209 + 5'000'000));
+  received.executor.advance(std::chrono::seconds(1));
+  const SimTime now = received.executor.now();
+  received.executor.read(0, 1, Table::holding, 0x0001, 1);
+  EXPECT_EQ(received.starts[2], now);
 }
 
 TEST(FreeExecutor, OneWordIsWrittenByFunction06AndMoreBy16) {
-  HeardStage heard(kAt19200);
-  EXPECT_EQ(heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200}).kind,
+  HeardStage received(kAt19200);
+  EXPECT_EQ(received.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200}).kind,
             Kind::good);
-  EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 6),
+  EXPECT_EQ(std::vector(received.received.begin(), received.received.begin() + 6),
             (std::vector<std::uint8_t>{0x01, 0x06, 0x10, 0x02, 0x00, 0xC8}));
-  heard.heard.clear();
-  EXPECT_EQ(heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200, 5}).kind,
+  received.received.clear();
+  EXPECT_EQ(received.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200, 5}).kind,
             Kind::good);
-  EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 11),
+  EXPECT_EQ(std::vector(received.received.begin(), received.received.begin() + 11),
             (std::vector<std::uint8_t>{0x01, 0x10, 0x10, 0x02, 0x00, 0x02, 0x04, 0x00, 0xC8, 0x00, 0x05}));
-  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x1002, 2).words, (std::vector<std::uint16_t>{200, 5}));
+  EXPECT_EQ(received.executor.read(0, 1, Table::holding, 0x1002, 2).words,
+            (std::vector<std::uint16_t>{200, 5}));
 }
 
 TEST(FreeExecutor, AnExceptionIsTold) {
-  HeardStage heard(kAt19200);
+  HeardStage received(kAt19200);
   const HostReply refused =
-      heard.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});
+      received.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});
   EXPECT_EQ(refused.kind, Kind::exception);
   EXPECT_EQ(refused.exception, 3);  // beyond 32768
   // 8 characters, 750 us, 5 characters: 2,864,583.
-  EXPECT_EQ(heard.executor.now(), ns(5'333'333 + 2'864'583));
-  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x9999, 1).exception, 2);
+  EXPECT_EQ(received.executor.now(), ns(5'333'333 + 2'864'583));
+  EXPECT_EQ(received.executor.read(0, 1, Table::holding, 0x9999, 1).exception, 2);
 }
 
 TEST(FreeExecutor, WithoutAReplyItsTimeoutCountsFromTheRequestsEnd) {
-  HeardStage heard(kAt19200, {.timeout = std::chrono::milliseconds(70)});
-  EXPECT_EQ(heard.executor.read(0, 9, Table::holding, 0x0001, 1).kind,
+  HeardStage received(kAt19200, {.timeout = std::chrono::milliseconds(70)});
+  EXPECT_EQ(received.executor.read(0, 9, Table::holding, 0x0001, 1).kind,
             Kind::silence);  // there is no station 9
-  EXPECT_EQ(heard.executor.now(), ns(4'583'333 + 70'000'000));
+  EXPECT_EQ(received.executor.now(), ns(4'583'333 + 70'000'000));
   HeardStage patient(kAt19200);
   EXPECT_EQ(patient.executor.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);
   EXPECT_EQ(patient.executor.now(), ns(504'583'333));
@@ -149,56 +150,56 @@ TEST(FreeExecutor, APowerCutGarblesAReplyButNotTheNextRequest) {
     }
     world::World& world;
   };
-  HeardStage heard(kAt19200);
+  HeardStage received(kAt19200);
   std::unique_ptr<Cut> cut;
-  heard.executor.with_world([&](world::World& world) {
+  received.executor.with_world([&](world::World& world) {
     cut = std::make_unique<Cut>(world);
     world.add_watcher(*cut);
   });
-  const HostReply reply = heard.executor.read(0, 1, Table::holding, 0x0001, 1);
+  const HostReply reply = received.executor.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(reply.kind, Kind::garbled);
   // The reply starts at 5,333,333; at 7 ms its third character is on the wire, which ends at 7,052,083.
   EXPECT_EQ(reply.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02}));
   // A character and t3.5 later it is clear that the reply has ended: + 572,916 + 2,005,209.
-  EXPECT_EQ(heard.executor.now(), ns(7'052'083 + 572'916 + 2'005'209));
-  heard.executor.with_world([&](world::World& world) {
+  EXPECT_EQ(received.executor.now(), ns(7'052'083 + 572'916 + 2'005'209));
+  received.executor.with_world([&](world::World& world) {
     world.remove_watcher(*cut);
     world.switch_power(0, true);
   });
-  EXPECT_EQ(heard.executor.read(0, 1, Table::holding, 0x0001, 1).kind, Kind::good);
+  EXPECT_EQ(received.executor.read(0, 1, Table::holding, 0x0001, 1).kind, Kind::good);
 }
 
 TEST(FreeExecutor, ExchangeSendsWhatItIsGivenAndTakesWhatComes) {
-  HeardStage heard(kAt19200);
+  HeardStage received(kAt19200);
   const std::vector<std::uint8_t> request{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA};
   const std::vector<std::uint8_t> reply{0x01, 0x03, 0x02, 0xC0, 0x01, 0x29, 0x84};
   const SimTime within = std::chrono::milliseconds(100);
-  EXPECT_EQ(heard.executor.exchange(0, request, reply.size(), within), reply);
+  EXPECT_EQ(received.executor.exchange(0, request, reply.size(), within), reply);
   // It waits for one more character.
-  EXPECT_EQ(heard.executor.now(), ns(9'343'749 + 572'916 + 1));
-  EXPECT_EQ(heard.executor.exchange(0, request, 3, within).size(),
+  EXPECT_EQ(received.executor.now(), ns(9'343'749 + 572'916 + 1));
+  EXPECT_EQ(received.executor.exchange(0, request, 3, within).size(),
             4U);  // the third, and one that follows at once
-  heard.executor.advance(std::chrono::seconds(1));
+  received.executor.advance(std::chrono::seconds(1));
   std::vector<std::uint8_t> broken = request;
   broken.back() ^= 1;
-  const SimTime begin = heard.executor.now();
-  EXPECT_TRUE(heard.executor.exchange(0, broken, reply.size(), within).empty());
-  EXPECT_EQ(heard.executor.now(), begin + ns(4'583'333) + within);
+  const SimTime begin = received.executor.now();
+  EXPECT_TRUE(received.executor.exchange(0, broken, reply.size(), within).empty());
+  EXPECT_EQ(received.executor.now(), begin + ns(4'583'333) + within);
 }
 
 TEST(FreeExecutor, MoreBytesThanTheLineTakesAtOnceGoOutWithoutAGap) {
-  HeardStage heard(kAt19200);
+  HeardStage received(kAt19200);
   const std::vector<std::uint8_t> noise(3000, 0x55);
-  heard.executor.exchange(0, noise, SIZE_MAX, std::chrono::milliseconds(10));
-  EXPECT_EQ(heard.heard.size(), noise.size());
-  EXPECT_EQ(heard.starts.size(), 1U);
+  received.executor.exchange(0, noise, SIZE_MAX, std::chrono::milliseconds(10));
+  EXPECT_EQ(received.received.size(), noise.size());
+  EXPECT_EQ(received.starts.size(), 1U);
   // 3000 * 11 / 19200 = 1.71875 s
-  EXPECT_EQ(heard.executor.now(), ns(1'718'750'000 + 10'000'000));
+  EXPECT_EQ(received.executor.now(), ns(1'718'750'000 + 10'000'000));
 }
 
 TEST(FreeExecutor, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
-  HeardStage heard(kAt19200);
-  FreeExecutor& executor = heard.executor;
+  HeardStage received(kAt19200);
+  FreeExecutor& executor = received.executor;
   EXPECT_EQ(executor.tick_of_last_write(), 0);
   executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // executed at 5.333 ms
   EXPECT_EQ(executor.tick_of_last_write(), 6);
@@ -216,8 +217,8 @@ TEST(FreeExecutor, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
 }
 
 TEST(FreeExecutor, RunUntilStopsAtTheVeryTick) {
-  HeardStage heard(kAt19200);
-  FreeExecutor& executor = heard.executor;
+  HeardStage received(kAt19200);
+  FreeExecutor& executor = received.executor;
   int looks = 0;
   const auto at_7 = [&](world::World& world) {
     ++looks;
@@ -234,8 +235,8 @@ TEST(FreeExecutor, RunUntilStopsAtTheVeryTick) {
 
 /// If nothing happens, it checks only when its condition says so, and stops there.
 TEST(FreeExecutor, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
-  HeardStage heard(kAt19200);
-  FreeExecutor& executor = heard.executor;
+  HeardStage received(kAt19200);
+  FreeExecutor& executor = received.executor;
   executor.advance(std::chrono::seconds(1));
   int looks = 0;
   const Awaited in_an_hour{
@@ -257,12 +258,12 @@ TEST(FreeExecutor, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
 }
 
 TEST(FreeExecutor, FramingIsStrict) {
-  HeardStage heard(kAt19200);
+  HeardStage received(kAt19200);
   const std::vector<std::uint8_t> request{0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA};
   std::vector<std::uint8_t> two = request;
   two.insert(two.end(), request.begin(), request.end());
-  EXPECT_TRUE(heard.executor.exchange(0, two, SIZE_MAX, std::chrono::milliseconds(50)).empty());
-  EXPECT_FALSE(heard.executor.exchange(0, request, SIZE_MAX, std::chrono::milliseconds(50)).empty());
+  EXPECT_TRUE(received.executor.exchange(0, two, SIZE_MAX, std::chrono::milliseconds(50)).empty());
+  EXPECT_FALSE(received.executor.exchange(0, request, SIZE_MAX, std::chrono::milliseconds(50)).empty());
 }
 
 TEST(FreeExecutor, LinesHaveHostsOfTheirOwn) {

@@ -75,8 +75,8 @@ std::string said(std::size_t bytes) {
 }
 
 /// Reports the first difference, not all of both texts.
-void expect_said(const pty::Bytes& heard, std::size_t bytes) {
-  const std::string text(heard.begin(), heard.end());
+void expect_said(const pty::Bytes& received, std::size_t bytes) {
+  const std::string text(received.begin(), received.end());
   const std::string expected = said(bytes);
   ASSERT_EQ(text.size(), bytes) << text.substr(0, 200);
   const auto [differs, wanted] = std::ranges::mismatch(text, expected);
@@ -89,9 +89,9 @@ TEST(DaemonOutput, OfALongAdvanceComesWhole) {
   rig.type(program());
   // 9600 8N1: 960 characters per second in each direction, of which the program has 750.
   std::thread advancing([&] { rig.advance("65s"); });
-  const pty::Bytes heard = rig.host.read(60'000);
+  const pty::Bytes received = rig.host.read(60'000);
   advancing.join();
-  expect_said(heard, 60'000);
+  expect_said(received, 60'000);
 }
 
 TEST(DaemonOutput, IsKeptByTheKernelForAHostThatReadsLater) {

@@ -31,7 +31,7 @@ class ListeningManager {
   }
   ~ListeningManager() { unsetenv("NOTIFY_SOCKET"); }
 
-  std::string heard() const {
+  std::string received() const {
     std::array<char, 256> text{};
     const ssize_t size = recv(socket_.get(), text.data(), text.size(), 0);
     return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : std::string();
@@ -47,23 +47,23 @@ TEST(Readiness, ReachesASocketThatIsAPath) {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / name_of_our_own();
   const ListeningManager manager(path.string());
   notify_service_manager("READY=1");
-  EXPECT_EQ(manager.heard(), "READY=1");
+  EXPECT_EQ(manager.received(), "READY=1");
   notify_service_manager("STOPPING=1");
-  EXPECT_EQ(manager.heard(), "STOPPING=1");
-  EXPECT_EQ(manager.heard(), "");
+  EXPECT_EQ(manager.received(), "STOPPING=1");
+  EXPECT_EQ(manager.received(), "");
   std::filesystem::remove(path);
 }
 
 TEST(Readiness, ReachesAnAbstractSocket) {
   const ListeningManager manager("@" + name_of_our_own());
   notify_service_manager("READY=1");
-  EXPECT_EQ(manager.heard(), "READY=1");
+  EXPECT_EQ(manager.received(), "READY=1");
 }
 
 TEST(Readiness, ReachesAnAbstractSocketWithTheLongestAllowedName) {
   const ListeningManager manager("@" + name_of_our_own() + std::string(106 - name_of_our_own().size(), 'x'));
   notify_service_manager("READY=1");
-  EXPECT_EQ(manager.heard(), "READY=1");
+  EXPECT_EQ(manager.received(), "READY=1");
 }
 
 TEST(Readiness, IsKeptToItselfWhereNobodyListens) {

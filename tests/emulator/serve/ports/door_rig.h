@@ -81,8 +81,9 @@ class DoorClient {
   }
   /// Returns the data that arrives, until there are this many bytes, or the other side closes.
   Bytes hear(std::size_t count) {
-    EXPECT_TRUE(rig_->eventually([&] { return has_come(count) || is_over_; })) << "heard " << heard_.size();
-    return heard_;
+    EXPECT_TRUE(rig_->eventually([&] { return has_come(count) || is_over_; }))
+        << "received " << received_.size();
+    return received_;
   }
   bool sees_the_end() {
     return rig_->eventually([&] { return has_come(100'000) || is_over_; });
@@ -91,8 +92,8 @@ class DoorClient {
     has_come(100'000);
     return is_over_;
   }
-  const Bytes& heard() const { return heard_; }
-  void forget() { heard_.clear(); }
+  const Bytes& received() const { return received_; }
+  void forget() { received_.clear(); }
 
   void close_sending_half() const { shutdown(socket_.get(), SHUT_WR); }
   void close() { socket_.close(); }
@@ -105,17 +106,17 @@ class DoorClient {
  private:
   bool has_come(std::size_t count) {
     std::uint8_t byte = 0;
-    while (heard_.size() < count && !is_over_) {
+    while (received_.size() < count && !is_over_) {
       const ssize_t got = recv(socket_.get(), &byte, 1, MSG_DONTWAIT);
-      if (got == 1) heard_.push_back(byte);
+      if (got == 1) received_.push_back(byte);
       if (got == 0 || (got < 0 && errno != EAGAIN)) is_over_ = true;
       if (got < 0) break;
     }
-    return heard_.size() >= count;
+    return received_.size() >= count;
   }
   DoorRig* rig_;
   Descriptor socket_;
-  Bytes heard_;
+  Bytes received_;
   bool is_over_ = false;
 };
 

@@ -164,17 +164,17 @@ TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
 TEST(ModbusTcp, NeverServesWhatItHasRefused) {
   for (const char* length : {"00 00", "00 01", "00 FF", "01 2C", "FF FF"}) {
     for (const bool has_good : {false, true}) {
-      Bytes said = has_good ? kRequest : Bytes{};
+      Bytes sent = has_good ? kRequest : Bytes{};
       const Bytes wrong = hex("00 01 00 00 " + std::string(length));
-      said.insert(said.end(), wrong.begin(), wrong.end());
-      said.resize(said.size() + 300);
-      for (std::size_t cut = 1; cut <= said.size(); ++cut) {
+      sent.insert(sent.end(), wrong.begin(), wrong.end());
+      sent.resize(sent.size() + 300);
+      for (std::size_t cut = 1; cut <= sent.size(); ++cut) {
         ModbusTcp gateway;
         const bool is_refused = cut >= (has_good ? kRequest.size() : 0) + wrong.size();
-        EXPECT_EQ(gateway.receive_from_client(std::span(said).first(cut)), !is_refused)
+        EXPECT_EQ(gateway.receive_from_client(std::span(sent).first(cut)), !is_refused)
             << length << " " << cut;
         if (is_refused) {
-          EXPECT_FALSE(gateway.receive_from_client(std::span(said).subspan(cut)));
+          EXPECT_FALSE(gateway.receive_from_client(std::span(sent).subspan(cut)));
           EXPECT_FALSE(gateway.receive_from_client(kRequest));
         }
         const bool is_served = has_good && cut >= kRequest.size();

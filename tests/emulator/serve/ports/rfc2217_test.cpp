@@ -45,8 +45,8 @@ Rfc2217 agreed() {
 }
 
 /// The reply to that.
-Bytes answer(Rfc2217& port, const Bytes& said) {
-  EXPECT_TRUE(port.receive_from_client(said));
+Bytes answer(Rfc2217& port, const Bytes& sent) {
+  EXPECT_TRUE(port.receive_from_client(sent));
   EXPECT_EQ(line_bytes(port), Bytes{});
   return port.take_for_client();
 }
@@ -71,7 +71,7 @@ TEST(Rfc2217, CarriesEveryByteBothWays) {
 
 TEST(Rfc2217, AnswersEachCommandWithWhatIsInEffect) {
   struct Case {
-    const char* said;
+    const char* sent;
     const char* answer;
     HostSettings host;
   };
@@ -123,8 +123,8 @@ TEST(Rfc2217, AnswersEachCommandWithWhatIsInEffect) {
   for (const Case& c : cases) {
     Rfc2217 port = agreed();
     const std::string expected(c.answer);
-    EXPECT_EQ(answer(port, com_port(c.said)), expected.empty() ? Bytes{} : com_port(expected)) << c.said;
-    EXPECT_EQ(port.settings(), c.host) << c.said;
+    EXPECT_EQ(answer(port, com_port(c.sent)), expected.empty() ? Bytes{} : com_port(expected)) << c.sent;
+    EXPECT_EQ(port.settings(), c.host) << c.sent;
   }
 }
 
@@ -136,11 +136,11 @@ TEST(Rfc2217, TellsTheMaskedModemStateBehindTheMask) {
 // A setting applies to the data written after it.
 TEST(Rfc2217, KeepsSettingsAndBytesInTheirOrder) {
   Rfc2217 port = agreed();
-  Bytes said{0x41};
+  Bytes sent{0x41};
   for (const Bytes& more :
        {com_port("03 01"), Bytes{0x42}, com_port("02 07"), com_port("04 02"), Bytes{0x43}})
-    said.insert(said.end(), more.begin(), more.end());
-  EXPECT_TRUE(port.receive_from_client(said));
+    sent.insert(sent.end(), more.begin(), more.end());
+  EXPECT_TRUE(port.receive_from_client(sent));
   EXPECT_EQ(port.take_for_line(kRoom), Bytes{0x41});
   EXPECT_EQ(port.settings()->parity, Parity::even);
   EXPECT_EQ(port.take_for_line(kRoom), Bytes{0x42});
@@ -152,21 +152,21 @@ TEST(Rfc2217, KeepsSettingsAndBytesInTheirOrder) {
 }
 
 TEST(Rfc2217, UnderstandsWhatComesInPiecesOfAnySize) {
-  Bytes said = kAgreement;
+  Bytes sent = kAgreement;
   for (const Bytes& more : {hex("01 FF FF 03"), com_port("01 00 00 25 80"), hex("02"), com_port("05 05"),
                             hex("FF FB 18 FF FD 05 FF F6 03")})
-    said.insert(said.end(), more.begin(), more.end());
-  const Bytes heard = hex("01 FF 03 02 00 03");  // the 0 is the break
+    sent.insert(sent.end(), more.begin(), more.end());
+  const Bytes received = hex("01 FF 03 02 00 03");  // the 0 is the break
   Bytes first;
-  for (std::size_t piece = 1; piece <= said.size(); ++piece) {
+  for (std::size_t piece = 1; piece <= sent.size(); ++piece) {
     Rfc2217 port(kLine);
     Bytes line;
-    for (std::size_t at = 0; at < said.size(); at += piece) {
-      EXPECT_TRUE(port.receive_from_client(std::span(said).subspan(at, std::min(piece, said.size() - at))));
+    for (std::size_t at = 0; at < sent.size(); at += piece) {
+      EXPECT_TRUE(port.receive_from_client(std::span(sent).subspan(at, std::min(piece, sent.size() - at))));
       const Bytes some = line_bytes(port, 1 + piece % 3);
       line.insert(line.end(), some.begin(), some.end());
     }
-    EXPECT_EQ(line, heard) << piece;
+    EXPECT_EQ(line, received) << piece;
     const Bytes answers = port.take_for_client();
     if (piece == 1) first = answers;
     EXPECT_EQ(answers, first) << piece;
@@ -177,7 +177,7 @@ TEST(Rfc2217, UnderstandsWhatComesInPiecesOfAnySize) {
 // refused.
 TEST(Rfc2217, NegotiatesWithoutEnd) {
   struct Case {
-    const char* said;
+    const char* sent;
     const char* answer;
   };
   for (const Case& c : {Case{"FF FD 00", ""}, Case{"FF FB 2C", ""}, Case{"FF FD 2C", "FF FB 2C"},
@@ -185,7 +185,7 @@ TEST(Rfc2217, NegotiatesWithoutEnd) {
                         Case{"FF FD 01", "FF FC 01"}, Case{"FF FB 18", "FF FE 18"}, Case{"FF FC 18", ""},
                         Case{"FF FE 01", ""}, Case{"FF F1", ""}, Case{"FF F6", "FF F1"}, Case{"FF F2", ""}}) {
     Rfc2217 port = agreed();
-    EXPECT_EQ(answer(port, hex(c.said)), hex(c.answer)) << c.said;
+    EXPECT_EQ(answer(port, hex(c.sent)), hex(c.answer)) << c.sent;
   }
 }
 
@@ -206,14 +206,14 @@ TEST(Rfc2217, KnowsTheReturnOfThoseThatAreNotBinary) {
 
 TEST(Rfc2217, PassesOverWhatIsMalformed) {
   const Bytes kOverlong = [] {
-    Bytes said = hex("FF FA 2C 01");
-    said.insert(said.end(), 20'000, 0x55);
-    said.insert(said.end(), {0xFF, 0xFF, 0x55, 0xFF, 0xFF, 0xFF, 0xF0});
-    return said;
+    Bytes sent = hex("FF FA 2C 01");
+    sent.insert(sent.end(), 20'000, 0x55);
+    sent.insert(sent.end(), {0xFF, 0xFF, 0x55, 0xFF, 0xFF, 0xFF, 0xF0});
+    return sent;
   }();
   struct Case {
     const char* what;
-    Bytes said;
+    Bytes sent;
     Bytes answer;
   };
   for (const Case& c :
@@ -223,9 +223,9 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
         Case{"longer than any", kOverlong, {}}}) {
     Rfc2217 port = agreed();
     Bytes answers;
-    for (std::size_t at = 0; at < c.said.size(); at += 1000) {
+    for (std::size_t at = 0; at < c.sent.size(); at += 1000) {
       EXPECT_TRUE(port.receive_from_client(
-          std::span(c.said).subspan(at, std::min<std::size_t>(1000, c.said.size() - at))));
+          std::span(c.sent).subspan(at, std::min<std::size_t>(1000, c.sent.size() - at))));
       EXPECT_EQ(line_bytes(port), Bytes{}) << c.what;
       EXPECT_TRUE(port.has_room()) << c.what;
       const Bytes some = port.take_for_client();
@@ -240,27 +240,27 @@ TEST(Rfc2217, PassesOverWhatIsMalformed) {
 
 TEST(Rfc2217, SaysABreakAsOneCharacter) {
   Rfc2217 port = agreed();
-  Bytes said = com_port("05 05");
+  Bytes sent = com_port("05 05");
   for (const Bytes& more :
        {com_port("05 05"), com_port("05 06"), Bytes{0x31}, com_port("05 05"), hex("FF F3")})
-    said.insert(said.end(), more.begin(), more.end());
-  EXPECT_TRUE(port.receive_from_client(said));
+    sent.insert(sent.end(), more.begin(), more.end());
+  EXPECT_TRUE(port.receive_from_client(sent));
   EXPECT_EQ(line_bytes(port), hex("00 31 00 00")) << "switching it on again is not a change";
 }
 
 TEST(Rfc2217, TakesBackAndThrowsAwayAsPurged) {
   struct Case {
-    const char* said;
+    const char* sent;
     bool discards_input;
     bool discards_output;
   };
   for (const Case& c : {Case{"0C 01", false, true}, Case{"0C 02", true, false}, Case{"0C 03", true, true},
                         Case{"0C 04", false, false}}) {
     Rfc2217 port = agreed();
-    EXPECT_TRUE(port.receive_from_client(com_port(c.said)));
+    EXPECT_TRUE(port.receive_from_client(com_port(c.sent)));
     EXPECT_EQ(port.take_for_line(0), Bytes{}) << "even if the line has no room";
-    EXPECT_EQ(port.discards_input(), c.discards_input) << c.said;
-    EXPECT_EQ(port.discards_output(), c.discards_output) << c.said;
+    EXPECT_EQ(port.discards_input(), c.discards_input) << c.sent;
+    EXPECT_EQ(port.discards_output(), c.discards_output) << c.sent;
     EXPECT_FALSE(port.discards_input() || port.discards_output()) << "once";
   }
 }

@@ -28,8 +28,8 @@ const Exchange kRaw{hex("01 03 00 01 00 01 D5 CA"), hex("01 03 02 C0 01 29 84")}
 const Exchange kGateway{hex("12 34 00 00 00 06 01 03 00 01 00 01"), hex("12 34 00 00 00 05 01 03 02 C0 01")};
 
 /// Possibly after the first telnet options.
-bool has(const Bytes& heard, const Bytes& reply) {
-  return std::search(heard.begin(), heard.end(), reply.begin(), reply.end()) != heard.end();
+bool has(const Bytes& received, const Bytes& reply) {
+  return std::search(received.begin(), received.end(), reply.begin(), reply.end()) != received.end();
 }
 
 struct Protocol {
@@ -71,7 +71,7 @@ class EachProtocol : public testing::TestWithParam<std::size_t> {
     good.say(exchange.request);
     EXPECT_TRUE(rig.eventually([&] {
       good.is_over();
-      return has(good.heard(), exchange.reply);
+      return has(good.received(), exchange.reply);
     })) << after;
     good.close();
   }
@@ -118,7 +118,7 @@ TEST_P(EachProtocol, AnswersAClientThatHasClosedItsSendingHalf) {
     if (i % 2 == 0) rig.run();  // together, or one after another
     client.close_sending_half();
     EXPECT_TRUE(client.sees_the_end()) << i;
-    EXPECT_TRUE(has(client.heard(), exchange.reply)) << i;
+    EXPECT_TRUE(has(client.received(), exchange.reply)) << i;
   }
   EXPECT_EQ(rig.log, std::vector<std::string>());
 }
@@ -138,7 +138,7 @@ TEST_P(EachProtocol, LetsTheNextWaitForOneThatHasSaidAll) {
     second.close_sending_half();
     EXPECT_TRUE(first.sees_the_end());
     EXPECT_TRUE(second.sees_the_end());
-    for (DoorClient* client : {&first, &second}) EXPECT_TRUE(has(client->heard(), exchange.reply)) << i;
+    for (DoorClient* client : {&first, &second}) EXPECT_TRUE(has(client->received(), exchange.reply)) << i;
   }
   EXPECT_EQ(rig.log, std::vector<std::string>());
 }
@@ -177,7 +177,7 @@ TEST_P(EachProtocol, WithoutDescriptorsRestsUntilThereIsOne) {
   }
   EXPECT_TRUE(rig.eventually([&] {
     waiting.is_over();
-    return has(waiting.heard(), exchange.reply);
+    return has(waiting.received(), exchange.reply);
   }));
 }
 
@@ -201,12 +201,12 @@ TEST(Gateway, ServesItsMastersInTurn) {
   for (const auto& master : masters)
     EXPECT_GE(master->hear(all - kGateway.reply.size()).size(), all - kGateway.reply.size());
   for (std::size_t m = 0; m < masters.size(); ++m) {
-    const Bytes heard = masters[m]->hear(all);
+    const Bytes received = masters[m]->hear(all);
     for (std::uint8_t i = 0; i < 20; ++i) {
       Bytes reply = kGateway.reply;
       reply[0] = static_cast<std::uint8_t>(m);
       reply[1] = i;
-      const auto begin = heard.begin() + static_cast<std::ptrdiff_t>(i * reply.size());
+      const auto begin = received.begin() + static_cast<std::ptrdiff_t>(i * reply.size());
       ASSERT_TRUE(std::equal(reply.begin(), reply.end(), begin)) << m << " " << int{i};
     }
   }
@@ -299,7 +299,7 @@ TEST(Gateway, SaysNothingOfAStationThatDoesNotAnswerIfItIsNotTo) {
 TEST(GatewayFaults, ChangeTheAnswerOnItsWay) {
   struct Case {
     const char* fault;
-    Bytes heard;
+    Bytes received;
     bool ends;
   };
   const auto changed = [](std::size_t at) {
@@ -308,7 +308,7 @@ TEST(GatewayFaults, ChangeTheAnswerOnItsWay) {
     return reply;
   };
   const Bytes cut(kGateway.reply.begin(), kGateway.reply.begin() + 9);
-  for (const auto& [fault, heard, ends] :
+  for (const auto& [fault, received, ends] :
        {Case{"{ wrong_transaction: feeder }", changed(1), false},
         Case{"{ wrong_unit: a }", changed(6), false}, Case{"{ hang_up: feeder, keep: 9 }", cut, true},
         Case{"{ hang_up: feeder, keep: 0 }", {}, true},
@@ -319,14 +319,14 @@ TEST(GatewayFaults, ChangeTheAnswerOnItsWay) {
     DoorRig rig("modbus-tcp://127.0.0.1:0", kOneFeeder + std::string("faults: [ ") + fault + " ]\n");
     DoorClient master(rig);
     master.say(kGateway.request);
-    EXPECT_EQ(master.hear(heard.size()), heard) << fault;
+    EXPECT_EQ(master.hear(received.size()), received) << fault;
     if (ends) {
       EXPECT_TRUE(master.sees_the_end()) << fault;
       continue;
     }
     master.forget();
     master.say(kGateway.request);
-    EXPECT_EQ(master.hear(heard.size()), heard) << fault << ", each one";
+    EXPECT_EQ(master.hear(received.size()), received) << fault << ", each one";
   }
 }
 
@@ -350,7 +350,7 @@ TEST(GatewayFaults, EndARawConnectionInMidReply) {
   host.forget();
   host.say(kRaw.request);
   EXPECT_TRUE(host.sees_the_end());
-  EXPECT_EQ(host.heard(), Bytes(kRaw.reply.begin(), kRaw.reply.begin() + 3));
+  EXPECT_EQ(host.received(), Bytes(kRaw.reply.begin(), kRaw.reply.begin() + 3));
   DoorClient next(rig);
   next.say(kRaw.request);
   EXPECT_EQ(next.hear(7), kRaw.reply);

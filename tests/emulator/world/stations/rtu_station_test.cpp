@@ -37,12 +37,12 @@ struct StationRig final : pty::Transmitter {
   explicit StationRig(const DeviceSettings& settings = {}, pty::RtuFraming framing = kTolerant)
       : device(make_simple2(settings)), station(*device, 0, framing) {}
 
-  void transmit(std::span<const std::uint8_t> bytes) override { said.push_back(text(bytes)); }
+  void transmit(std::span<const std::uint8_t> bytes) override { sent.push_back(text(bytes)); }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
 
   /// Sends a frame and waits. Returns what the station sent, one text for each transmission.
   std::vector<std::string> exchange(const Bytes& frame) {
-    said.clear();
+    sent.clear();
     for (const std::uint8_t value : frame) {
       station.receive({.start = now, .end = now + 573us, .value = value});
       now += 573us;
@@ -55,14 +55,14 @@ struct StationRig final : pty::Transmitter {
       break;
     }
     now += 100ms;
-    return said;
+    return sent;
   }
 
   bool is_untouched() const { return device->same_state(*make_simple2(device->settings())); }
 
   std::unique_ptr<Device> device;
   RtuStation station;
-  std::vector<std::string> said;
+  std::vector<std::string> sent;
   SimTime now{0};
 };
 
@@ -113,9 +113,9 @@ TEST(WireExamples, TheCoordinateOfThePrintedReplyIs32000) {
 
 TEST(RtuStation, TheLongestReplyIsARightFrameOf255Bytes) {
   StationRig rig;
-  const Said said = rig.exchange(framed(1, read_pdu(3, 0x4000, 125)));
-  ASSERT_EQ(said.size(), 1u);
-  const Bytes reply = hex(said[0]);
+  const Said sent = rig.exchange(framed(1, read_pdu(3, 0x4000, 125)));
+  ASSERT_EQ(sent.size(), 1u);
+  const Bytes reply = hex(sent[0]);
   EXPECT_EQ(reply.size(), 255u);
   EXPECT_TRUE(pty::rtu_crc_ok(reply));
 }

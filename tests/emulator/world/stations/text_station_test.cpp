@@ -20,7 +20,7 @@ struct Rig {
   explicit Rig(pty::Timing timing = pty::Timing::wire, DeviceSettings settings = {})
       : bench(echo_bench(timing, with_greeting(std::move(settings)))), world(bench, {}, {}) {
     world.advance_to(20ms);  // its text at power-up has ended: "HELLO", CR, LF take 7.3 ms
-    EXPECT_EQ(heard(), "HELLO\r\n");
+    EXPECT_EQ(received(), "HELLO\r\n");
   }
   static DeviceSettings with_greeting(DeviceSettings settings) {
     settings.firmware = 100;
@@ -31,7 +31,7 @@ struct Rig {
     world.receive(0, bytes);
   }
   /// Returns what was received since the last call.
-  std::string heard() {
+  std::string received() {
     const auto output = world.line(0).line.output();
     std::string text(output.begin(), output.end());
     world.take_output(0, output.size());
@@ -40,7 +40,7 @@ struct Rig {
   std::string answer(std::string_view text, SimTime within = 200ms) {
     transmit(text);
     world.advance_to(world.now() + within);
-    return heard();
+    return received();
   }
   EchoBox& box() { return dynamic_cast<EchoBox&>(world.device(0)); }
 
@@ -53,13 +53,13 @@ TEST(TextStation, AnswersALineInTheTimeOfTheWire) {
   const SimTime start = rig.world.now();
   rig.transmit("SAY ab\r");  // seven characters to the device, four back
   rig.world.advance_to(start + characters(7) + characters(1) - 1ns);
-  EXPECT_EQ(rig.heard(), "");
+  EXPECT_EQ(rig.received(), "");
   rig.world.advance_to(start + characters(7) + characters(1));
-  EXPECT_EQ(rig.heard(), "a");
+  EXPECT_EQ(rig.received(), "a");
   rig.world.advance_to(start + characters(7) + characters(4) - 1ns);
-  EXPECT_EQ(rig.heard(), "b\r");
+  EXPECT_EQ(rig.received(), "b\r");
   rig.world.advance_to(start + characters(7) + characters(4));
-  EXPECT_EQ(rig.heard(), "\n");
+  EXPECT_EQ(rig.received(), "\n");
 }
 
 TEST(TextStation, AnswersAtOnceWhereCharactersTakeNoTime) {
@@ -83,11 +83,11 @@ TEST(TextStation, SpeaksUnaskedFromItsTickOn) {
     EXPECT_EQ(rig.answer("AT 500\r"), "");
     EXPECT_EQ(rig.world.next_due(), bulk ? std::optional(500ms) : rig.world.next_due());
     rig.world.advance_to(500ms + characters(1) - 1ns);
-    EXPECT_EQ(rig.heard(), "");
+    EXPECT_EQ(rig.received(), "");
     rig.world.advance_to(500ms + characters(1));
-    EXPECT_EQ(rig.heard(), "T");
+    EXPECT_EQ(rig.received(), "T");
     rig.world.advance_to(500ms + characters(10));  // "TICK 500", CR, LF
-    EXPECT_EQ(rig.heard(), "ICK 500\r\n");
+    EXPECT_EQ(rig.received(), "ICK 500\r\n");
     EXPECT_EQ(rig.world.next_due(), std::nullopt);
   }
 }
@@ -99,7 +99,7 @@ TEST(TextStation, WhatItSaysUnaskedWaitsUntilTheWireIsFree) {
   // Eight characters to the device: received at 298.3 ms; "line 1" to "line 3" with their ends are 24 back.
   rig.transmit("LIST 3\r");
   rig.world.advance_to(400ms);
-  EXPECT_EQ(rig.heard(), "line 1\r\nline 2\r\nline 3\r\nTICK 300\r\n");
+  EXPECT_EQ(rig.received(), "line 1\r\nline 2\r\nline 3\r\nTICK 300\r\n");
 }
 
 TEST(TextStation, ALongAnswerComesWhole) {
@@ -109,12 +109,12 @@ TEST(TextStation, ALongAnswerComesWhole) {
   for (const pty::Timing timing : {pty::Timing::wire, pty::Timing::instant}) {
     Rig rig(timing);
     rig.transmit("LIST 1000\r");
-    std::string heard;
+    std::string received;
     for (int i = 0; i < 200; ++i) {
       rig.world.advance_to(rig.world.now() + 100ms);
-      heard += rig.heard();
+      received += rig.received();
     }
-    EXPECT_EQ(heard, wanted);
+    EXPECT_EQ(received, wanted);
     EXPECT_EQ(rig.world.line(0).line.counters().bytes_discarded, 0u);
   }
 }
@@ -127,7 +127,7 @@ TEST(TextStation, ALongAnswerLeavesNoGapOnTheWire) {
   const SimTime end = start + characters(10) + characters(9 * 8 + 90 * 9 + 900 * 10 + 11);
   for (SimTime at = start; at < end - 100ms; at += 100ms) {
     rig.world.advance_to(at);
-    rig.heard();
+    rig.received();
   }
   rig.world.advance_to(end - 2us);
   const auto before = rig.world.line(0).line.counters().bytes_out;
@@ -149,7 +149,7 @@ TEST(TextStation, WithoutPowerItHearsNothingAndForgetsWhatItHeard) {
   EXPECT_EQ(rig.answer("SAY b\r"), "");
   rig.world.switch_power(0, true);
   rig.world.advance_to(rig.world.now() + 10ms);
-  EXPECT_EQ(rig.heard(), "HELLO\r\n");
+  EXPECT_EQ(rig.received(), "HELLO\r\n");
   EXPECT_EQ(rig.answer("SAY c\r"), "c\r\n");
 }
 
@@ -160,7 +160,7 @@ TEST(TextStation, WhatItWasSayingEndsWithItsPower) {
   rig.world.switch_power(0, false);
   rig.world.advance_to(rig.world.now() + 1s);
   // Ten characters have ended, and the eleventh has started.
-  EXPECT_EQ(rig.heard(), "line 1\r\nlin");
+  EXPECT_EQ(rig.received(), "line 1\r\nlin");
 }
 
 TEST(TextStation, AnAnswerIsForTheHostThatAsked) {
@@ -169,7 +169,7 @@ TEST(TextStation, AnAnswerIsForTheHostThatAsked) {
   rig.world.host_closed(0);
   rig.world.host_opened(0);
   rig.world.advance_to(rig.world.now() + 100ms);
-  EXPECT_EQ(rig.heard(), "");
+  EXPECT_EQ(rig.received(), "");
   EXPECT_EQ(rig.world.line(0).stations[0]->counters().requests, 1u);
 }
 
@@ -186,7 +186,7 @@ TEST(TextStation, ActsFromOutsideMayMakeItSpeakAndAreSentAtTheirTime) {
   rig.box().receive_line("SAY x");  // as an act does: not over the line
   EXPECT_EQ(rig.world.assign(0, "N0", 7), std::nullopt);
   rig.world.advance_to(rig.world.now() + characters(3));
-  EXPECT_EQ(rig.heard(), "x\r\n");
+  EXPECT_EQ(rig.received(), "x\r\n");
   EXPECT_EQ(rig.answer("?N0\r"), "7\r\n");
   EXPECT_EQ(rig.world.assign(0, "N0", 1e6), "is out of range; expected -32768 to 32767");
   EXPECT_EQ(rig.world.assign(0, "QQ", 1), "is not a name here; expected N0, R0 or ECHO");
@@ -203,7 +203,7 @@ TEST(TextStation, AWorldThatIsRestoredSaysTheSameBytes) {
                                                    "SAX\b",   "Y b\r",    "ECHO=0\r", "\x1B",    "N0=7\r"};
       if (step % 7 == 0) rig.transmit(kLines[static_cast<std::size_t>(step / 7) % kLines.size()]);
       rig.world.advance_to(rig.world.now() + 3700us);
-      return rig.heard();
+      return rig.received();
     };
     constexpr int kSteps = 300;
     for (int step = 0; step < kSteps; ++step) {
