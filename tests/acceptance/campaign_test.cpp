@@ -100,7 +100,7 @@ TEST_F(Campaign, OnlyTheFirstFailureOfEachKindIsKept) {
   EXPECT_NE(one.output.find("0 passed, 1 failed; "), std::string::npos) << one.output;
 }
 
-TEST_F(Campaign, ARecordingWithoutRoomIsToldByItsFlag) {
+TEST_F(Campaign, ARecordingWithoutRoomIsReportedWithItsFlag) {
   const Words command{"run", file(20), "--failures", folder_ / "failures"};
   EXPECT_EQ(understudy(command).exit_code, 1);
   const std::string kept = folder_ / ("failures/" + *recordings("failures").begin());
@@ -163,7 +163,7 @@ TEST_F(Campaign, ShardsAreThePartsOfTheWhole) {
   EXPECT_EQ(parts, whole);
 }
 
-TEST_F(Campaign, OneThatIsKilledGoesOn) {
+TEST_F(Campaign, OneThatIsKilledContinues) {
   constexpr int kCases = 12'000;
   constexpr int kKills = 4;
   constexpr unsigned kSeed = 20'008;
@@ -228,7 +228,7 @@ TEST_F(Campaign, WhatHasChangedIsPlayedAgain) {
   EXPECT_NE(understudy(command).output.find("20 skipped"), std::string::npos);
 }
 
-TEST_F(Campaign, ACaseThatCannotBeReadIsToldAndTheOthersArePlayed) {
+TEST_F(Campaign, AnUnreadableCaseIsReportedAndTheOthersRun) {
   const std::string scenario = folder_.write(
       "late.yaml",
       "understudy: 1\nname: late\nbench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } "

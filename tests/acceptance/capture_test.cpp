@@ -84,7 +84,7 @@ TEST(Capture, HoldsEachFrameWithItsDirectionAndItsSimulatedTime) {
   EXPECT_LT(capture.packets[3].time, 60'000'000'000U) << "simulated time, not the wall clock's";
 }
 
-TEST(Capture, HoldsWhatWasDroppedAndWhatWasNotHeard) {
+TEST(Capture, HoldsWhatWasDroppedAndWhatWasNotReceived) {
   Capturing capturing("a.pcapng");
   capturing.send_in_vain(kWrongChecksum);
   capturing.send_in_vain(kNoise);
@@ -160,7 +160,7 @@ TEST(Capture, ConsistsOfWholeBlocksWhenTheDaemonIsKilled) {
   EXPECT_GT(pty::read_pcapng(file).packets.size(), 0U);
 }
 
-TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesGoOn) {
+TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesContinue) {
   Capturing capturing("a.pcapng", {"--timing", "instant"});
   const rlimit limit{.rlim_cur = 4000, .rlim_max = 4000};
   ASSERT_EQ(::prlimit(capturing.daemon().process().pid(), RLIMIT_FSIZE, &limit, nullptr), 0);
@@ -253,7 +253,7 @@ TEST(Tshark, DecodesTheCaptureAsModbusRtu) {
   EXPECT_TRUE(decoded[8].ends_with("|dropped: bad CRC")) << decoded[8];
 }
 
-TEST(Capture, TellsWhatFaultsDid) {
+TEST(Capture, ReportsWhatFaultsDid) {
   for (const std::string name : {"a.txt", "a.pcapng"}) {
     Capturing capturing(name);
     for (const Words& fault :

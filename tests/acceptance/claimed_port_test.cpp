@@ -141,7 +141,7 @@ TEST_F(ClaimedPort, StaysClaimedWhileItsHostIsThere) {
 
 // The daemon must release the line for a moment to find out who is present; here it finds the line claimed
 // when it takes it back.
-TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
+TEST_F(ClaimedPort, IsServedAgainWhenTheDaemonWasKeptOut) {
   const std::filesystem::path first = std::filesystem::read_symlink(port());
   ASSERT_EQ(chmod(first.c_str(), 0666), 0);
   const auto is_anew = [&] { return std::filesystem::read_symlink(port()) != first; };

@@ -239,7 +239,7 @@ TEST(ProgramText, GoesToCellsAndBack) {
   EXPECT_EQ(understudy({"asm", folder.write("again.lst", text.output)}).output, cells);
 }
 
-TEST(ProgramText, TellsEveryErrorWithItsPlace) {
+TEST(ProgramText, ReportsEveryErrorWithItsPlace) {
   const PrivateFolder folder;
   const Finished bad = understudy({"asm", folder.write("bad.lst", "NOP\nJumpp 1\nOut DOUT_9 ON\n")});
   EXPECT_EQ(bad.exit_code, 2);
@@ -268,7 +268,7 @@ TEST(Check, AcceptsWhatIsShipped) {
   }
 }
 
-TEST(Check, TellsOfEveryBadFile) {
+TEST(Check, ReportsEveryBadFile) {
   const PrivateFolder folder;
   write_benches(folder);
   const Finished finished =

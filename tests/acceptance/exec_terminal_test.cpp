@@ -47,7 +47,7 @@ TEST_F(ExecAtTerminal, LeavesCtrlCToACommandThatWantsIt) {
   EXPECT_EQ(terminal.wait(kPatience), 6);
 }
 
-TEST_F(ExecAtTerminal, StopsOnCtrlZAndGoesOn) {
+TEST_F(ExecAtTerminal, StopsOnCtrlZAndContinues) {
   if (run({"bash", "-c", "true"}).exit_code != 0) GTEST_SKIP() << "bash is not installed";
   std::string line;
   // It does not fork: a shell that is stopped between vfork() and exec() of a child never reports that.

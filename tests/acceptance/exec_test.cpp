@@ -114,7 +114,7 @@ TEST_F(Exec, RunsSideBySide) {
   }
 }
 
-TEST_F(Exec, MakesLinksAndASocketWhereItIsTold) {
+TEST_F(Exec, MakesLinksAndASocketWhereRequested) {
   fs::create_directory(folder() / "links");
   const Finished finished = script("echo $UNDERSTUDY_PORT $UNDERSTUDY_CONTROL",
                                    {"--links", folder() / "links", "--control", folder() / "socket"});
@@ -173,7 +173,7 @@ TEST_F(Exec, KeepsARecordingOfARunThatFailed) {
   EXPECT_TRUE(fs::remove_all(fs::path(path).parent_path()) > 0);
 }
 
-TEST_F(Exec, TellsHowToRunAFailureAgainWhereverItIsRecorded) {
+TEST_F(Exec, SaysHowToRunAFailureAgainWhereverItIsRecorded) {
   const std::string recording = folder() / "recording";
   const Finished failed = script("exit 3", {"--record", recording});
   EXPECT_EQ(failed.exit_code, 3);
@@ -328,7 +328,7 @@ TEST_F(ExecWith, IsGivenUpWithTheCommand) {
   EXPECT_EQ(with(long_wait, "true", {"--speed", "manual"}).exit_code, 1);
 }
 
-TEST_F(ExecWith, StopsTheCommandAndGoesOn) {
+TEST_F(ExecWith, StopsTheCommandAndContinues) {
   const std::string stop = "- host: stop\n- advance: 10ms\n";
   const Finished passed = with(stop + "- assert: feeder.STATUS.4 == 0\n", "exec sleep 60");
   EXPECT_EQ(passed.exit_code, 0) << passed.errors;

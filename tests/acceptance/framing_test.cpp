@@ -70,7 +70,7 @@ TEST(TolerantFraming, FindsAGoodRequestRightAfterNoise) {
     EXPECT_EQ(exchange(host, after_noise(kReadHardwareCode), kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-TEST(StrictFraming, LosesARequestRightAfterNoiseAndHearsTheNext) {
+TEST(StrictFraming, LosesARequestRightAfterNoiseAndReceivesTheNext) {
   const RunningUnderstudy daemon({"--strict-framing"});
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(B19200));

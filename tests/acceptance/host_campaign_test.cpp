@@ -146,7 +146,7 @@ TEST_F(HostCampaign, PlaysCasesAgainIfTheHostHasChanged) {
   EXPECT_TRUE(has(changed.output, "2 failed")) << changed.output;
 }
 
-TEST_F(HostCampaign, TellsAHostThatHangsFromOneThatFails) {
+TEST_F(HostCampaign, DistinguishesAHostThatHangsFromOneThatFails) {
   const std::string rest = "steps: [ { host: { exits: 0, within: 60s } } ]\n";
   const Finished spins = exec(rest, {"sh", "-c", "while :; do :; done"}, {"--host-time", "--timeout", "1s"});
   EXPECT_EQ(spins.exit_code, 1);

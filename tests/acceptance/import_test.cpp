@@ -191,7 +191,7 @@ TEST(ImportCommand, WritesWhatCanBeServedAndNothingOver) {
   EXPECT_NE(contents(folder / "models/p.yaml").find("registers: '../a pump.csv'"), std::string::npos);
 }
 
-TEST(ImportCommand, TakesWhatItIsTold) {
+TEST(ImportCommand, UsesTheGivenSettings) {
   const PrivateFolder folder;
   const std::string list = folder.write("p.csv", "Where,What,Role\n40069,X,1\n");
   const Finished unclear = understudy({"import", list, "--columns", "address=Where,name=B"});

@@ -133,7 +133,7 @@ lines:
   EXPECT_FALSE(fs::exists(fs::path(link).parent_path())) << link;
 }
 
-TEST(ServiceManager, HearsThatTheDaemonIsReadyAndThatItStops) {
+TEST(ServiceManager, LearnsThatTheDaemonIsReadyAndThatItStops) {
   const PrivateFolder folder;
   const std::string path = folder / "notify";
   sockaddr_un address{};

@@ -44,7 +44,7 @@ TEST(Report, IsOnePageAboutAllScenarios) {
   EXPECT_NE(contents(folder / "real.html").find("data-name=\"feeder.A.position\""), std::string::npos);
 }
 
-TEST(Report, ThatCannotBeWrittenIsToldOfBeforeAnythingIsPlayed) {
+TEST(Report, ThatCannotBeWrittenIsReportedBeforeAnythingRuns) {
   const PrivateFolder folder;
   const std::string scenario = folder.write("move.yaml", kScenario);
   const Finished finished = understudy({"run", scenario, "--report", folder / "no/report.html"});
@@ -54,7 +54,7 @@ TEST(Report, ThatCannotBeWrittenIsToldOfBeforeAnythingIsPlayed) {
                                  " cannot be written: No such file or directory\n");
 }
 
-TEST(Lint, OfScenariosIsToldAtTheEndAndInJunit) {
+TEST(Lint, OfScenariosIsReportedAtTheEndAndInJunit) {
   const PrivateFolder folder;
   const std::string scenario = folder.write("move.yaml", kScenario);
   const Finished finished = understudy({"run", scenario, "--lint", "--junit", folder / "junit.xml"});
@@ -68,7 +68,7 @@ TEST(Lint, OfScenariosIsToldAtTheEndAndInJunit) {
   EXPECT_EQ(understudy({"run", scenario}).errors, "");
 }
 
-TEST(Lint, OfARunningBenchIsToldWhenItEnds) {
+TEST(Lint, OfARunningBenchIsReportedWhenItEnds) {
   RunningUnderstudy running({"--lint"});
   const Finished asked =
       understudy({"poll", running.port(), "0x0001", "--station", "9", "--timeout", "100ms"});
@@ -85,7 +85,7 @@ TEST(Lint, OfARunningBenchIsToldWhenItEnds) {
   EXPECT_EQ(lines_of(errors).size(), 2U) << errors;
 }
 
-TEST(Lint, OfACommandsMannersIsToldWhenItIsOver) {
+TEST(Lint, OfACommandIsReportedWhenItIsOver) {
   const PrivateFolder folder;
   const std::string bench = folder.write(
       "bench.yaml",
@@ -164,7 +164,7 @@ TEST(Plot, DrawsPngAndSvg) {
   }
 }
 
-TEST(Plot, TellsInALineWhatIsWrong) {
+TEST(Plot, ReportsErrorsInOneLine) {
   const PrivateFolder folder;
   const std::string csv = folder.write("t.csv", "time_ms,a.A.position\n0,1\n5,2\n");
   const std::string bad = folder.write("bad.csv", "time_ms,a\n0,x\n");

@@ -44,7 +44,7 @@ TEST(BenchOfManyLines, TakesOneInotifyInstance) {
       eventually([&] { return daemon->ctl({"status"}).output.find("host open") == std::string::npos; }));
 }
 
-TEST(BenchOfManyLines, IsToldHowManyFilesItMayOpen) {
+TEST(BenchOfManyLines, LearnsHowManyFilesItMayOpen) {
   const PrivateFolder folder;
   const std::string bench = folder.write("bench.yaml", lines(30));
   const Finished refused =

@@ -56,7 +56,7 @@ TEST_P(Mbpoll, Writes16And32Bits) {
   EXPECT_EQ(value("4:int", kAaxisPulse), "-70000");
 }
 
-TEST_P(Mbpoll, IsToldWhyARequestIsRefused) {
+TEST_P(Mbpoll, LearnsWhyARequestIsRefused) {
   const auto refusal = [](const Finished& finished) {
     EXPECT_EQ(finished.exit_code, 1);
     return finished.errors;

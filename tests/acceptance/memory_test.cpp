@@ -148,7 +148,7 @@ TEST(Memory, OfABenchIsWhereItSaysRelativeToTheBench) {
   EXPECT_TRUE(eventually([&] { return text_of(path).find("\"PROG_MEM31\": -5") != std::string::npos; }));
 }
 
-TEST(Memory, ThatCannotBeWrittenIsToldWhileTheDevicesGoOn) {
+TEST(Memory, ThatCannotBeWrittenIsReportedWhileDevicesContinue) {
   const auto daemon = RunningUnderstudy::of_bench(bench_of(", nv: ./gone/mine.json"));
   EXPECT_TRUE(eventually([&] { return daemon->errors().find("cannot be written") != std::string::npos; }));
   EXPECT_EQ(lines_of(daemon->errors()).size(), 1U) << daemon->errors();

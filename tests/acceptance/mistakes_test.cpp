@@ -53,7 +53,7 @@ class Mistakes : public testing::Test {
   PrivateFolder folder_;
 };
 
-TEST_F(Mistakes, OfFlagsAndWordsAreToldInOneLine) {
+TEST_F(Mistakes, OfFlagsAndWordsAreReportedInOneLine) {
   expect_all({
       {{}, 2, "understudy: expected a command (--help lists them)"},
       {{"help"}, 2, "understudy: 'help' is not a command (--help lists them)"},
@@ -192,7 +192,7 @@ TEST_F(Mistakes, OfValuesAreQuotedWithWhatIsExpected) {
                           "understudy: ctl clear: number: 9 is not a fault in force; expected one of 1, 2"}});
 }
 
-TEST_F(Mistakes, OfProgramsAreToldWithTheirFile) {
+TEST_F(Mistakes, OfProgramsAreReportedWithTheirFile) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   folder_.write("wrong.lst", "Out 4 1\nOut 4 maybe\nJmp\nEND\n");
   const Finished finished = daemon.ctl({"program", "device", at("wrong.lst")});
@@ -323,14 +323,14 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
   }
 }
 
-TEST_F(Mistakes, OfAPageWithoutADaemonAreToldAtOnce) {
+TEST_F(Mistakes, OfAPageWithoutADaemonAreReportedAtOnce) {
   Process page({UNDERSTUDY_BINARY, "page", "--control", at("nosuch")});
   EXPECT_TRUE(eventually([&] { return page.output().starts_with("page http"); }));
   EXPECT_EQ(page.errors(), "understudy: page: " + at("nosuch") +
                                ": no daemon answers there yet; the page shows it when one does\n");
 }
 
-TEST_F(Mistakes, OfAScopeAreToldInWords) {
+TEST_F(Mistakes, OfAScopeAreReportedInWords) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   EXPECT_EQ(daemon.ctl({"scope"}).output, "no scope is armed; ctl scope NAME... when=CONDITION arms one\n");
   EXPECT_EQ(daemon.ctl({"scope", "A.pulses", "Cord_A", "when=Cord_A > 5", "before=2ms", "after=2ms"}).output,

@@ -46,7 +46,7 @@ TEST(ModbusTcpLine, ServesLibmodbus) {
   EXPECT_EQ(errno, EMBXILADD) << "the device's own exception";
 }
 
-TEST(ModbusTcpLine, TellsThatAStationDoesNotAnswer) {
+TEST(ModbusTcpLine, ReportsThatAStationDoesNotAnswer) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   const Libmodbus host = connected(listened_port(served), 9);
   std::uint16_t value = 0;
@@ -57,7 +57,7 @@ TEST(ModbusTcpLine, TellsThatAStationDoesNotAnswer) {
   EXPECT_EQ(value, 0xC001);
 }
 
-TEST(ModbusTcpLine, ObeysABroadcastWithoutAnAnswer) {
+TEST(ModbusTcpLine, ExecutesABroadcastWithoutAnAnswer) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   const TcpClient client(listened_port(served));
   client.write(pty::hex("00 01 00 00 00 06 00 06 10 02 00 C8"));
@@ -81,7 +81,7 @@ TEST(ModbusTcpLine, AnswersRequestsThatCameAtOnceOneAfterTheOther) {
   EXPECT_EQ(client.read(answers.size()), answers);
 }
 
-TEST(ModbusTcpLine, LetsGoWhoSpeaksSomethingElse) {
+TEST(ModbusTcpLine, DisconnectsClientsOfOtherProtocols) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   for (const Bytes& other :
        {pty::hex("01 03 00 01 00 01 D5 CA"), Bytes{'G', 'E', 'T', ' ', '/', '\r', '\n'}}) {
@@ -187,7 +187,7 @@ TEST(ModbusTcpLine, ServesSeveralMastersAtOnce) {
 }
 
 // A master that waits for half a second is informed in time, and its next request gets its own reply.
-TEST(ModbusTcpLine, TellsOfAnAbsentStationAsSoonAsItIsToldTo) {
+TEST(ModbusTcpLine, ReportsAnAbsentStationAsSoonAsRequested) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0?timeout=50ms", "--timing", "instant"});
   const Libmodbus host = connected(listened_port(served), 9);
   std::uint16_t value = 0;

@@ -162,7 +162,7 @@ TEST_F(OutputPaths, OfARunsFilesAreNothingThatALinkThereLeadsTo) {
   }
 }
 
-TEST_F(OutputPaths, KeepTheFilesOfTheRunBeforeWhereOneCannotBeHad) {
+TEST_F(OutputPaths, KeepTheEarlierFilesWhereOneIsNotAvailable) {
   folder_.write("old.txt", "# simulated seconds, in (from the host) or out, line, bytes, # remark\n");
   folder_.write("old.jsonl", R"({"understudy":1,"kind":"recording"})");
   folder_.write("old.csv", "time_ms\n");
@@ -203,7 +203,7 @@ TEST_F(OutputPaths, OfAGrowingFileBelongToOneProgram) {
   }
 }
 
-TEST_F(OutputPaths, TellAtOnceWhatCannotBeWritten) {
+TEST_F(OutputPaths, ReportAtOnceWhatCannotBeWritten) {
   ASSERT_EQ(::mkfifo(at("pipe.csv").c_str(), 0600), 0);
   for (const std::string flag : {"--record", "--trace", "--capture"}) {
     const Finished finished = understudy({"serve", at("bench.yaml"), flag, at("pipe.csv")});

@@ -184,7 +184,7 @@ TEST_F(Installation, BringsTheExtensionForVsCode) {
   EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/vscode/understudy-" + version + ".vsix"));
 }
 
-TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
+TEST_F(Installation, HasAManPageWithEveryCommandAndFlagOfHelp) {
   std::string text = run({"zcat", page()}).output;
   for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},
                                     {"\\\\f[BIR]", ""},
@@ -382,7 +382,7 @@ std::string judged(const std::string& latenesses) {
   return run({"bash", "-c", "printf '" + latenesses + "' | /usr/bin/python3 " + script + " --judge"}).output;
 }
 
-TEST(ReferenceTimer, TellsABusyMachineFromAQuietOne) {
+TEST(ReferenceTimer, DistinguishesABusyMachineFromAQuietOne) {
   std::string quiet;
   for (int i = 0; i < 1000; ++i) quiet += i % 200 == 0 ? "60\\n" : "0.1\\n";
   EXPECT_EQ(judged(quiet), "") << "sometimes every wake-up is late";

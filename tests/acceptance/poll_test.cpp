@@ -69,7 +69,7 @@ TEST_F(Poll, FailsOnAnExceptionWithOneLine) {
   expect_failed({"--model", "simple2-r3", "Aaxis_AccTime=3001"});
 }
 
-TEST_F(Poll, TellsTheTablesRangeOfWhatNoWordHolds) {
+TEST_F(Poll, ReportsTheTablesRangeOfWhatNoWordHolds) {
   EXPECT_EQ(poll({"--model", "simple2-r3", "Aaxis_Speed=70000"}).errors,
             "understudy: poll: 70000 does not fit into Aaxis_Speed; expected 0 to 32768\n");
   EXPECT_EQ(poll({"0x1002=70000"}).errors,
@@ -78,7 +78,7 @@ TEST_F(Poll, TellsTheTablesRangeOfWhatNoWordHolds) {
 
 TEST_F(Poll, FailsOnSilenceWithOneLine) { expect_failed({"--station", "9", "--timeout", "100ms", "2"}); }
 
-TEST_F(Poll, TellsWhoWasAskedWhereAndHow) {
+TEST_F(Poll, ReportsWhoWasAskedWhereAndHow) {
   const std::string before = "understudy: poll: 2: " + daemon_.port() + ": station ";
   EXPECT_EQ(poll({"--station", "9", "--timeout", "100ms", "2"}).errors,
             before + "9 did not answer within 100ms at 19200 8E1\n");

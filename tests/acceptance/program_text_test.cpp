@@ -131,7 +131,7 @@ TEST(ProgramTexts, AreDescribed) {
 
 /// However a program is loaded, `check` reports its warnings for each file, and `run` and `serve` report each
 /// one once.
-TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreTold) {
+TEST(ProgramTexts, WarningsOfBenchesAndScenariosAreReported) {
   const PrivateFolder folder;
   const std::string listing = folder.write("lab.lst", "AREA C\nLAB K1\nLAB K1\nJMP K2\nEND\n");
   const std::string head =

@@ -69,7 +69,7 @@ class Qt5SerialBus : public testing::TestWithParam<QtSetup> {
   const std::string build_ = std::string(BUILD_FOLDER) + "/qt5_serialbus_host";
 };
 
-TEST_P(Qt5SerialBus, ExchangesAndIsToldWhatIsRefused) {
+TEST_P(Qt5SerialBus, ExchangesAndLearnsWhatIsRefused) {
   const RunningUnderstudy daemon({"--baud", std::to_string(GetParam().baud)});
   for (int opening = 1; opening <= 3; ++opening) {
     expect(daemon, {{"1/read/0x0001/1", "49153"},

@@ -120,7 +120,7 @@ TEST(HostThatReopensAtOnce, IsKnownByItsOwnSettings) {
   EXPECT_EQ(daemon.errors(), "") << "every host has set its speed";
 }
 
-TEST(HostThatReopensAtOnce, IsNotHeardAtAnotherSpeed) {
+TEST(HostThatReopensAtOnce, IsNotReceivedAtAnotherSpeed) {
   const RunningUnderstudy daemon({"--baud", "115200"});
   const OnTwoProcessors pinned(daemon.process().pid());
   constexpr int kTimes = 40;

@@ -49,7 +49,7 @@ TEST_F(RecordedDay, RunsAgainInFreeTime) {
   EXPECT_NE(finished.output.find(": the same: "), std::string::npos) << finished.output;
 }
 
-TEST_F(RecordedDay, TellsTheFirstByteThatDiffers) {
+TEST_F(RecordedDay, ReportsTheFirstByteThatDiffers) {
   std::string day = text();
   // The host requests 3201 pulses: 0C81 hex instead of 0C80. The request's checksum is then wrong, so no
   // station replies.
@@ -62,7 +62,7 @@ TEST_F(RecordedDay, TellsTheFirstByteThatDiffers) {
   EXPECT_NE(finished.errors.find(": differs: "), std::string::npos) << finished.errors;
 }
 
-TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
+TEST_F(RecordedDay, StopsWhereRequestedAndCanBeInspected) {
   // Somewhere in the middle of the move, which starts with the reply to its start at the latest.
   const std::string control = folder_ / "control";
   Process replay({UNDERSTUDY_BINARY, "replay", recording_, "--until", "200ms", "--control", control});

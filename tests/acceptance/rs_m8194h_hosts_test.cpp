@@ -72,7 +72,7 @@ TEST(RsM8194hHosts, LibmodbusReadsAndWritesEveryTable) {
   EXPECT_EQ(daemon->errors(), "");
 }
 
-TEST(RsM8194hHosts, LibmodbusIsToldAndCarriesOn) {
+TEST(RsM8194hHosts, LibmodbusLearnsOfItAndCarriesOn) {
   const auto daemon = serve();
   ModbusHost host(daemon->port(), kAsItComes);
   struct Case {
@@ -118,7 +118,7 @@ TEST(RsM8194hHosts, LibmodbusMovesStopsAndCallsAMacro) {
   EXPECT_EQ(daemon->errors(), "");
 }
 
-TEST(RsM8194hHosts, ToEverybodyIsObeyedInSilence) {
+TEST(RsM8194hHosts, BroadcastsAreExecutedInSilence) {
   const auto daemon = serve();
   ModbusHost host(daemon->port(),
                   {.baud = 115200, .parity = 'N', .station = 0, .patience = std::chrono::milliseconds(300)});
@@ -196,7 +196,7 @@ TEST_F(RsM8194hMbpoll, ReadsAndWritesItsFourTypes) {
   EXPECT_EQ(daemon_->errors(), "");
 }
 
-TEST_F(RsM8194hMbpoll, IsToldWhyARequestIsRefused) {
+TEST_F(RsM8194hMbpoll, LearnsWhyARequestIsRefused) {
   for (const auto& [type, address] :
        {std::pair{"0", 132}, std::pair{"1", 388}, std::pair{"3", 170}, std::pair{"4", kLpX}}) {
     const Finished finished = run(command(type, address, {"-1"}));

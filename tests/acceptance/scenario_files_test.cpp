@@ -30,7 +30,7 @@ TEST(ScenarioFiles, AreCheckedWithoutBeingRun) {
                 ": steps to include; they are checked with the scenarios that include them\n");
 }
 
-TEST(ScenarioFiles, ABadOneIsToldOfWithItsLine) {
+TEST(ScenarioFiles, ABadOneIsReportedWithItsLine) {
   const PrivateFolder folder;
   folder.write("rest.yaml", kRest);
   std::string text = kScenario;

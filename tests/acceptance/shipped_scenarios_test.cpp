@@ -258,7 +258,7 @@ TEST(ShippedScenarios, AreReplayedFromTheirRecordings) {
   EXPECT_GE(replayed, static_cast<int>(10 * files.size()));
 }
 
-TEST(ShippedScenarios, AHashTellsWhenSomethingIsDifferent) {
+TEST(ShippedScenarios, AHashShowsWhenSomethingIsDifferent) {
   const PrivateFolder folder;
   const auto hash_of = [&](const std::string& speed) {
     const std::string path = folder.write(
@@ -416,7 +416,7 @@ TEST(RunRecordings, OneOfAFailureIsKeptAndRunsAgain) {
   }
 }
 
-TEST(RunRecordings, AFolderThatCannotBeHadIsToldBeforeAnythingIsPlayed) {
+TEST(RunRecordings, AFolderThatIsNotAvailableIsReportedFirst) {
   const PrivateFolder folder;
   const std::string file = folder.write("fails.yaml", kFails);
   const Finished finished = understudy({"run", file, "--record", file + "/in"});

@@ -51,7 +51,7 @@ class SizeLimits : public testing::Test {
   PrivateFolder folder_;
 };
 
-TEST_F(SizeLimits, AreToldByEveryCommandThatWrites) {
+TEST_F(SizeLimits, AreReportedByEveryCommandThatWrites) {
   struct Case {
     int kilobytes;
     Words words;

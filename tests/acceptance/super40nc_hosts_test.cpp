@@ -106,7 +106,7 @@ TEST(Super40ncHosts, LibmodbusIsServedAtAnother) {
   EXPECT_EQ(host.read_long(kD9000), 0);
 }
 
-TEST(Super40ncHosts, ToEverybodyIsObeyedInSilence) {
+TEST(Super40ncHosts, BroadcastsAreExecutedInSilence) {
   const auto daemon = serve(5);
   ModbusHost host(pc_port(*daemon), {.station = 0, .patience = std::chrono::milliseconds(300)});
   EXPECT_FALSE(host.write(kD53, 1234));
@@ -181,7 +181,7 @@ TEST_F(Super40ncMbpoll, ReadsAndWritesItsThreeTypes) {
   EXPECT_EQ(daemon_->errors(), "");
 }
 
-TEST_F(Super40ncMbpoll, IsToldWhyARequestIsRefused) {
+TEST_F(Super40ncMbpoll, LearnsWhyARequestIsRefused) {
   for (const auto& [type, address, why] :
        {std::tuple{"3", kD0, "Illegal function"}, std::tuple{"4", kHole, "Illegal data address"},
         std::tuple{"0", 32, "Illegal data address"}, std::tuple{"1", 48, "Illegal data address"}}) {

@@ -114,7 +114,7 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
   }
 }
 
-TEST(TcpDoor, ListensWhereItIsToldByNameAndByIpv6) {
+TEST(TcpDoor, ListensAtAGivenNameOrIpv6Address) {
   for (const char* host : {"localhost", "[::1]"}) {
     const std::string port = std::to_string(free_port());
     const RunningUnderstudy served({"--listen", "rtu://" + std::string(host) + ":" + port});

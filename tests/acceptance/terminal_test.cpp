@@ -35,7 +35,7 @@ TEST_F(Terminal, NothingIsColouredElsewhereOrWhereItIsUnwanted) {
   }
 }
 
-TEST_F(Terminal, ALongRunTellsHowFarItHasCome) {
+TEST_F(Terminal, ALongRunReportsHowFarItHasCome) {
   // In real time, so that it takes as long on every machine.
   const Words run{"run", "--real-time", "--jobs", "1", scenario("  - advance: 3s\n")};
   Words command{UNDERSTUDY_BINARY};
@@ -48,7 +48,7 @@ TEST_F(Terminal, ALongRunTellsHowFarItHasCome) {
   EXPECT_EQ(understudy(run).output.find("played"), std::string::npos) << "no terminal";
 }
 
-TEST_F(Terminal, FramesGoOnUntilCtrlC) {
+TEST_F(Terminal, FramesContinueUntilCtrlC) {
   const RunningUnderstudy daemon;
   AtTerminal frames({UNDERSTUDY_BINARY, "ctl", "--control", daemon.control(), "frames"});
   for (int speed : {7, 8}) {

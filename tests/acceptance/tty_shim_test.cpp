@@ -263,7 +263,7 @@ TEST(TtyShimWithLibmodbus, HasRs485ModeAndRts) {
   EXPECT_EQ(with.output, "0 1\n0\n1 49153\n");
 }
 
-TEST(TtyShimHint, IsToldToPersonsWhoseLineHasParity) {
+TEST(TtyShimHint, IsShownToPeopleWhoseLineHasParity) {
   struct Case {
     std::string model;
     bool is_told;

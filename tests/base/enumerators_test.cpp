@@ -15,7 +15,7 @@ namespace {
 enum class Hidden : std::uint8_t { first, second };
 }  // namespace
 
-TEST(Enumerators, AreToldFromNumbersWithoutAName) {
+TEST(Enumerators, AreDistinguishedFromNumbersWithoutAName) {
   static_assert(has_name<Colour::red>() && has_name<Colour::green>());
   static_assert(has_name<static_cast<Colour>(1)>() && !has_name<static_cast<Colour>(2)>());
   static_assert(!is_last<Colour::red>() && is_last<Colour::green>());

@@ -28,7 +28,7 @@ class Notes final : public ProgramWatch {
   char name_;
 };
 
-TEST(ProgramWatches, TellEachOfThemEverythingInOrder) {
+TEST(ProgramWatches, NotifyEachOfThemOfEverythingInOrder) {
   std::string text;
   Notes first(text, 'a');
   Notes second(text, 'b');

@@ -107,7 +107,7 @@ TEST(AxisChange, BeforeTheFirstTickAMoveBeginsAtTheNewSpeed) {
   }
 }
 
-TEST(AxisChange, SeveralChangesInTheSameTickGoOnFromThere) {
+TEST(AxisChange, SeveralChangesInTheSameTickContinueFromThere) {
   AxisCourse course;
   course.axis.move(10'000, trapezoid(10'000, 100'000), 0);
   course.steps(501);

@@ -57,7 +57,7 @@ TEST(AxisEquivalence, PlayThatIsLeftOverIsForgottenByBoth) {
   expect_alike(AxisScenario(1600278233990034164));
 }
 
-TEST(AxisEquivalence, ACopyGoesOnAsItsOriginalDoes) {
+TEST(AxisEquivalence, ACopyContinuesAsItsOriginalDoes) {
   RandomMoves seeds(seed());
   for (int i = 0; i < random_cases(200); ++i) {
     AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));

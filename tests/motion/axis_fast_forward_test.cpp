@@ -4,7 +4,7 @@
 #include "tests/motion/axis_scenario.h"
 
 namespace understudy::motion {
-namespace axis_crossing_test {
+namespace axis_fast_forward_test {
 
 /// Equals `single` single ticks, in as few steps as possible.
 void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& skipped) {
@@ -21,7 +21,7 @@ void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& skipped
   }
 }
 
-TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
+TEST(AxisFastForward, IsTheSameStateAsSingleTicks) {
   RandomMoves seeds(seed() + 5);
   Tick skipped = 0;
   Tick stepped = 0;
@@ -51,7 +51,7 @@ TEST(AxisCrossing, IsTheSameStateAsSingleTicks) {
   EXPECT_GT(skipped, stepped / 2);
 }
 
-TEST(AxisCrossing, StaysWithinTheRangeItIsGiven) {
+TEST(AxisFastForward, StaysWithinTheRangeItIsGiven) {
   RandomMoves random(seed() + 6);
   for (int i = 0; i < random_cases(2000); ++i) {
     AxisCourse course;
@@ -75,7 +75,7 @@ TEST(AxisCrossing, StaysWithinTheRangeItIsGiven) {
   }
 }
 
-TEST(AxisCrossing, AnHourIsAFewSteps) {
+TEST(AxisFastForward, AnHourIsAFewSteps) {
   AxisCourse course;
   course.axis.move(3'600'000'000, trapezoid(1'000'000, 1e6), 0);
   int steps = 0;
@@ -93,7 +93,7 @@ TEST(AxisCrossing, AnHourIsAFewSteps) {
   EXPECT_EQ(course.now, 3'601'001);
 }
 
-TEST(AxisCrossing, OutsideItsRangeThereIsNone) {
+TEST(AxisFastForward, OutsideItsRangeThereIsNone) {
   AxisCourse course;
   course.axis.run(+1, constant(10'000), 0);
   for (int i = 0; i < 5; ++i) course.step();
@@ -106,7 +106,7 @@ TEST(AxisCrossing, OutsideItsRangeThereIsNone) {
   EXPECT_EQ(quiet_within(travel - 1000, travel - 1), course.now);
 }
 
-TEST(AxisCrossing, WhereEveryPulseIsLookedAtThereIsNone) {
+TEST(AxisFastForward, WhereEveryPulseIsLookedAtThereIsNone) {
   AxisCourse course;
   course.axis.settings.raises = bit(Event::pulse);
   course.axis.run(+1, constant(10'000), 0);
@@ -116,7 +116,7 @@ TEST(AxisCrossing, WhereEveryPulseIsLookedAtThereIsNone) {
   }
 }
 
-TEST(AxisCrossing, WhatIsCarriedEvenlyIsCarriedAtOnce) {
+TEST(AxisFastForward, WhatIsCarriedEvenlyIsCarriedAtOnce) {
   for (const std::int64_t pulses : {-7, 0, 12}) {
     AxisCourse bulk;
     bulk.environment.add(Signal::home, 5'000, 6'000);
@@ -131,5 +131,5 @@ TEST(AxisCrossing, WhatIsCarriedEvenlyIsCarriedAtOnce) {
   }
 }
 
-}  // namespace axis_crossing_test
+}  // namespace axis_fast_forward_test
 }  // namespace understudy::motion

@@ -197,7 +197,7 @@ TEST(AxisLimit, ASoftLimitIgnoredOrOutOfReachIsNoMatter) {
   }
 }
 
-TEST(AxisLimit, ASoftLimitSetBehindTheAxisStopsWhatGoesOn) {
+TEST(AxisLimit, ASoftLimitSetBehindTheAxisStopsTheMotion) {
   AxisCourse course;
   course.axis.run(+1, constant(10'000), 0);
   course.steps(101);

@@ -21,7 +21,7 @@ struct Running {
   }
 };
 
-TEST(AxisResume, AMoveGoesOnToItsTarget) {
+TEST(AxisResume, AMoveContinuesToItsTarget) {
   Running run;
   const SpeedLaw law = by_slope(1000, 1000);
   run.axis.move(4000, law, 0);
@@ -41,7 +41,7 @@ TEST(AxisResume, AMoveGoesOnToItsTarget) {
   EXPECT_EQ(run.axis.travel_pulses, 4000);
 }
 
-TEST(AxisResume, AnEndlessRunGoesOnAtAnotherSpeed) {
+TEST(AxisResume, AnEndlessRunContinuesAtAnotherSpeed) {
   Running run;
   run.axis.run(-1, by_slope(1000, 1000), 0);
   run.steps(1501);

@@ -82,7 +82,7 @@ TEST(ChangeTarget, ALoweredTopSpeedIsGoneDownToOnTheWay) {
                         0.5 + 0.5 + 0.25 + (75 - 12.5 - 6.25) / 50}});
 }
 
-TEST(ChangeTarget, SCurvesGoOnWithTheAccelerationTheyHave) {
+TEST(ChangeTarget, SCurvesContinueWithTheAccelerationTheyHave) {
   const SpeedLaw soft{.top_speed_u_s = 100, .up = RampLaw::by_jerk(100), .down = RampLaw::by_jerk(100)};
   const double up_u = 50.0 / 3;  // in the first second, to 50 u/s and 100 u/s^2
   const Sample rising{.position_u = up_u, .speed_u_s = 50, .acceleration_u_s2 = 100};

@@ -101,7 +101,7 @@ TEST(CoordinatedStop, SignalsThatAreNoneOfItsPlacesStopItToo) {
   }
 }
 
-TEST(CoordinatedStop, WhatOneAxisIsToldBetweenTicksEndsItForAll) {
+TEST(CoordinatedStop, AnEventOfOneAxisBetweenTicksEndsItForAll) {
   const std::pair<std::function<void(Axis&, Tick)>, Cause> kOrders[]{
       {[](Axis& axis, Tick) { axis.stop(); }, Cause::stopped},
       {[](Axis& axis, Tick now) { axis.slow_down(now); }, Cause::stopped},

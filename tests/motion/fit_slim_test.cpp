@@ -143,7 +143,7 @@ struct Pausing {
   }
 };
 
-TEST(FitSlim, TapzSlowsDownOnThePathAndTaredoGoesOnExactlyThere) {
+TEST(FitSlim, TapzSlowsDownOnThePathAndTaredoResumesThere) {
   for (const int at : {20, 380, 420, 900, 1300}) {  // within the first line, across its end, in the arc ...
     Pausing pausing;
     pausing.steps(at);

@@ -13,7 +13,7 @@ Super40ncHoming thorough(int mode) {
   return how;
 }
 
-TEST(HomingValue, ACopyGoesOnAsTheOriginal) {
+TEST(HomingValue, ACopyContinuesAsTheOriginal) {
   for (int mode = 0; mode <= 12; ++mode) {
     SCOPED_TRACE(mode);
     HomingBench original(super40nc_machine(), 0);

@@ -166,7 +166,7 @@ TEST(PathRunOpen, PausesAndResumesOnThePath) {
   EXPECT_TRUE(run.ran_dry());
 }
 
-TEST(PathRunOpen, IsAValueThatIsSavedAndGoesOn) {
+TEST(PathRunOpen, IsAValueThatIsSavedAndContinues) {
   PathRun run;
   run.set_speed(law(), 0);
   run.set_open(true, 0);

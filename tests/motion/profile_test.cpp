@@ -111,7 +111,7 @@ TEST(Profile, ItsEndIsWhatWasDeclaredNotWhatTheSegmentsSumUpTo) {
   EXPECT_EQ(profile.sample(profile.duration_s).position_u, 1.0);
 }
 
-TEST(Profile, AnInfiniteSegmentGoesOnForEver) {
+TEST(Profile, AnInfiniteSegmentNeverEnds) {
   Profile profile;
   profile.append(1, 0, 100, 0);
   profile.append(kForEver, 100, 0, 0);

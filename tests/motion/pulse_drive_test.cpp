@@ -128,7 +128,7 @@ TEST(PulseDrive, AfterStopThereIsNoPulse) {
   EXPECT_EQ(run(drive, 1526, 4000), 0);
 }
 
-TEST(PulseDrive, ANewMoveBeginsAnewFromStandstill) {
+TEST(PulseDrive, ANewMoveBeginsFromStandstill) {
   PulseDrive drive;
   drive.start(kManualExample.plan(), +1, 0);
   run(drive, 0, 1525);
@@ -252,7 +252,7 @@ TEST(PulseDrive, AnotherProfileNeitherLosesNorRepeatsAPulse) {
   }
 }
 
-TEST(PulseDrive, TellsTheTimeOfAPulseToAPicosecond) {
+TEST(PulseDrive, ReportsTheTimeOfAPulseToAPicosecond) {
   for (const double acceleration : {1e4, 1e5, 3.7e6}) {
     for (const double after_s : {0.0, 0.000'123'456}) {
       PulseDrive drive;

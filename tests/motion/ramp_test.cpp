@@ -134,7 +134,7 @@ TEST(RampChange, LawsWithoutJerkDropTheirAccelerationAtOnce) {
       {.min_u_s = 0, .max_u_s = 200});
 }
 
-TEST(RampChange, AJerkLawGoesOnWithTheAccelerationItHas) {
+TEST(RampChange, AJerkLawContinuesWithTheAccelerationItHas) {
   // The ramp from 0 to 100 by jerk 100 is half way, at 50 and with 100 u/s^2, after a second.
   const RampLaw law = RampLaw::by_jerk(100);
   expect_changes(

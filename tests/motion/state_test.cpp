@@ -49,7 +49,7 @@ TYPED_TEST(State, WhatIsRestoredIsWhatWasSaved) {
   EXPECT_NE(hash(restored), hash(TypeParam{}));
 }
 
-TYPED_TEST(State, InTheMidstOfMotionTheRestoredOneGoesOnTickByTickAlike) {
+TYPED_TEST(State, InMotionTheRestoredOneContinuesTickByTickAlike) {
   auto value = sample_of<TypeParam>();
   TypeParam restored;
   restore(restored, save(value));
@@ -99,7 +99,7 @@ TYPED_TEST(State, BytesThatEndTooEarlyAreRefused) {
   ASSERT_TRUE(refuses(value, std::span(bytes).first(bytes.size() - 1)));
 }
 
-TYPED_TEST(State, WhateverIsRestoredCanGoOn) {
+TYPED_TEST(State, WhateverIsRestoredCanContinue) {
   // Any bytes at all, and images with a few changed bytes: an accepted state either continues or reports
   // BadMotion.
   RandomMoves random(seed());

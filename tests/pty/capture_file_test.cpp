@@ -78,7 +78,7 @@ TEST_F(CaptureFileTest, RefusesWhatIsNoRegularFile) {
   EXPECT_EQ(refusal(folder_ / ""), (folder_ / "") + expected("directory"));
 }
 
-TEST_F(CaptureFileTest, SaysWhyAFileCannotBeHad) {
+TEST_F(CaptureFileTest, SaysWhyAFileIsNotAvailable) {
   EXPECT_EQ(refusal(folder_ / "none/a.txt"),
             (folder_ / "none/a.txt") + ": the capture cannot be written: No such file or directory");
 }

@@ -53,7 +53,7 @@ TEST(Pcapng, ARequestComesInAndAReplyGoesOut) {
   EXPECT_EQ(out.destination_port, in.source_port);
 }
 
-TEST(Pcapng, LinesAreToldApartByInterfaceAndByTheHostsPort) {
+TEST(Pcapng, LinesAreDistinguishedByInterfaceAndHostPort) {
   CapturedPacket second = packet(kRequest, Direction::from_host);
   second.line = 1;
   const PcapngPacket on_first = written_and_read(packet(kRequest, Direction::from_host));

@@ -74,7 +74,7 @@ TEST_P(LineDeparted, ItsSpeedHoldsForWhatItLeftBehind) {
   EXPECT_TRUE(slave_.served_at.empty());
 }
 
-TEST_P(LineDeparted, AStationThatSpeaksUnaskedLaterIsHeard) {
+TEST_P(LineDeparted, AStationThatSpeaksUnaskedLaterIsReceived) {
   FakeTalker talker;
   rig_.line.attach(talker);
   open(0s);

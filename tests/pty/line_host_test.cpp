@@ -67,7 +67,7 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
   }
 }
 
-TEST(LineHost, HearsASpeedWithinTheTolerance) {
+TEST(LineHost, ReceivesASpeedWithinTheTolerance) {
   struct Case {
     std::int64_t tolerance_ppm;
     int baud;
@@ -190,7 +190,7 @@ TEST(LineHost, WarnsAgainForTheNextHostOnly) {
   }
 }
 
-TEST(LineHost, HearsAHostThatSetNoSpeedAndWarnsOnce) {
+TEST(LineHost, ReceivesAHostThatSetNoSpeedAndWarnsOnce) {
   LineRig rig(kEnforcing);
   FakeSlave slave(1, kReply);
   rig.line.attach(slave);
@@ -202,7 +202,7 @@ TEST(LineHost, HearsAHostThatSetNoSpeedAndWarnsOnce) {
                 "line rs485: the host has not set a speed; its bytes are assumed to arrive intact"});
 }
 
-TEST(LineHost, HearsEveryHostWhereSettingsAreNotEnforced) {
+TEST(LineHost, ReceivesEveryHostWhereSettingsAreNotEnforced) {
   LineRig rig(kTolerating);
   FakeSlave slave(1, kReply);
   rig.line.attach(slave);
@@ -347,7 +347,7 @@ TEST(LineHost, AClosedHostGetsNothingMoreButIsServed) {
   EXPECT_EQ(rig.out, kReply);
 }
 
-TEST(LineHost, AHostThatWritesAndClosesIsHeardWithItsOwnSettings) {
+TEST(LineHost, AHostThatWritesAndClosesKeepsItsOwnSettings) {
   LineRig rig(kEnforcing);
   FakeSlave slave(1, kReply);
   rig.line.attach(slave);

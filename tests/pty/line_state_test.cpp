@@ -157,7 +157,7 @@ Outcome live(Rig& rig, const std::vector<Event>& events, std::size_t first) {
                       rig.first.framer.dropped_bytes(), rig.second.framer.dropped_bytes()}};
 }
 
-TEST(LineState, WhatIsRestoredGoesOnAsItDid) {
+TEST(LineState, WhatIsRestoredContinuesAsItDid) {
   int in_request = 0;
   int in_reply = 0;
   int ready = 0;

@@ -158,7 +158,7 @@ TEST(Line, AStrictStationSeesGapsShorterThanACharacter) {
 
 // --- several stations ----------------------------------------------------------------------------
 
-TEST(Line, EveryStationHearsTheHostAndNoneTheReply) {
+TEST(Line, EveryStationReceivesTheHostAndNoneTheReply) {
   LineRig rig(kQuietWire);
   FakeSlave one(1, kReply);
   FakeSlave two(2, kReply);

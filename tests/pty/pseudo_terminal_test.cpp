@@ -21,7 +21,7 @@ int unread_by_host(const Host& host) {
   return count;
 }
 
-TEST(PseudoTerminal, CarriesBytesBothWays) {
+TEST(PseudoTerminal, CarriesBytesInBothDirections) {
   PseudoTerminal port("");
   EXPECT_TRUE(port.path().starts_with("/dev/pts/")) << port.path();
   Host host(port.path());
@@ -47,7 +47,7 @@ TEST(PseudoTerminal, NeverBlocks) {
   EXPECT_EQ(host.read(1000).size(), 1000u);
 }
 
-TEST(PseudoTerminal, TellsWhoComesAndGoes) {
+TEST(PseudoTerminal, ReportsWhoComesAndGoes) {
   WatchedTerminal terminal;
   PseudoTerminal& port = terminal.port;
   EXPECT_FALSE(port.host_present());

@@ -94,7 +94,7 @@ std::vector<Lump> lumps() {
   };
 }
 
-TEST(ReceiveError, IsToldOnceForALump) {
+TEST(ReceiveError, IsReportedOnceForALump) {
   for (const auto& [what, sent, strict, tolerant] : lumps()) {
     Receiver by_silence(kStrict);
     Receiver by_length(kTolerant);

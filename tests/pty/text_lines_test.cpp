@@ -126,7 +126,7 @@ TEST(TextLines, WhatIsForgottenIsInNoLine) {
   EXPECT_EQ(lines.push({.value = '\r'}, {}).received->text, "B");
 }
 
-TEST(TextLines, GoesOnFromItsStateAsItDid) {
+TEST(TextLines, ContinuesFromItsStateAsItDid) {
   const std::string characters = "A\r\nBCDEFG\rH\x1BI\bJ\r\n\nK";
   const TextLineRules rules{.longest = 5, .echoes = true};
   TextLines lines;

@@ -48,7 +48,7 @@ const std::vector<Case> kCases = {
     {"precious\n", Kind::other},
 };
 
-TEST(ContentKind, IsToldByHowAFileBegins) {
+TEST(ContentKind, IsRecognizedByHowAFileBegins) {
   for (const Case& c : kCases) EXPECT_EQ(name_of(content_of(c.head)), name_of(c.kind)) << c.head;
 }
 

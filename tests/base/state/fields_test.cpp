@@ -179,7 +179,7 @@ TEST(Fields, WhatNoValueCanBeIsRefused) {
   EXPECT_EQ(refusal_of(bytes_of(dark)), "a lamp must not be darker than dark");
 }
 
-TEST(Difference, IsToldByTheNamesOfTheFields) {
+TEST(Difference, IsReportedByTheNamesOfTheFields) {
   struct Case {
     void (*change)(Panel& panel);
     const char* told;

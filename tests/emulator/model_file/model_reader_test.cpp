@@ -353,7 +353,7 @@ TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
                                           " is a bench; expected a list of registers (CSV)");
 }
 
-TEST(ModelFiles, InsideABenchAreToldAtTheirLines) {
+TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
   const auto told = [](const std::string& model) {
     try {
       world::parse_bench(with_described(),

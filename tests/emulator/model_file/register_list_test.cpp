@@ -110,7 +110,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(diagnostic_about_list(wrong.list), wrong.diagnostic) << wrong.list;
 }
 
-TEST(RegisterList, TellsAllThatIsWrongAtOnce) {
+TEST(RegisterList, ReportsAllErrorsAtOnce) {
   EXPECT_EQ(diagnostic_about_list("address,name,access,default\nx,A,R,0\n1,B,Q,y\n2,C,R,0\n"),
             "l.csv:2:1: address: 'x' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF\n"
             "l.csv:3:5: access: 'Q' is unknown; expected R, W or R/W\n"

@@ -249,7 +249,7 @@ TEST(BadRequests, EveryFunctionHasEveryFaultThatItCanHave) {
   for (std::size_t i = 0; i < had.size(); ++i) EXPECT_EQ(had[i], possible[i]) << "fault " << i;
 }
 
-TEST(BadRequests, AFunctionThatIsNotServedIsHeardOfToo) {
+TEST(BadRequests, AFunctionThatIsNotServedIsReportedToo) {
   for (const char* request : {"08 00 00 12 34", "17 00 00 00 01 00 00 00 01 02 00 00", "7F", "2B 0E 01 00"}) {
     OneStation rig(true);
     const auto function = static_cast<std::uint8_t>(world::hex(request)[0]);

@@ -82,7 +82,7 @@ TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
   EXPECT_EQ(blocks_of(world).find("recipes", "00"), nullptr);
 }
 
-TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
+TEST(KeptBlocks, AFileThatTheDeviceRefusesIsReportedWithItsLine) {
   const Folder folder;
   std::ofstream(folder.path("it.json"))
       << "{\"understudy\": 1, \"kind\": \"nv-image\", \"model\": \"workbench\", \"firmware\": \"1.00\",\n"
@@ -98,7 +98,7 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
 }
 
 /// All of them, each in its place.
-TEST(KeptBlocks, ThoseOfABenchAreToldWithTheirLines) {
+TEST(KeptBlocks, ThoseOfABenchAreReportedWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
       "        nv:\n          files:\n            \"07\": good\n            \"B\": no number\n"
@@ -208,7 +208,7 @@ TEST(Ports, ACaptureNamesThemBesideTheLine) {
 }
 
 // A command has its name next to its bytes.
-TEST(Ports, ACaptureTellsCommandsByTheirNames) {
+TEST(Ports, ACaptureNamesCommands) {
   const Folder folder;
   for (const char* name : {"a.pcapng", "a.txt"}) {
     {

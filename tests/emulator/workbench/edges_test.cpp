@@ -153,7 +153,7 @@ TEST(Edges, HomingByModesEndsOnThePulse) {
   }
 }
 
-TEST(Edges, AreToldOnlyWhenTheMachineChanges) {
+TEST(Edges, AreReportedOnlyWhenTheMachineChanges) {
   Rig rig({.position = 2000});
   const std::uint32_t told = rig.environment(0).version;
   rig.axis(0).move(-800, law(1000), rig.device().now());
@@ -265,7 +265,7 @@ TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
 }
 
 /// A controller's count may change at any moment, for example when it is told that a motor is reversed.
-TEST(Edges, FollowAxesThatAllCountAnew) {
+TEST(Edges, FollowAxesThatAllCountAgain) {
   Rig rig({.position = 2000});
   Rig as_before({.position = 2000});
   rig.world.set_bulk_ticks(false);

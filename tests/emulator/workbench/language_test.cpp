@@ -164,7 +164,7 @@ std::string bench_text(const std::string& more) {
          " }\n";
 }
 
-TEST(Languages, ABenchTellsAllMistakesWhereTheFileHasThem) {
+TEST(Languages, ABenchReportsAllMistakesWhereTheFileHasThem) {
   const Folder folder;
   const std::string file = folder.write("wrong.wb", kWrong[1].text);
   try {
@@ -183,7 +183,7 @@ std::string scenario_text(const std::string& steps) {
          steps;
 }
 
-TEST(Languages, AScenarioLoadsAProgramAndTellsAllMistakes) {
+TEST(Languages, AScenarioLoadsAProgramAndReportsAllMistakes) {
   const Folder folder;
   folder.write("wrong.wb", kWrong[1].text);
   const auto diagnostic = [&](const std::string& steps) -> std::string {
@@ -263,7 +263,7 @@ struct Served {
   serve::Daemon daemon;
 };
 
-TEST(Languages, TheControlSocketLoadsListsAndTellsAllMistakes) {
+TEST(Languages, TheControlSocketLoadsListsAndReportsAllMistakes) {
   Served served;
   EXPECT_EQ(served.ask({{"do", "program"}, {"device", "it"}, {"text", kGood}}), (Json{{"ok", true}}));
   const Json listed{{"ok", true}, {"text", kListed}};

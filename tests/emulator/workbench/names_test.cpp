@@ -144,7 +144,7 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
   }
 }
 
-TEST(Describe, TellsTablesRealsAndFields) {
+TEST(Describe, ShowsTablesRealsAndFields) {
   const auto sheet = describe(model(), "registers", SheetFormat::csv);
   ASSERT_TRUE(sheet);
   const auto row_of = [&](const std::string& table, const std::string& name) {

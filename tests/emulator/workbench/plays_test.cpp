@@ -231,7 +231,7 @@ TEST(Plays, WhatCannotBeWrittenIsAnErrorOfTheFile) {
   }
 }
 
-TEST(Plays, WhatDiffersIsTold) {
+TEST(Plays, DifferencesAreReported) {
   const auto result =
       run_scenario(parsed("  - expect: { it.Gain_X: 1.6, it.Output_4: 1, it.Speed_X: 100 }\n").front());
   ASSERT_TRUE(result.front().failure);

@@ -201,7 +201,7 @@ TEST(TwoHosts, AreRecordedAndPlayedAgain) {
   }
 }
 
-TEST(TwoHosts, GoOnFromASnapshotInAnotherWorld) {
+TEST(TwoHosts, ContinueFromASnapshotInAnotherWorld) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     BusyHosts busy(seed);
     busy.play(100);

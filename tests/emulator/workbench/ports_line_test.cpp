@@ -94,7 +94,7 @@ TEST(PortsOnLines, DoNotChangeAReplyOnItsWay) {
   EXPECT_EQ(two.ask(kHmi, "01 03 00 64 00 03"), "01 03 06 22 22 22 22 22 22");
 }
 
-TEST(PortsOnLines, TellReceiveErrorsByPort) {
+TEST(PortsOnLines, ReportReceiveErrorsByPort) {
   const Bytes wrong = [] {
     Bytes bytes = frame_of("01 03 00 64 00 01");
     bytes.back() ^= 1;
@@ -129,7 +129,7 @@ TEST(PortsOnLines, TellReceiveErrorsByPort) {
   }
 }
 
-TEST(PortsOnLines, TellNothingWithoutPowerOrForOthers) {
+TEST(PortsOnLines, ReportNothingWithoutPowerOrForOthers) {
   TwoLines two;
   two.world.switch_power(0, false);
   two.world.receive(kPc, world::hex("01 03 00"));
@@ -260,7 +260,7 @@ TEST(FaultOfALine, ThatSpoilsARequestIsAReceiveErrorThere) {
 
 // --- observers -----------------------------------------------------------------------------------
 
-TEST(PortsOnLines, AreToldApartAmongTheFrames) {
+TEST(PortsOnLines, AreDistinguishedAmongTheFrames) {
   TwoLines two;
   world::FrameLog log(two.world);
   two.ask(kPc, "01 06 00 64 00 01");

@@ -73,7 +73,7 @@ TEST(Via, ChoosesThePortInRealTimeToo) {
   EXPECT_EQ(failure_of(kBothLines, {.make_executor = play::make_real_executor}), "");
 }
 
-TEST(Via, IsToldInTheStepAndItsFailure) {
+TEST(Via, IsReportedInTheStepAndItsFailure) {
   EXPECT_EQ(read("  - write: { mill.D0: 5 }\n    via: hmi\n").front().steps.front().text,
             "write mill.D0=5 via hmi");
   EXPECT_EQ(

@@ -105,7 +105,7 @@ TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
             "holding.Position_X cannot be written now; the device refuses it (exception 4)");
 }
 
-TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
+TEST(ServedNames, WhatCannotBeSetIsReportedInALine) {
   Served served;
   const std::tuple<const char*, Json, const char*> cases[] = {
       {"Gain_Z", 10.5, "Gain_Z: 10.5 is out of range; expected 0 to 10"},
@@ -201,7 +201,7 @@ TEST(ServedNames, FramesTellInputRegistersByTheirNames) {
   EXPECT_EQ(world::modbus_request_text(stations, frame("01 03 00 08 00 01")), "read 0x0008 it.Offset");
 }
 
-TEST(ServedNames, FramesOfAllFunctionsAreToldInWords) {
+TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
   Served served;
   const auto frame = [](std::string_view bytes) {
     world::Bytes made = world::hex(bytes);

@@ -75,7 +75,7 @@ TEST(WindowNames, TheSameInRealTimeWithLibmodbus) {
   EXPECT_EQ(failure_of(kCommands, options), "");
 }
 
-TEST(WindowNames, AFailedCommandIsToldByItsName) {
+TEST(WindowNames, AFailedCommandIsReportedByItsName) {
   const std::string text =
       failure_of("  - write: { mill.Absent: 1 }\n  - command: { mill: MOVE X 5 }\n    via: pc\n");
   EXPECT_NE(text.find("command mill: MOVE X 5 on line pc: exception 4 (device failure); expected success"),
@@ -127,7 +127,7 @@ TEST(WindowNames, AMessageAndItsTextMeanTheSame) {
   EXPECT_EQ(window_message(model(), "MOVE Y 1000", {.firmware = 100}).words, high_first);
 }
 
-TEST(WindowNames, FramesAreToldByThem) {
+TEST(WindowNames, FramesAreDescribedWithThem) {
   world::World world(
       world::parse_bench(kWorkbenchModels,
                          "understudy: 1\nlines:\n  rs485: { timing: instant, stations: [ { name: "

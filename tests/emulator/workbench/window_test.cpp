@@ -70,7 +70,7 @@ TEST(Refusals, AFullFifoIsBusyAndAnAbsentModuleFails) {
   EXPECT_EQ(rig.ask("03 00 00 00 01"), "03 02 00 64") << "the module's own checks follow";
 }
 
-TEST(Refusals, TheDeviceHearsOfEachThatIsAnswered) {
+TEST(Refusals, TheDeviceLearnsOfEachThatIsAnswered) {
   struct Case {
     const char* request;
     Cause cause;

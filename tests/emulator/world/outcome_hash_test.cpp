@@ -72,7 +72,7 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
 
 /// Two hosts send the same at the same time, and nothing replies: one is received, the other has different
 /// line settings.
-TEST(OutcomeHash, DiffersWithWhatWasHeard) {
+TEST(OutcomeHash, DiffersWithWhatWasReceived) {
   const auto of_host = [](int stop_bits) {
     World world(parse_bench(models::all_models(),
                             "understudy: 1\nlines: { a: { stations: [ { name: x, model: simple2-r3 } ] } }\n",

@@ -266,7 +266,7 @@ TEST(ServoDrive, AnAlarmOutlivesThePowerOfTheController) {
   EXPECT_FALSE(servos.alarm('A'));
 }
 
-TEST(Stall, ShowsAsAnEncoderThatStandsWhileTheCoordinateGoesOn) {
+TEST(Stall, ShowsAsAnEncoderThatStopsWhileTheCoordinateMoves) {
   Servos servos({.ready_after = 0});
   servos.set("Aaxis_SVON", 1);
   servos.set("ENCA_Resoultion", 1000);

@@ -22,7 +22,7 @@ models::simple2_r3::State& state_of(World& world, std::size_t device) {
   return dynamic_cast<models::simple2_r3::Simple2R3&>(world.device(device)).state();
 }
 
-TEST(SnapshotDifference, IsToldByPathAndName) {
+TEST(SnapshotDifference, IsReportedByPathAndName) {
   struct Case {
     std::string told;
     std::function<void(World& world)> change;
@@ -71,7 +71,7 @@ TEST(SnapshotDifference, IsToldByPathAndName) {
   }
 }
 
-TEST(SnapshotDifference, OfMachinesIsToldByTheirAxes) {
+TEST(SnapshotDifference, OfMachinesIsReportedByTheirAxes) {
   World one = make_world("wire");
   World other = make_world("wire");
   const auto push = [](World& world, const std::string& pulses) {

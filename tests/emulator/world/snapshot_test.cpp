@@ -134,7 +134,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
   }
 }
 
-TEST(Snapshot, AWorldThatIsRestoredGoesOnAsItDid) {
+TEST(Snapshot, AWorldThatIsRestoredContinuesAsItDid) {
   std::cout << "seed " << seed() << "\n";
   Moments moments;
   for (std::uint64_t i = 0; i < 8 && !testing::Test::HasFatalFailure(); ++i) {
@@ -305,7 +305,7 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
   EXPECT_EQ(save(alone), of_alone);
 }
 
-TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
+TEST(Snapshot, IsRefusedWhereALineReceivesItsHostDifferently) {
   const Bench bench =
       parse_bench(models::all_models(),
                   "understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",

@@ -204,7 +204,7 @@ TEST(World, TwoDevicesOnALineAnswerEachForItself) {
   }
 }
 
-TEST(World, ABroadcastIsObeyedByBothInSilence) {
+TEST(World, ABroadcastIsExecutedByBothInSilence) {
   World world = make_world("wire", 19'200);
   world.receive(0, write_request(0, 0x1013, 1));  // ALL_SVON
   world.advance_to(20ms);

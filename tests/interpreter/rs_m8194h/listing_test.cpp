@@ -107,7 +107,7 @@ TEST(RsM8194hListing, ErrorsHaveTheirPlaces) {
   for (const auto& [text, error] : kCases) EXPECT_EQ(errors_of(text), std::vector{error}) << text;
 }
 
-TEST(RsM8194hListing, AllErrorsAreTold) {
+TEST(RsM8194hListing, AllErrorsAreReported) {
   EXPECT_EQ(errors_of("MP 1\nRSM_X\nRSM_MACRO_TIMER\nMP 0\nTRIGGER 1.1 on pause").size(), 4U);
   std::string text = "MP 1\n";
   for (int i = 0; i < 9; ++i) text += "RSM_MACRO_SET_VAR VAR1 1\n";
@@ -115,7 +115,7 @@ TEST(RsM8194hListing, AllErrorsAreTold) {
             std::vector<std::string>{"10:1: RSM_MACRO_SET_VAR: more lines than this macro has room for"});
 }
 
-TEST(RsM8194hListing, TheFirstErrorOfAMacroIsToldWhicheverCounts) {
+TEST(RsM8194hListing, TheFirstErrorOfAMacroIsReportedWhicheverCounts) {
   struct Case {
     std::string lines;
     std::string error;

@@ -340,7 +340,7 @@ TEST(RsM8194hRun, EachWaitForAChangeWantsOneOfItsOwn) {
   EXPECT_EQ(bench.machine.log.back(), "9 end");
 }
 
-TEST(RsM8194hRun, RestIsCrossedAtOnce) {
+TEST(RsM8194hRun, RestIsSkippedAtOnce) {
   Bench bench(mp(1, "TIMER 1000|DRV_HOLD X|STOP_WAIT X"));
   EXPECT_EQ(next_active_ms(bench.execution, 0), kNever);
   bench.start();
@@ -354,7 +354,7 @@ TEST(RsM8194hRun, RestIsCrossedAtOnce) {
   EXPECT_EQ(next_active_ms(bench.execution, 1001), 1002);
 }
 
-TEST(RsM8194hRun, PausedNoMpGoesOnButItsTimersDo) {
+TEST(RsM8194hRun, PausedNoMpContinuesButItsTimersDo) {
   Bench bench(mp(1, "TIMER 2|DRV_HOLD X") + isr(1, "DRV_HOLD U"));
   bench.start();
   bench.run(1);
@@ -448,7 +448,7 @@ TEST(RsM8194hRun, WhereAMacroIsReplacedItEnds) {
 
 // --- state ---------------------------------------------------------------------------------------
 
-TEST(RsM8194hRun, GoesOnFromItsBytes) {
+TEST(RsM8194hRun, ContinuesFromItsBytes) {
   const std::string text = mp(151,
                               "SET_VAR VAR0 3|FOR 3|FOR VAR0|MP_CALL 152|TIMER 1|NEXT|GET_EP X|FRNET_WAIT 9 "
                               "1 0 3|NEXT|STOP_WAIT X") +

@@ -144,7 +144,7 @@ TEST(RsM8194hText, ErrorsHaveAPlaceAndWhatIsExpected) {
             "1:18: parameter ldata: '99999999999' does not fit; expected -2147483648 to 2147483647");
 }
 
-TEST(RsM8194hText, WhatAChoiceRefusesIsToldAsThat) {
+TEST(RsM8194hText, WhatAChoiceRefusesIsReportedAsThat) {
   struct Case {
     const char* text;
     CommandOptions options;

@@ -55,7 +55,7 @@ TEST(Simple2ListingError, NamesTheNearestInstruction) {
   });
 }
 
-TEST(Simple2ListingError, TellsWhatAnOperandMayBe) {
+TEST(Simple2ListingError, ReportsWhatAnOperandMayBe) {
   expect_messages({
       {"Wait_IO DIN_11 ON", "1:9: operand 1: 'DIN_11' does not exist; expected DIN_0 to DIN_10"},
       {"Wait_IO 11 ON", "1:9: operand 1: 11 is out of range; expected DIN_0 to DIN_10"},
@@ -84,7 +84,7 @@ TEST(Simple2ListingError, TellsWhatAnOperandMayBe) {
   });
 }
 
-TEST(Simple2ListingError, TellsHowManyOperandsThereAre) {
+TEST(Simple2ListingError, ReportsHowManyOperandsThereAre) {
   expect_messages({
       {"Loop JMP1", std::string("1:1: operands: Loop has 1; expected 2: ") + kFlag + ", then 0 to 255"},
       {"Out DOUT_1 ON 5", "1:15: operands: Out has 3; expected 2: DOUT_0 to DOUT_6, then ON or OFF"},

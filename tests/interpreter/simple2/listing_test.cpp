@@ -136,7 +136,7 @@ TEST(Simple2Listing, LetsSeveralLabelsStandBeforeOneLine) {
   EXPECT_EQ(lines_of("a: .line 0 1 2 9\nJump a"), lines_from({{0, 1, 2, 9}, {3, 9, 0, 0}}));
 }
 
-TEST(Simple2Listing, GoesOnWhereItIsTold) {
+TEST(Simple2Listing, ContinuesWhereRequested) {
   Lines lines{};
   lines[255] = {0xFF, 0, 0, 0};
   lines[3] = {0x03, 1, 0, 0};

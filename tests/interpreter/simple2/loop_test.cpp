@@ -73,7 +73,7 @@ TEST(Simple2Loop, CanFollowAnother) {
   EXPECT_EQ(run.machine.parameters[1], 4);
 }
 
-TEST(Simple2Loop, StartsAnewWhenItIsMetAgainAfterItsEnd) {
+TEST(Simple2Loop, RestartsWhenItIsReachedAgainAfterItsEnd) {
   // 0: MEM0++ (flag 1); 1: Loop 1 x3; 2: MEM1++; 3: MEM1 < 2? then 4: Jump 1; else 5: END
   ProgramRun run(program_of({{0x6B, 0, 0, 1},
                              {0x04, 1, 3, 0},
@@ -195,7 +195,7 @@ TEST(Simple2Loop, LeftForALineBeforeItForgetsItsCount) {
   EXPECT_EQ(passes_with_a_way_back(Dialect::LoopLeft::remembered), 2 + 2);
 }
 
-TEST(Simple2Loop, ThatRemembersStartsAnewAfterItsEndAsWell) {
+TEST(Simple2Loop, ThatRemembersRestartsAfterItsEndAsWell) {
   // 0 (flag 1): MEM0++; 1: Loop 1 x3; 2: MEM1++; 3: MEM1 < 2? then 4: Jump 1; else 5: END
   ProgramRun run(program_of({{0x6B, 0, 0, 1},
                              {0x04, 1, 3, 0},

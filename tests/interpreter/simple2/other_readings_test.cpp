@@ -132,7 +132,7 @@ ProgramRun waiting_run(const Line& line, Dialect::RewrittenLine reading) {
   return run;
 }
 
-TEST(Simple2OtherReadings, ARewrittenLineIsReadAnewOrWaitsOn) {
+TEST(Simple2OtherReadings, ARewrittenLineIsReadAgainOrWaitsOn) {
   using enum Dialect::RewrittenLine;
   for (const Line& line : kWaitingLines) {
     for (const auto reading : {reread, waits_on}) {

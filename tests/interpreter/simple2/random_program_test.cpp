@@ -81,7 +81,7 @@ TEST(Simple2RandomProgram, NeverLeavesItsLinesAndExecutesOneASlotAtMost) {
   }
 }
 
-TEST(Simple2RandomProgram, GoesOnTheSameFromACopyInTheMiddle) {
+TEST(Simple2RandomProgram, ContinuesTheSameFromACopyInTheMiddle) {
   Random random(7);
   for (int count = 0; count < kPrograms; ++count) {
     ProgramRun run = random_run(random);

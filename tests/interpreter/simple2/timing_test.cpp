@@ -152,7 +152,7 @@ TEST(Simple2Timing, ASkipOrADelayOutOfTheLastLineEndsTheProgram) {
   EXPECT_EQ(delay.execution.ending, Ending::past_last_line);
 }
 
-TEST(Simple2Timing, AProgramMayAlsoGoOnAtLine0) {
+TEST(Simple2Timing, AProgramMayAlsoContinueAtLine0) {
   Lines lines{};
   lines[254] = {0x90, 5, 1, 0};
   ProgramRun run(Program(lines), 254);
@@ -165,7 +165,7 @@ TEST(Simple2Timing, AProgramMayAlsoGoOnAtLine0) {
   EXPECT_EQ(run.execution.now_line, 0);
 }
 
-TEST(Simple2Timing, StartBeginsAnewWhateverGoesOn) {
+TEST(Simple2Timing, StartRestartsWhateverIsRunning) {
   ProgramRun run(program_of({{0x02, 0xFF, 0xFF, 0}, {0x05, 0, 1, 0}}));
   run.until(100);
   start(run.execution, 1);

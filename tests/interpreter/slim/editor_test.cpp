@@ -116,7 +116,7 @@ TEST(SlimEditor, AThousandLinesFit) {
   EXPECT_EQ(rig.program.line(999).text, "RET");
 }
 
-TEST(SlimEditor, TellsTheNextLinesNumber) {
+TEST(SlimEditor, ReportsTheNextLinesNumber) {
   EditRig rig;
   EXPECT_EQ(next_line_number(rig.editor, rig.program), std::nullopt);
   rig.give_all({"PG", "DN"});

@@ -23,7 +23,7 @@ TEST(SlimEvents, InterruptAWaitForTimeWhichBeginsAgain) {
   EXPECT_EQ(run.machine.log, (Log{"50 ISET P4", "152 SET P1"}));
 }
 
-TEST(SlimEvents, InterruptAWaitForTimeWhichGoesOnWhereThatIsChosen) {
+TEST(SlimEvents, InterruptAWaitForTimeThatMayContinueByChoice) {
   ProgramRun run(interrupted("WT 100"), {.interrupted_timer = InterruptedTimer::continues});
   run.begin();
   run.until(49);

@@ -111,7 +111,7 @@ TEST(Super40ncEvents, AStartCallsOffAPauseThatIsDue) {
   EXPECT_TRUE(running.machine.contact(y(9)));
 }
 
-TEST(Super40ncEvents, APausedWaitStandsAndGoesOn) {
+TEST(Super40ncEvents, APausedWaitStandsAndContinues) {
   for (const Event event : {Event::contact_off, Event::hold}) {
     Running running("AREA X\nTMR K10\nSET Y1\nEND\n");
     running.start(Area::x);
@@ -243,7 +243,7 @@ TEST(Super40ncEvents, AHeldRestWaitsForMotionInhibit) {
   EXPECT_FALSE(running.machine.holds.contains(Area::c));
 }
 
-TEST(Super40ncEvents, AnotherFileGoesOnAtTheSameStep) {
+TEST(Super40ncEvents, AnotherFileContinuesAtTheSameStep) {
   Running running("AREA C\nTMR K5\nSET Y0\nSET Y1\nEND\n");
   const Program other = program_of("AREA C\nTMR K90\nNOP\nSET Y2\nEND\n");
   running.start(Area::c);

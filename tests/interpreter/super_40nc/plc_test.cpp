@@ -46,7 +46,7 @@ TEST(Super40ncPlc, BranchesByTheStack) {
   }
 }
 
-TEST(Super40ncPlc, GoesOnBehindAnOutput) {
+TEST(Super40ncPlc, ContinuesBehindAnOutput) {
   Running plc = ladder_of("LD M10;ANI X4;OUT Y3;AND T0;OUT Y5;LD X10;OR X11;ANB;OUT Y6;INV;OUT Y7");
   plc.machine.set(m(10), true);
   plc.machine.set(x(11), true);
@@ -164,7 +164,7 @@ TEST(Super40ncPlc, ATimerTakesWritesWhileItRunsOnly) {
   EXPECT_TRUE(plc.machine.contact(t(2)));  // at once
 }
 
-TEST(Super40ncPlc, ATimerGoesOnBehindAStop) {
+TEST(Super40ncPlc, ATimerContinuesBehindAStop) {
   Running plc = ladder_of("LD X0;OUT T0 K10");
   plc.machine.set(x(0), true);
   for (int i = 0; i < 5; ++i) plc.scan();
@@ -339,7 +339,7 @@ TEST(Super40ncPlc, ReportsNumbersThatCannotBe) {
   EXPECT_TRUE(plc.machine.codes.empty());
 }
 
-TEST(Super40ncPlc, TellsOfKeptCells) {
+TEST(Super40ncPlc, ReportsKeptCells) {
   Running plc = ladder_of("LD M8003;OUT M399;OUT M400;MOV K1 D499;MOV K1 D500;OUT T56 K5;OUT C15 K5");
   plc.machine.kept.clear();
   plc.scan();
@@ -466,7 +466,7 @@ TEST(Super40ncPlc, SaysWhenItHasSettled) {
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(plc.scan().has_changed);
 }
 
-TEST(Super40ncPlc, CrossesScansOfTimersAsIfItHadRunThem) {
+TEST(Super40ncPlc, SkipsScansOfTimersAsIfItHadRunThem) {
   const std::string text = "LD X0;OUT T0 K500;LD T0;OUT Y0;LDI T0;OUT T60 D7;LD T60;OUT Y1";
   Running one = ladder_of(text);
   Running other = ladder_of(text);

@@ -154,7 +154,7 @@ std::string random_ladder(Random& random) {
   return text + "END\n";
 }
 
-TEST(Super40ncRandomEvents, CrossedScansAreAsIfTheyHadBeenRun) {
+TEST(Super40ncRandomEvents, SkippedScansAreAsIfTheyHadBeenRun) {
   constexpr int kLadders = 1500;
   constexpr int kMs = 600;
   std::int64_t skipped = 0;

@@ -77,7 +77,7 @@ struct Stop {
   int step;
 };
 
-TEST(Super40ncStep, StopsWithACodeWhereItCannotGoOn) {
+TEST(Super40ncStep, StopsWithACodeWhereItCannotContinue) {
   constexpr Stop kStops[] = {
       {"NOP;JMP K5", 3, 1},
       {"LD M8003;CJ K5", 3, 1},
@@ -338,7 +338,7 @@ TEST(Super40ncStep, WaitsForAnAxisThatIsTaken) {
   EXPECT_EQ(running.phase(Area::c), Phase::moving);
 }
 
-TEST(Super40ncStep, GoesOnBehindAVoidMotionAndEndsAtARefusedOne) {
+TEST(Super40ncStep, ContinuesBehindAVoidMotionAndEndsAtARefusedOne) {
   Running running = started("DRV K1;SET Y0;LIN K1;SET Y1");
   running.machine.answers = {{"DRV", Begun::ignored}, {"LIN", Begun::refused}};
   running.tick(3);
@@ -385,7 +385,7 @@ TEST(Super40ncStep, AnEmptyProgramEndsAtOnce) {
 
 // --- quiet ticks ------------------------------------------------------------------------------------
 
-TEST(Super40ncStep, CrossesTicksAsIfItHadRunThem) {
+TEST(Super40ncStep, SkipsTicksAsIfItHadRunThem) {
   const std::string lines = "LAB K1;TMR K37;INC D0;WAT M0;DRV K1;JMP K1";
   Running one = started(lines, Area::x);
   Running other = started(lines, Area::x);

@@ -238,7 +238,7 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
   EXPECT_NE(table.find("no load is computed"), std::string::npos) << table;
 }
 
-TEST(Describe, TheTableForPeopleTellsWhereACommandMayBeGiven) {
+TEST(Describe, TheTableForPeopleShowsWhereACommandMayBeGiven) {
   std::istringstream table(
       described("commands", SheetFormat::table, *find_model(models::all_models(), "slim")));
   std::map<std::string, std::string> where;  // by syntax
@@ -303,7 +303,7 @@ TEST(Describe, MarkdownAndTableHaveALineForEachRow) {
   }
 }
 
-TEST(Describe, TheTableForPeopleTellsWhatIsNotModelled) {
+TEST(Describe, TheTableForPeopleShowsWhatIsNotModelled) {
   const std::string table = described("registers", SheetFormat::table);
   EXPECT_NE(table.substr(0, table.find('\n')).find("not modelled"), std::string::npos);
 }

@@ -271,7 +271,7 @@ TEST_F(NvFile, AWriterKilledAtAnyMomentLeavesAWholeImage) {
 
 // --- errors of the disk ------------------------------------------------------------------------------------
 
-TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
+TEST_F(NvFile, ThatCannotBeReplacedIsReportedOnceAndStays) {
   fs::create_directories(path() + "/in the way");
   NvWriter writer;
   for (int i = 0; i < 3; ++i) {
@@ -296,7 +296,7 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
   EXPECT_EQ(text_of(path()), numbered(1));
 }
 
-TEST_F(NvFile, InAFolderThatIsNotThereIsTold) {
+TEST_F(NvFile, InAFolderThatIsNotThereIsReported) {
   NvWriter writer;
   writer.write(path("gone/feeder.json"), numbered(1));
   writer.write(path(), "another's");
@@ -358,7 +358,7 @@ TEST_F(NvFile, WritesThroughNoLinkThatStandsBesideIt) {
   EXPECT_TRUE(fs::is_symlink(path() + ".new"));
 }
 
-TEST_F(NvFile, InAFolderThatMayNotBeWrittenIsTold) {
+TEST_F(NvFile, InAFolderThatMayNotBeWrittenIsReported) {
   put(path(), numbered(1));
   fs::permissions(path("."), fs::perms::owner_read | fs::perms::owner_exec);
   {

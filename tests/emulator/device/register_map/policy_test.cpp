@@ -40,7 +40,7 @@ TEST(WriteWords, ATriggerIgnoresAZeroAndAnEffectDoesNot) {
   EXPECT_EQ(toy.device.events, (Events{"written", "7[0]=1 first=5", "written", "1[1]=0 first=5", "written"}));
 }
 
-TEST(WriteWords, AnEffectHearsTheWholeValueAndWhichHalfCame) {
+TEST(WriteWords, AnEffectReceivesTheWholeValueAndWhichHalfCame) {
   Toy toy(kToyRows);
   toy.device.image()[static_cast<std::size_t>(toy.named("Far2").place.slot)] = 0x00020001;
   EXPECT_EQ(write(toy, 0x0025, {7}), Refusal::none);

@@ -90,7 +90,7 @@ TEST(DescribedAxis, TakesTimesForTheRatedSpeed) {
   EXPECT_NEAR(static_cast<double>(one.ticks_until_still()), 25, 1);
 }
 
-TEST(DescribedAxis, GoesOnToANewTargetWithoutAStop) {
+TEST(DescribedAxis, ContinuesToANewTargetWithoutAStop) {
   OneDescribed one;
   one.write("TARGET", 10'000);
   one.write("COMMAND", 1);

@@ -154,7 +154,7 @@ TEST(RsM8194hCommandNames, WhatIsNoCommandHasNone) {
   for (const Words& words : kNone) EXPECT_EQ(command_names().text_of(words, kForms[0]), std::nullopt);
 }
 
-TEST(RsM8194hCommandNames, AWrongTextIsToldWithItsPlace) {
+TEST(RsM8194hCommandNames, AWrongTextIsReportedWithItsPlace) {
   EXPECT_EQ(diagnostic_of("RSM_FIXED_MOV X 1"),
             "column 1: 'RSM_FIXED_MOV' is not a command; the nearest is 'RSM_FIXED_MOVE'");
   EXPECT_EQ(diagnostic_of("RSM_SET_PULSE_MODE X 6"),

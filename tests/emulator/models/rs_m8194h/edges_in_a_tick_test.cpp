@@ -261,7 +261,7 @@ TEST(RsM8194hEdgesInATick, ASoftLimitOnAnEncoderIsMetAtItsPulse) {
 }
 
 /// The machine may have been pushed, and may lose pulses: the encoder's count decides.
-TEST(RsM8194hEdgesInATick, AnEncoderThatDoesNotGoAlongCountsAsItIsTold) {
+TEST(RsM8194hEdgesInATick, AnEncoderThatDoesNotFollowCountsAsRequested) {
   for (const bool is_pushed : {false, true}) {
     world::PlantSetup plant;
     plant.encoder_counts_per_revolution = plant.pulses_per_revolution = 1000;

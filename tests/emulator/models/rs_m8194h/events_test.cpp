@@ -236,7 +236,7 @@ TEST(RsM8194hEvents, AScanThatDoesNotMoveLeavesItsFirstPlaceInCPlus) {
 }
 
 // A ring wraps, and the counter may be set during the move: the distance decides.
-TEST(RsM8194hEvents, LineScansGoOnWhenTheirCounterJumps) {
+TEST(RsM8194hEvents, LineScansContinueWhenTheirCounterJumps) {
   for (const int type : {0, 2}) {
     SteadyRsm rsm;
     const std::string of_type = std::to_string(type);

@@ -93,7 +93,7 @@ TEST(RsM8194hFifo, EightCommandsAtMostBeginInATick) {
   EXPECT_EQ(rsm.get("LP_Y"), 20);
 }
 
-TEST(RsM8194hFifo, ClearCardBufferEmptiesItAndWaitsGoOn) {
+TEST(RsM8194hFifo, ClearCardBufferEmptiesItAndWaitsContinue) {
   BlockedRsm rsm;
   rsm.send({"RSM_SET_LP Y 5", "RSM_SET_LP Z 5", "RSM_CLEAR_CARD_BUFFER", "RSM_SET_LP U 5"});
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 29);

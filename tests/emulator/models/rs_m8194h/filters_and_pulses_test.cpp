@@ -135,7 +135,7 @@ TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
   }
 }
 
-TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreToldOnce) {
+TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreReportedOnce) {
   struct Case {
     const char* command;
     const char* told;  // begins like this; nothing there if it is empty

@@ -143,7 +143,7 @@ TEST(RsM8194hOtherReadings, AnAxisThatLeavesItsPathAtItsStartSpeedStands) {
   EXPECT_EQ(rsm.get("LP_X"), at);
 }
 
-TEST(RsM8194hOtherReadings, AConstantPathWithoutItsAxis1TellsNobody) {
+TEST(RsM8194hOtherReadings, AConstantPathWithoutItsAxis1NotifiesNobody) {
   SteadyRsm rsm(Choices{{"stop_one_of_path", "it_alone_stops"}, {"c_sta_in_interpolation", "for_axis1"}});
   rsm.send({"RSM_VECTOR_SPEED 1", "RSM_SET_VSV 100", "RSM_SET_VA 1000", "RSM_INTFACTOR_ENABLE XY 5 1",
             "RSM_INTFACTOR_ENABLE XY 6 1", "RSM_LINE_2D 2000 2000"});

@@ -144,7 +144,7 @@ TEST(RsM8194hPaths, AFedStreamNeverSlowsBeforeItsLastSegment) {
   EXPECT_LE(min_after_ramp, 18000);
 }
 
-TEST(RsM8194hPaths, AStarvedStreamEndsAndGoesOnFromItsStartSpeed) {
+TEST(RsM8194hPaths, AStarvedStreamEndsAndContinuesFromItsStartSpeed) {
   OneRsm rsm;
   rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_LINE_2D_INITIAL X Y 1000 10000 100000",
             "RSM_LINE_2D_CONTINUE 0 3000 4000"});

@@ -59,7 +59,7 @@ TEST(RsM8194hChoices, AStopThatWaitsIsCarriedOutInItsTurn) {
   EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0x100);
 }
 
-TEST(RsM8194hChoices, AHeldFifoGoesOnBehindADownload) {
+TEST(RsM8194hChoices, AHeldFifoContinuesBehindADownload) {
   OneRsm rsm({.choices = {{"fifo_during_download", "held"}}});
   rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 100", "RSM_FIXED_MOVE X 100",
             "RSM_MP_CREATE 1"});
@@ -214,7 +214,7 @@ TEST(RsM8194hChoices, ErrorsOfADownloadThatShowAtCloseAreKept) {
   EXPECT_EQ(twin.get("DOWNLOAD_ERROR"), 0);
 }
 
-TEST(RsM8194hChoices, ATextIsToldOfAnErrorInItsLine) {
+TEST(RsM8194hChoices, AnErrorInATextIsReportedWithItsLine) {
   const GivenRsm given{.choices = {{"structure_faults", "at_close"}}};
   OneRsm rsm(given);
   try {

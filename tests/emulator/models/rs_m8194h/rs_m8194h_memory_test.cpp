@@ -148,7 +148,7 @@ std::string_view busy_course(int step) {
   return kCommands[static_cast<std::size_t>(step) % std::size(kCommands)];
 }
 
-TEST(RsM8194hMemory, AStateGoesOnAsIfNothingHadHappened) {
+TEST(RsM8194hMemory, AStateContinuesAsIfNothingHadHappened) {
   const std::string program =
       "MP 1\nRSM_MACRO_FOR 50\nRSM_MACRO_TIMER 7\nRSM_MACRO_VAR_CALCULATE VAR1 + 1 "
       "VAR1\nRSM_MACRO_NEXT\nEND\n"
@@ -213,7 +213,7 @@ TEST(RsM8194hMemory, AFlippedByteIsRefusedOrCanBeLivedOn) {
   EXPECT_GT(lived, 100);
 }
 
-TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
+TEST(RsM8194hMemory, QuietTicksMayBeSkipped) {
   // The same sequence, with and without an observer of every tick.
   OneRsm stepped;
   OneRsm skipped;
@@ -273,7 +273,7 @@ std::string random_command(std::uint32_t& seed) {
   }
 }
 
-TEST(RsM8194hMemory, RandomCoursesAreTheSameSteppedOrCrossed) {
+TEST(RsM8194hMemory, RandomCoursesAreTheSameSteppedOrFastForwarded) {
   const std::string program =
       "MP 1\nRSM_MACRO_FIXED_MOVE X 500\nRSM_MACRO_TIMER 40\nRSM_MACRO_STOP_WAIT XY\nEND\n"
       "ISR 1\nRSM_MACRO_FIXED_MOVE U 77\nEND\n";

@@ -201,7 +201,7 @@ TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
 }
 
 /// An arc that leaves the switch, or the encoder's count, before it stops.
-TEST(RsM8194hSoftLimitsOnPaths, ALimitSwitchThatIsLeftAgainIsTold) {
+TEST(RsM8194hSoftLimitsOnPaths, ALimitSwitchThatIsLeftAgainIsReported) {
   for (const int direction : {+1, -1}) {
     world::PlantSetup plant;
     (direction > 0 ? plant.upper_limit : plant.lower_limit) = direction * 1990;

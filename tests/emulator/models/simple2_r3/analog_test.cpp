@@ -54,7 +54,7 @@ TEST(Analog, TheConverterRoundsDownAndTheScaleTowardsOneVolt) {
   }
 }
 
-TEST(Analog, BeyondTenVoltsGoesOnUntilTheConverterIsFull) {
+TEST(Analog, BeyondTenVoltsContinuesUntilTheConverterIsFull) {
   const Point points[] = {
       {10'005, 4002, 2001}, {10'200, 4080, 2040},
       {10'237, 4094, 2047}, {10'238, 4095, 2047},  // 4095.2; 200 + 3695 / 2

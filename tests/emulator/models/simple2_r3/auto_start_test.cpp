@@ -86,7 +86,7 @@ TEST(AutoStart, SetToZeroWhileItRunsCountsForTheNextPowerUp) {
   EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status"));
 }
 
-TEST(AutoStart, BeginsThoughThousandsOfQuietTicksWereCrossedBefore) {
+TEST(AutoStart, BeginsThoughThousandsOfQuietTicksWereSkipped) {
   Switched feeder;
   prepare(feeder, 1);
   feeder.power(false);

@@ -165,7 +165,7 @@ TEST(ChoicesProgramRun, StartWhileRunningRestartsOrJumpsOrIsIgnored) {
   }
 }
 
-TEST(ChoicesProgramRun, ItsEndLetsMotionGoOnOrStopsIt) {
+TEST(ChoicesProgramRun, ItsEndLetsMotionContinueOrStopsIt) {
   // The move begins in tick 12; END runs at 74, before that tick's motion, so 61 ms and 56 pulses are done.
   // The host ends it after tick 74.
   for (const auto& [option, continues] :

@@ -20,7 +20,7 @@ TEST(Coordinate, IsZeroAtPowerUpAndTakesAnyPreset) {
   EXPECT_EQ(feeder.coordinate('A'), -0x1'0000 + 7);
 }
 
-TEST(Coordinate, WrapsAt32BitsBothWays) {
+TEST(Coordinate, WrapsAt32BitsInBothDirections) {
   struct Case {
     Value start, pulses, end;
   };
@@ -159,7 +159,7 @@ TEST(Encoder, CountsWhatThePlantTurnsNotWhatTheCoordinateSays) {
   EXPECT_EQ(feeder.get("ENCA"), 300);
 }
 
-TEST(Encoder, AWriteSetsTheCountAndItGoesOnFromThere) {
+TEST(Encoder, AWriteSetsTheCountAndItContinuesFromThere) {
   ReadySimple2 feeder({.plant = {{0, with_encoder(3200)}}});
   feeder.set_one_pulse_a_tick('A', 100);
   feeder.set("Aaxis_Move_INC", 1);

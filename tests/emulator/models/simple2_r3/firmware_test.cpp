@@ -9,7 +9,7 @@ namespace firmware_test {
 
 using namespace opcode;
 
-TEST(FirmwareVersions, TellTheirNumberOverBothReadFunctions) {
+TEST(FirmwareVersions, ReportTheirNumberOverBothReadFunctions) {
   for (const Firmware firmware : kVersions) {
     ProgramHost host(firmware);
     const std::string number = world::text(world::Bytes{0, static_cast<std::uint8_t>(firmware)});

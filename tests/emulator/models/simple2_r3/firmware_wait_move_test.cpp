@@ -82,7 +82,7 @@ TEST(FirmwareWaitMove, From140AWaitCanWorkMeanwhile) {
   }
 }
 
-TEST(FirmwareWaitMove, AWaitForAnAxisAtRestOrInAnotherModeGoesOnInAll) {
+TEST(FirmwareWaitMove, AWaitForAnAxisAtRestOrInAnotherModeContinuesInAll) {
   for (const Firmware firmware : kVersions) {
     for (const std::uint16_t before : {0x00, 0x84}) {  // NOP; VelmRPM_A of MEM0, which is not a position move
       ProgramHost host(firmware);

@@ -103,7 +103,7 @@ TEST(HomingFromEverywhere, EndsOnTheEdgeMetInItsDirectionFromEveryPlace) {
   }
 }
 
-TEST(HomingFromEverywhere, IsTheSameWhenManyTicksAreCrossedAtOnce) {
+TEST(HomingFromEverywhere, IsTheSameWhenManyTicksAreSkippedAtOnce) {
   for (const Case& row : kStarts) {
     for (const HomingAxis& build : every_build_of({.start = row.start})) {
       if (build.reversed) continue;  // its switches are wired from outside, tick by tick

@@ -176,7 +176,7 @@ TEST(HomingInterrupted, FactoryResetStopsItAndPutsTheHomeBitOut) {
 }
 
 // By hand from the place at each moment: it begins again there, from standstill.
-TEST(HomingInterrupted, BegunAnewItStartsFromStandstillWhereItIs) {
+TEST(HomingInterrupted, RestartedItBeginsFromStandstillWhereItIs) {
   struct Anew {
     std::size_t moment;
     HomingCourse course;

@@ -249,7 +249,7 @@ TEST(HomingSwitches, WithoutAnyItRunsOnUntilStop) {
   }
 }
 
-TEST(HomingSwitches, AgainstTheMachinesEndStepsAreLostAndItGoesOn) {
+TEST(HomingSwitches, AgainstTheMachinesEndStepsAreLostAndItContinues) {
   world::PlantSetup plant;
   plant.travel = world::PulseSpan{-50, 300};
   ReadySimple2 machine({.plant = {{0, plant}}});

@@ -318,7 +318,7 @@ TEST(MoveCommands, WhileTheServoIsOffCommandsAreDropped) {
   }
 }
 
-TEST(MoveCommands, ServoOffStopsForGoodAndTheOtherAxisGoesOn) {
+TEST(MoveCommands, ServoOffStopsForGoodAndTheOtherAxisContinues) {
   struct Case {
     std::string_view command;
     bool a, b;

@@ -51,7 +51,7 @@ const world::Bytes kReadHardware = world::read_request(1, 0x0001, 1);
 const world::Bytes kHardware = world::framed({1, 3, 2, 0xC0, 0x01});
 const world::Bytes kHardwareOfTurner = world::framed({2, 3, 2, 0xC0, 0x01});
 
-TEST(PowerCycleOnTheLine, AFrameOfWhichItMissedABeginningIsNotHeard) {
+TEST(PowerCycleOnTheLine, AFrameOfWhichItMissedABeginningIsNotReceived) {
   for (std::size_t before = 1; before < kSetSpeed.size(); ++before) {
     for (const char* timing : {"wire", "instant"}) {
       PoweredLine line(timing);
@@ -68,7 +68,7 @@ TEST(PowerCycleOnTheLine, AFrameOfWhichItMissedABeginningIsNotHeard) {
   }
 }
 
-TEST(PowerCycleOnTheLine, ARequestThatWasHeardButNotServedYetIsForgotten) {
+TEST(PowerCycleOnTheLine, ARequestThatWasReceivedButNotServedYetIsForgotten) {
   PoweredLine line;
   line.to(20ms);
   line.say(kSetSpeed);

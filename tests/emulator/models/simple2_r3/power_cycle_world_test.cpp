@@ -220,7 +220,7 @@ TEST(PowerCycleInAWorld, AWireFromADeviceGoesDeadOneTickAfterItsPower) {
   EXPECT_EQ(world::get(world, "turner.DIN_10"), 0) << "it comes back with its outputs off";
 }
 
-TEST(PowerCycleInAWorld, InputsAreLookedAtAnewByADeviceThatComesBack) {
+TEST(PowerCycleInAWorld, InputsAreLookedAtAgainByADeviceThatComesBack) {
   world::World world = world::make_world();
   world::set(world, "feeder.DIN0_Aaxis_Alarm", 1);
   world::set(world, "feeder.AutoStart_MainProg", 0);

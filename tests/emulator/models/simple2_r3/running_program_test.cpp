@@ -86,7 +86,7 @@ TEST(RunningProgram, BeginsByItselfAtPowerUpIfToldSo) {
   EXPECT_EQ(feeder.get("DOUT_ALL"), 0x7F);
 }
 
-TEST(RunningProgram, CrossesManyTicksAtOnceToTheSameState) {
+TEST(RunningProgram, SkipsManyTicksAtOnceToTheSameState) {
   const auto begin = [](OneSimple2& feeder) {
     feeder.write(0x4000, kBlinker);
     feeder.set("PROG_MAIN_RunTime_START", 0);

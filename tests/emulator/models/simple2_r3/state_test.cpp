@@ -75,7 +75,7 @@ TEST(Simple2State, EverythingThatAHostCanSeeComesBack) {
 }
 
 /// Each thing that is done to a device shows in its hash, and what is undone does not.
-TEST(Simple2State, TheHashTellsWhatIsDone) {
+TEST(Simple2State, TheHashShowsWhatIsDone) {
   struct Case {
     const char* name;
     Value value;

@@ -47,7 +47,7 @@ OneChain busy(const ChainOptions& options = shorter_buffers()) {
   return bench;
 }
 
-TEST(SlimChainFields, RestoredItIsTheSameAndGoesOnTheSame) {
+TEST(SlimChainFields, RestoredItIsTheSameAndContinuesTheSame) {
   for (const Tick when : {0, 1, 77, 250, 600}) {
     for (const bool paused : {false, true}) {
       OneChain bench = busy();

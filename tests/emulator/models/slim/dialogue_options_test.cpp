@@ -49,7 +49,7 @@ TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
   }
 }
 
-TEST(SlimDialogue, TellsOnceWhatIsNotModelled) {
+TEST(SlimDialogue, ReportsOnceWhatIsNotModelled) {
   std::vector<std::string> told;
   world::World world(slim_bench(2), world::WorldOptions{},
                      [&](const std::string& text) { told.push_back(text); });

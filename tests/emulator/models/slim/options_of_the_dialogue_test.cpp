@@ -295,7 +295,7 @@ TEST(SlimDialogueOptions, NamesOfSpeeds) {
   EXPECT_EQ(first_parameters(script), "PN10=7|PN14=8|FU=0|");
 }
 
-TEST(SlimDialogueOptions, NamesOfSpeedsTheOtherWayRound) {
+TEST(SlimDialogueOptions, NamesOfSpeedsAreSwapped) {
   const Choices choices{{"speed_parameters", "pn14_is_vm"}};
   DialogueScript script(2, choices);
   EXPECT_EQ(first_parameters(script), "PN10=100|PN14=1000|FU=0|");

@@ -106,7 +106,7 @@ TEST(SlimLineOptions, WithoutFlowControlXoffIsACharacter) {
   EXPECT_EQ(wire.answer("?PE\r"), "0\r\n");
 }
 
-TEST(SlimLineOptions, XoffHoldsWhatIsSaidAndXonLetsItGoOn) {
+TEST(SlimLineOptions, XoffHoldsWhatIsSaidAndXonLetsItContinue) {
   Wire wire(Choices{{"flow_control", "xon_xoff"}});
   EXPECT_EQ(wire.answer("?P\x13"
                         "E\r"),

@@ -17,7 +17,7 @@ OneChain at_jog(const ChainOptions& options = {}) {
   return bench;
 }
 
-TEST(SlimPauseTable, AJogGoesOnAfterThePause) {
+TEST(SlimPauseTable, AJogContinuesAfterThePause) {
   OneChain bench = at_jog();
   bench.chain.pause();
   EXPECT_EQ(bench.chain.move(6, false, 5), Error::paused);
@@ -39,7 +39,7 @@ TEST(SlimPauseTable, AJogGoesOnAfterThePause) {
   EXPECT_FALSE(bench.chain.busy(6));
 }
 
-TEST(SlimPauseTable, AJogGoesOnBeforeItStands) {
+TEST(SlimPauseTable, AJogContinuesBeforeItStands) {
   OneChain bench = at_jog();
   bench.chain.pause();
   bench.steps(50);
@@ -62,7 +62,7 @@ TEST(SlimPauseTable, AMoveBehindAJogStillWaitsAfterThePause) {
   EXPECT_EQ(bench.travel(6), 2500);
 }
 
-TEST(SlimPauseTable, WhatAJogWasAboutToBeGoesOn) {
+TEST(SlimPauseTable, WhatAJogWasAboutToBeContinues) {
   // The pause comes while the axis reverses, and while it is being stopped.
   OneChain turning = at_jog();
   turning.chain.jog(6, -1);
@@ -109,7 +109,7 @@ TEST(SlimPauseTable, AJogIsGivenUpAndStoppedLikeAnything) {
   }
 }
 
-TEST(SlimPauseTable, AThrustGoesOnAfterThePause) {
+TEST(SlimPauseTable, AThrustContinuesAfterThePause) {
   for (const bool runs : {false, true}) {
     for (const Tick wait : {30, 300}) {  // while it decelerates, and at rest
       ChainOptions options;

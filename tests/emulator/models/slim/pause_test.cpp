@@ -44,7 +44,7 @@ OnPath on_path(const OneChain& bench) {
 /// Half a pulse in each axis.
 const double kHalfEach = std::sqrt(0.5) + 1e-6;
 
-TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
+TEST(SlimPause, SlowsDownOnThePathAndContinuesExactlyThere) {
   // Within the first command; so late in it that the stop lies beyond its end (from 45 on, 5 units are
   // needed); within the second; while it accelerates; while it decelerates for the end.
   for (const Tick pause_at : std::initializer_list<Tick>{50, 300, 520, 545, 900, 2100}) {
@@ -116,7 +116,7 @@ TEST(SlimPause, GoingOnBeforeItStandsSpeedsUpAgain) {
   EXPECT_EQ(bench.travel(0), 100 * kPulses);
 }
 
-TEST(SlimPause, SingleMovesPauseAndGoOnAsWell) {
+TEST(SlimPause, SingleMovesPauseAndContinueAsWell) {
   OneChain bench = at_origin();
   bench.speeds(5, 1000, 1000);  // 1 unit/s
   bench.chain.move(5, true, 4);

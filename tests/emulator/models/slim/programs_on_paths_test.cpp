@@ -114,7 +114,7 @@ TEST(SlimPrograms, AHelix) {
 )");
 }
 
-TEST(SlimPrograms, APausedProgramGoesOnOnItsPath) {
+TEST(SlimPrograms, APausedProgramContinuesOnItsPath) {
   // 100 along x, 1.1 s. Decelerating from 100 at 1000 takes 0.1 s and 5 units, and so does accelerating
   // again.
   DialogueScript(2).play(R"(

@@ -15,7 +15,7 @@ OneChain two_moves() {
   return bench;
 }
 
-TEST(SlimQueues, PzHoldsAndRedoGoesOnWithTheRestAndWhatFollows) {
+TEST(SlimQueues, PzHoldsAndRedoContinuesWithTheRestAndWhatFollows) {
   OneChain bench = two_moves();
   ASSERT_EQ(bench.chain.pause_queues(), Error::none);
   bench.steps(1000);

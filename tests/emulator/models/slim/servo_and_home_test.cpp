@@ -153,7 +153,7 @@ TEST(SlimHome, ByAnInputAndWithANegativeVjTheOtherWay) {
   EXPECT_EQ(bench.chain.coordinate(0), 0);
 }
 
-TEST(SlimHome, PausedItBeginsAnew) {
+TEST(SlimHome, PausedItRestarts) {
   OneChain bench = jogging();
   bench.chain.environment(0).add(motion::Signal::home, -5000, -2000);
   bench.chain.home(0);

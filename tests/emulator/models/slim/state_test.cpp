@@ -136,7 +136,7 @@ void put_inputs(DialogueScript& from, DialogueScript& to) {
 
 Tick tick_of(DialogueScript& script) { return script.world().now().count() / 1'000'000; }
 
-TEST(SlimState, GoesOnInAnotherDeviceAsItDidInTheFirst) {
+TEST(SlimState, ContinuesInAnotherDeviceAsItDidInTheFirst) {
   for (const Moment& moment : moments()) {
     SCOPED_TRACE(moment.name);
     DialogueScript first(kModulesHere);
@@ -295,7 +295,7 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
 }
 
 /// A stored program starts only on command, from its beginning.
-TEST(SlimState, AKeptProgramIsStartedAnewAfterAPowerCut) {
+TEST(SlimState, AKeptProgramIsStartedAgainAfterAPowerCut) {
   DialogueScript script(kModulesHere);
   script.play(R"(
 > PG

@@ -143,7 +143,7 @@ TEST(Super40ncCorners, NothingRunsBehindAnEmergencyStop) {
   }
 }
 
-TEST(Super40ncCorners, AJogOfThePlcTellsItsLine) {
+TEST(Super40ncCorners, AJogOfThePlcReportsItsLine) {
   for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3506, 12}}) {
     OneSuper40nc one({.program = "AREA PLC\nLD M1\nPJG K1\nLD M2\nMJG K1\nEND"});
     one.input(input, 1);

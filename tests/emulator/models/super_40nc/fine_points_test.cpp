@@ -50,7 +50,7 @@ TEST(Super40ncFinePoints, PanelParametersAreTheManuals) {
   EXPECT_TRUE(rows.empty());
 }
 
-TEST(Super40ncFinePoints, InstructionsAreToldFromTheFirst) {
+TEST(Super40ncFinePoints, InstructionsAreReportedFromTheFirst) {
   const auto told = model().language->instructions();
   ASSERT_EQ(told.size(), interpreter::super_40nc::kInstructions.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
@@ -165,7 +165,7 @@ TEST(Super40ncFinePoints, AMotionWithoutARampFeedsAtFl) {
 }
 
 /// It continues from its present speed.
-TEST(Super40ncFinePoints, APauseThatIsTakenBackInItsRampGoesOn) {
+TEST(Super40ncFinePoints, APauseThatIsTakenBackInItsRampContinues) {
   OneSuper40nc one({.program = "AREA X\nRPM K500\nDRV K50000\nEND"});
   one.set("M8100", 1);
   one.run(200);

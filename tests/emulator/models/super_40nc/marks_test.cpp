@@ -292,7 +292,7 @@ TEST(Super40ncMarks, EachIsTakenOffByItsEventsAlone) {
 
 /// A held motion that can no longer continue, because of a limit, resets its program as if it had reached the
 /// limit.
-TEST(Super40ncMarks, ALimitInAPauseResetsTheProgramThatGoesOn) {
+TEST(Super40ncMarks, ALimitInAPauseResetsTheProgramThatContinues) {
   struct Case {
     const char* area;
     const char* line;

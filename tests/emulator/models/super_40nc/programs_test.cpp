@@ -154,7 +154,7 @@ TEST(Super40ncPrograms, ProgramsWaitForAnAxisAndThePlcDoesNot) {
   EXPECT_EQ(one.get("D8117"), 1000);
 }
 
-TEST(Super40ncPrograms, AStartThatIsRefusedTellsItsLine) {
+TEST(Super40ncPrograms, AStartThatIsRefusedReportsItsLine) {
   struct Case {
     const char* program;
     const char* start;
@@ -176,7 +176,7 @@ TEST(Super40ncPrograms, AStartThatIsRefusedTellsItsLine) {
   }
 }
 
-TEST(Super40ncPrograms, AStartOfThePlcThatIsRefusedTellsItsLine) {
+TEST(Super40ncPrograms, AStartOfThePlcThatIsRefusedReportsItsLine) {
   for (const auto& [line, code] : {std::pair{"DRV K1000", 11}, std::pair{"HOM K1", 15}}) {
     OneSuper40nc one({.program = std::string("AREA PLC\nLD M1\n") + line + "\nEND"});
     one.input("X1", 1);
@@ -280,7 +280,7 @@ TEST(Super40ncPrograms, ThePlcSwitchStopsTheScan) {
 }
 
 /// A state in the middle of everything continues in the same way.
-TEST(Super40ncPrograms, ASnapshotGoesOnAsTheOriginal) {
+TEST(Super40ncPrograms, ASnapshotContinuesAsTheOriginal) {
   const Given given{.set = Set{{"D9003", 2}},
                     .program =
                         "AREA C\nF K20000\nLAB K1\nLIN K20000 K10000\nTMR K50\nLIN K0 K0\nJMP K1\nEND\n"
@@ -356,7 +356,7 @@ TEST(Super40ncPrograms, ALineThatChangesTheFileIsCarriedOut) {
   }
 }
 
-TEST(Super40ncPrograms, ALineGoesOnOnlyWhereItsPointerStands) {
+TEST(Super40ncPrograms, ALineContinuesOnlyWhereItsPointerStands) {
   OneSuper40nc reset({.program = "AREA C\nMOV K1 D9001\nINC D5\nEND\nFILE 1\nMOV K1 D9001\nINC D5\nEND\n",
                       .choices = {{"file_change_running", "resets_c"}}});
   reset.set("M8000", 1);

@@ -162,7 +162,7 @@ TEST(Super40ncUserTable, IsStoppedAndHeldAsC) {
   EXPECT_FALSE(one.on("M8000"));
 }
 
-TEST(Super40ncUserTable, GoesOnFromASnapshot) {
+TEST(Super40ncUserTable, ContinuesFromASnapshot) {
   OneSuper40nc one(chosen());
   put_line(one, 0, 1, {30'000});
   put_line(one, 1, 7, {100});

@@ -120,7 +120,7 @@ TEST(FreeExecutor, OneWordIsWrittenByFunction06AndMoreBy16) {
             (std::vector<std::uint16_t>{200, 5}));
 }
 
-TEST(FreeExecutor, AnExceptionIsTold) {
+TEST(FreeExecutor, AnExceptionIsReported) {
   HeardStage received(kAt19200);
   const HostReply refused =
       received.executor.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});

@@ -66,7 +66,7 @@ TEST_F(LintTest, HasNothingToSayOfAHostThatWaitsAsLongAsItMust) {
   EXPECT_EQ(findings_at(1s), Texts{});
 }
 
-TEST_F(LintTest, TellsOfRequestsThatFollowTooSoon) {
+TEST_F(LintTest, ReportsRequestsThatFollowTooSoon) {
   send(kRead, 0ns);
   send(kRead, kReplyEnds + 700us);                       // 10,043,749 ns
   send(kRead, kReplyEnds + 700us + kReplyEnds + 300us);  // after the second reply
@@ -74,7 +74,7 @@ TEST_F(LintTest, TellsOfRequestsThatFollowTooSoon) {
                                    "300us at worst); first at 10.043749ms"});
 }
 
-TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
+TEST_F(LintTest, ReportsRequestsThatDoNotWaitForTheAnswer) {
   send(kRead, 0ns);
   send(kRead, kRequestEnds + 400us);  // the reply starts 350 us later
   const Texts findings = findings_at(1s);
@@ -83,14 +83,14 @@ TEST_F(LintTest, TellsOfRequestsThatDoNotWaitForTheAnswer) {
             "rs485: 1 request began before the reply to the previous request; first at 4.983333ms");
 }
 
-TEST_F(LintTest, TellsOfAHostThatTalksIntoTheAnswer) {
+TEST_F(LintTest, ReportsAHostThatTalksIntoTheAnswer) {
   send(kRead, 0ns);
   send(kRead, 6ms);  // the reply has started at 5.3 ms
   EXPECT_EQ(findings_at(1s), Texts{"rs485: 1 request began before the line had been silent for 750us (while "
                                    "a station was sending at worst); first at 6ms"});
 }
 
-TEST_F(LintTest, TellsOfGapsWithinAFrame) {
+TEST_F(LintTest, ReportsGapsWithinAFrame) {
   // Four characters are over after 2,291,666 ns.
   const SimTime half{2'291'666};
   const auto send_in_halves = [&](SimTime at, SimTime gap) {
@@ -106,7 +106,7 @@ TEST_F(LintTest, TellsOfGapsWithinAFrame) {
       Texts{"rs485: 2 requests had gaps of more than 750us between two bytes (3ms at worst); first at 1s"});
 }
 
-TEST_F(LintTest, TellsOfStationsThatAreNotThere) {
+TEST_F(LintTest, ReportsStationsThatAreNotThere) {
   send(framed({9, 3, 0, 1, 0, 1}), 0ns);
   send(framed({9, 3, 0, 1, 0, 1}), 100ms);
   send(framed({7, 3, 0, 1, 0, 1}), 200ms);
@@ -124,7 +124,7 @@ TEST_F(LintTest, ADeviceWithoutPowerIsThereAllTheSame) {
   EXPECT_EQ(findings_at(1s), Texts{});
 }
 
-TEST_F(LintTest, TellsOfWritesToWhatCanOnlyBeRead) {
+TEST_F(LintTest, ReportsWritesToWhatCanOnlyBeRead) {
   write(0x0001, 5, 0ns);                                            // HW_Code
   send(framed({1, 0x10, 0x0E, 0x04, 0, 2, 4, 0, 0, 0, 0}), 100ms);  // Cord_A, both words
   write(0x1014, 1, 200ms);                                          // Aaxis_SVON may be written
@@ -200,7 +200,7 @@ TEST(LintOfScenarios, IsInTheirResults) {
   EXPECT_EQ(result.lint_findings, Texts{"rs485: 2 requests to station 5, which does not exist; first at 0s"});
 }
 
-TEST(LintOfScenarios, GoesOnBehindARestoreWithoutTakingItForHaste) {
+TEST(LintOfScenarios, ContinuesBehindARestoreWithoutTakingItForHaste) {
   const ScenarioResult result = played(
       "  - snapshot: begin\n" + kServoOn + "  - advance: 1s\n" + kServoOn + "  - restore: begin\n" + kServoOn,
       "", with_lint());

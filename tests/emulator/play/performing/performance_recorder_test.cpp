@@ -88,7 +88,7 @@ TEST(PerformanceRecorder, ABranchBeginsWithTheStateAtItsFork) {
   EXPECT_EQ(stopped.result.bytes_sent, 8U);
 }
 
-TEST(PerformanceRecorder, BeginsAnewWhereAStateIsRestored) {
+TEST(PerformanceRecorder, RestartsWhereAStateIsRestored) {
   const ScenarioFolder folder;
   const ScenarioResult result = recorded(scenario_of(kServoOn + "  - snapshot: still\n" + kExampleMove +
                                                      "  - advance: 1s\n"

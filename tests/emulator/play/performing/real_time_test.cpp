@@ -36,7 +36,7 @@ class WriteClockTest : public testing::Test {
   WriteClock clock_{world_};
 };
 
-TEST_F(WriteClockTest, TellsTheTickThatAWriteActsFrom) {
+TEST_F(WriteClockTest, ReportsTheTickThatAWriteActsFrom) {
   EXPECT_EQ(clock_.tick_of_last_write(), 0);
   // Aaxis_Speed = 200 at 0: 8 characters of 11 bits at 19200 baud (4.58 ms) and 750 us of silence.
   EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 6);

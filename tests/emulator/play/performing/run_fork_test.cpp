@@ -59,7 +59,7 @@ TEST(RunnerSnapshots, ASpanThatWasOpenIsWatchedAgain) {
   EXPECT_EQ(failure.at, time_of(kExampleBegins + 51));
 }
 
-TEST(RunnerForks, EachBranchIsAResultAndTheMainLineGoesOnToo) {
+TEST(RunnerForks, EachBranchIsAResultAndTheMainLineContinuesToo) {
   const auto results = all_of(kServoOn + kExampleMove +
                               "  - advance: 100ms\n"
                               "  - fork:\n"

@@ -182,7 +182,7 @@ TEST(RunnerOverTheLine, AnAnswerMayBeExpectedNotToCome) {
   EXPECT_EQ(failure.what, "read feeder.Aaxis_Speed: done; expected no reply");
 }
 
-TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
+TEST(RunnerOverTheLine, AnUnexpectedValueIsReportedWithWhatWentBefore) {
   const Failure failure = failing(
       "  - write: { feeder.Aaxis_Pulse: -5, feeder.Aaxis_Speed: 200 }\n"
       "  - expect: { feeder.Aaxis_Pulse: 5, feeder.Aaxis_Speed: 190 +- 5, feeder.HW_Code: 0xC001 }\n");
@@ -208,7 +208,7 @@ TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
                            }));
 }
 
-TEST(RunnerOverTheLine, TheLastTenFramesAreTold) {
+TEST(RunnerOverTheLine, TheLastTenFramesAreReported) {
   std::string steps;
   for (int i = 0; i < 30; ++i) steps += "  - write: { feeder.Aaxis_Speed: " + std::to_string(i) + " }\n";
   const Failure failure = failing(steps + "  - expect: { feeder.Aaxis_Speed: 7 }\n");
@@ -255,7 +255,7 @@ TEST(RunnerOverTheLine, TheGapKeepsRequestsApart) {
   EXPECT_EQ(end_of("gap: 15ms\n"), SimTime{2 * 9'916'666 + 2'005'209 + 15'000'000});
 }
 
-TEST(RunnerLine, AFailureTellsWhatFaultsDid) {
+TEST(RunnerLine, AFailureReportsWhatFaultsDid) {
   const Failure failure = failing(
       "  - inject: { drop: feeder, function: 3, nth: 1 }\n"
       "  - inject: { stall: feeder.A }\n"

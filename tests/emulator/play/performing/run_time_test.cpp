@@ -89,7 +89,7 @@ TEST(RunnerTimes, WhatABranchWaitsForIsLookedForFromTheWriteAsWell) {
   for (const ScenarioResult& result : results) EXPECT_TRUE(has_passed(result)) << result.name << why(result);
 }
 
-TEST(RunnerTimes, NothingGoesOnBeyondTheEndOfTime) {
+TEST(RunnerTimes, NothingRunsBeyondTheEndOfTime) {
   // 100 years of 365 days are 876000 hours.
   const ScenarioResult result = passing("  - advance: 876000h\n");
   EXPECT_EQ(result.steps.back().end, kHorizon);

@@ -186,7 +186,7 @@ TEST_F(ScenarioSteps, ProgramsAndMemoriesAreFiles) {
             (Strings{"save feeder new.json", "memory turner ./new.json"}));
 }
 
-TEST_F(ScenarioSteps, ForksGoOnFromOneState) {
+TEST_F(ScenarioSteps, ForksContinueFromOneState) {
   const Steps steps = folder_.steps(
       "  - inject: { stall: feeder.A, name: jam }\n"
       "  - snapshot: before\n"

@@ -64,11 +64,11 @@ TEST(Suite, OneJobAndEightTellTheSameInTheSameOrder) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(told(scenarios, 8), of_one);
 }
 
-TEST(Suite, WithoutScenariosNothingIsTold) {
+TEST(Suite, WithoutScenariosNothingIsReported) {
   EXPECT_EQ(told({}, 8), junit_text({}) + "0 passed, 0 failed; 0s simulated");
 }
 
-TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
+TEST(Suite, AMissingExecutorIsThrownAfterWhatCameBefore) {
   const auto scenarios = many();
   std::atomic<int> made = 0;
   const RunOptions options{.make_executor = [&](const Scenario& scenario) -> std::unique_ptr<Executor> {
@@ -90,7 +90,7 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
   EXPECT_LT(made, 48);  // the rest does not run
 }
 
-TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsTold) {
+TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsReported) {
   std::uint64_t taken = 0;
   std::uint64_t told = 0;
   std::uint64_t farthest = 0;

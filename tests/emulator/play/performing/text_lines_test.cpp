@@ -44,7 +44,7 @@ std::string refusal(const std::string& steps) {
   return "";
 }
 
-TEST(TextLinesHeard, EndWithEitherOrBoth) {
+TEST(ReceivedTextLines, EndWithEitherOrBoth) {
   EXPECT_EQ(world::lines_in("").lines, Strings{});
   EXPECT_EQ(world::lines_in("a\r\nb\rc\nd").lines, (Strings{"a", "b", "c", "d"}));
   EXPECT_EQ(world::lines_in("a\r\nb\rc\nd").finished, 3u);
@@ -141,7 +141,7 @@ TEST(TextSteps, HaveTheSameVerdictsOverARealPty) {
   }
 }
 
-TEST(TextSteps, TakesRunsFromTheLineThatWasHeard) {
+TEST(TextSteps, TakesRunsFromTheLineThatWasReceived) {
   // "AT 300" and its CR are seven characters: received at 7.29 ms, so from tick 8 on.
   const std::string steps =
       "  - send: { text: AT 300 }\n"
@@ -150,7 +150,7 @@ TEST(TextSteps, TakesRunsFromTheLineThatWasHeard) {
   EXPECT_TRUE(outcome.has_passed) << outcome.why;
 }
 
-TEST(TextSteps, ForksGoOnFromWhatWasHeard) {
+TEST(TextSteps, ForksContinueFromWhatWasReceived) {
   const Outcome outcome = play_text(
       "  - send: { text: LIST 2 }\n  - advance: 100ms\n  - snapshot: heard\n  - hear: { text: line 1 }\n"
       "  - restore: heard\n  - hear: { text: [ line 1, line 2 ] }\n",
@@ -158,7 +158,7 @@ TEST(TextSteps, ForksGoOnFromWhatWasHeard) {
   EXPECT_TRUE(outcome.has_passed) << outcome.why;
 }
 
-TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
+TEST(TextSteps, WhatTheyCannotSayIsReportedBeforehand) {
   EXPECT_EQ(refusal("  - send: { text: a, bytes: 01 }\n"),
             "test.yaml:5: steps[0].send.bytes: is not a key here; expected one of line, text, reply, within");
   EXPECT_EQ(refusal("  - send: { text: \"a\\rb\" }\n"),

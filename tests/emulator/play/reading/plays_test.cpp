@@ -103,7 +103,7 @@ TEST_F(SeveralPlays, ADeviceMayKeepAnOptionOfItsOwn) {
   EXPECT_EQ(scenarios[1].bench.devices.at(1).settings.choices.at("loop_count"), "passes");
 }
 
-TEST_F(SeveralPlays, WhatIsWrongIsToldWhereItStands) {
+TEST_F(SeveralPlays, WhatIsWrongIsReportedWhereItStands) {
   const std::string head = "understudy: 1\nbench: feeder.yaml\n";
   const struct {
     std::string text;

@@ -166,7 +166,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
             "expected less, with all loops and cases");
 }
 
-TEST_F(ScenarioFile, KindsAreToldByTheirKeys) {
+TEST_F(ScenarioFile, KindsAreRecognizedByTheirKeys) {
   const auto kind = [&](const std::string& text) { return kind_of_file(folder_.write("some.yaml", text)); };
   EXPECT_EQ(kind(kTwoStations), FileKind::bench);
   EXPECT_EQ(kind("understudy: 1\nbench: x\nsteps: []\n"), FileKind::scenario);

@@ -118,7 +118,7 @@ TEST_P(Rows, AreReadBackAsTheyWereMeant) {
           "None, None, '000000000000004d']\n");
 }
 
-TEST_P(Rows, TellWhatWasPlayedBefore) {
+TEST_P(Rows, ReportWhatRanBefore) {
   {
     const auto file = open(false);
     file->begin();
@@ -143,7 +143,7 @@ TEST_P(Rows, TellWhatWasPlayedBefore) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 7) << rows;
 }
 
-TEST_P(Rows, ANewRunBeginsAnew) {
+TEST_P(Rows, ANewRunRestarts) {
   for (int run = 0; run < 2; ++run) {
     const auto file = open(false);
     if (run == 1) {

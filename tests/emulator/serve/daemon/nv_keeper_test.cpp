@@ -140,7 +140,7 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
   }
 }
 
-TEST(ReadMemories, TellsAllThatIsWrongWithAllOfThem) {
+TEST(ReadMemories, ReportsAllErrorsOfAllOfThem) {
   const TestFolder folder;
   const std::string feeder = folder.path + "/feeder.json";
   const std::string turner = folder.path + "/turner.json";

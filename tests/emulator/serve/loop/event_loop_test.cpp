@@ -98,7 +98,7 @@ TEST(EventLoop, AHangUpIsReadable) {
   EXPECT_NE(seen & EventLoop::readable, 0u);
 }
 
-TEST(EventLoop, ACallMayUnwatchItselfAndGoOn) {
+TEST(EventLoop, ACallMayUnwatchItselfAndContinue) {
   EventLoop loop;
   const Pair pair;
   std::string kept_by_the_call = "still here";
@@ -306,7 +306,7 @@ TEST(EventLoop, WhatMayWaitDoesSoWhileSomethingIsDueSoon) {
   EXPECT_EQ(too_soon, 0);
 }
 
-TEST(EventLoop, WhatMayWaitGoesOnWaitingThoughAHostSpeaks) {
+TEST(EventLoop, WhatMayWaitKeepsWaitingThoughAHostSends) {
   EventLoop loop;
   const Pair port;
   const Pair client;

@@ -101,7 +101,7 @@ TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
   }
 }
 
-TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
+TEST(ModbusTcp, ReportsAStationThatDoesNotAnswer) {
   ModbusTcp gateway;
   EXPECT_TRUE(gateway.receive_from_client(kRequest));
   gateway.take_for_line(kRoom);
@@ -212,7 +212,7 @@ TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
 }
 
 // Whatever arrives from both sides, frames have their checksum and replies their length, and nothing grows.
-TEST(ModbusTcp, StaysWholeWhateverItHears) {
+TEST(ModbusTcp, StaysWholeWhateverItReceives) {
   std::mt19937 random(20'261'124);
   const std::array pieces{kRequest,
                           kReplyFrame,

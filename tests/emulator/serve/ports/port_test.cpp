@@ -131,7 +131,7 @@ TEST_F(LostPort, IsPulledOutAndPluggedInAgainByAFault) {
   close(another);
 }
 
-TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {
+TEST(PortOfADaemon, InAFolderThatCannotBeWrittenReportsLinks) {
   const TestFolder folder;
   std::filesystem::create_directory(folder.path + "/read-only");
   std::filesystem::permissions(folder.path + "/read-only", std::filesystem::perms(0555));

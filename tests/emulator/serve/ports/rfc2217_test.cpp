@@ -54,7 +54,7 @@ Bytes answer(Rfc2217& port, const Bytes& sent) {
 /// A subnegotiation of COM-PORT-OPTION.
 Bytes com_port(const std::string& body) { return hex("FF FA 2C " + body + " FF F0"); }
 
-TEST(Rfc2217, CarriesEveryByteBothWays) {
+TEST(Rfc2217, CarriesEveryByteInBothDirections) {
   Rfc2217 port = agreed();
   Bytes all;
   Bytes escaped;
@@ -128,7 +128,7 @@ TEST(Rfc2217, AnswersEachCommandWithWhatIsInEffect) {
   }
 }
 
-TEST(Rfc2217, TellsTheMaskedModemStateBehindTheMask) {
+TEST(Rfc2217, ReportsTheMaskedModemStateBehindTheMask) {
   Rfc2217 port = agreed();
   EXPECT_EQ(answer(port, com_port("0B 10")), hex("FF FA 2C 6F 10 FF F0 FF FA 2C 6B 10 FF F0"));
 }

@@ -12,7 +12,7 @@ FileError error_at(int line, int column, const std::string& text) {
   return {FilePlace{"a.yaml", line, column}, text};
 }
 
-TEST(Diagnostics, AreToldInTheFilesOrderAndOnce) {
+TEST(Diagnostics, AreReportedInTheFilesOrderAndOnce) {
   Diagnostics all;
   EXPECT_FALSE(all.attempt([] { throw error_at(7, 1, "late"); }));
   EXPECT_FALSE(all.attempt([] { throw error_at(2, 9, "right"); }));
@@ -375,7 +375,7 @@ scenario.yaml:13: steps[3].hear.line: no line is called 'q'; expected 'rs485'
 scenario.yaml:13: steps[3].hear.within: 'x' is not a duration; expected one such as 250ms)");
 }
 
-TEST(AllDiagnostics, OfStepsThatLookAndGoOn) {
+TEST(AllDiagnostics, OfStepsThatCheckAndContinue) {
   EXPECT_EQ(
       told_of(R"(  - wait: { until: feeder.Q, within: soon, poll: 1us, for: 3 }
   - assert: [ feeder.Q, turner.Q == 1 ]
@@ -478,7 +478,7 @@ TEST(AllDiagnostics, OfAFaultInAScenario) {
             "nearest is 'home'");
 }
 
-TEST(AllDiagnostics, OfCasesAreToldForTheFirstOne) {
+TEST(AllDiagnostics, OfCasesAreReportedForTheFirstOne) {
   const play::ScenarioFolder folder;
   EXPECT_EQ(
       folder.diagnostic("understudy: 1\nbench: feeder.yaml\ncases: [ { a: 1 }, { a: x }, { a: y } ]\nsteps:\n"

@@ -23,7 +23,7 @@ std::vector<std::string> texts_of(const Story& story) {
   return texts;
 }
 
-TEST(Story, TellsTheEventsThatTouchItsNames) {
+TEST(Story, ReportsTheEventsThatTouchItsNames) {
   using namespace std::chrono_literals;
   const World world = make_world();
   const std::deque<Event> events = {

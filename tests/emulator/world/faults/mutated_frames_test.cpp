@@ -87,7 +87,7 @@ TEST(MutatedFrames, ChangeNothingAndGoodOnesBetweenThemAreAnswered) {
   for (const std::uint64_t seed : {1u, 2u}) expect_unmoved(seed, false);
 }
 
-TEST(MutatedFrames, OfAHostThatIsHeardStrictlyToo) {
+TEST(MutatedFrames, OfAHostThatIsReceivedStrictlyToo) {
   for (const std::uint64_t seed : {3u, 4u}) expect_unmoved(seed, true);
 }
 

@@ -352,7 +352,7 @@ TEST(FaultState, OfWhatNoFaultCanBeIsRefused) {
 
 // --- the same, however ticks are run ----------------------------------------------------------------
 
-TEST(TriggeredFaults, AreTheSameWhetherQuietTicksAreRunOrCrossed) {
+TEST(TriggeredFaults, AreTheSameWhetherQuietTicksAreRunOrSkipped) {
   for (const char* text :
        {"stall feeder.A at=333.4ms for=10ms", "power_cut turner from=200ms to=250.5ms",
         "stuck feeder.DIN_3 level=1 when=\"feeder.A.pulses > 100\"",

@@ -61,7 +61,7 @@ TEST(PlantDrive, DisabledInMidMoveStopsInTheNextTickAndWaitsAgain) {
   EXPECT_EQ(axis.lost_pulses(), 10);
 }
 
-TEST(PlantDrive, AnInterruptionOfOneTickBeginsTheDelayAnew) {
+TEST(PlantDrive, AnInterruptionOfOneTickRestartsTheDelay) {
   PlantAxis axis(with_drive({.ready_after = 10}));
   for (Tick tick = 1; tick <= 40; ++tick) {
     axis.step(tick, 0, tick == 10 ? kOff : kOn);

@@ -106,7 +106,7 @@ TEST(PlantLostSteps, OneInOneIsAStall) {
   EXPECT_EQ(machine.lost(), 70);
 }
 
-TEST(PlantLostSteps, OfAnotherRateAreCountedAnew) {
+TEST(PlantLostSteps, OfAnotherRateAreCountedAgain) {
   Machine machine;
   machine.faults().loses_one_in = 1000;
   machine.step(999);  // one more would be lost
@@ -118,7 +118,7 @@ TEST(PlantLostSteps, OfAnotherRateAreCountedAnew) {
   EXPECT_EQ(machine.lost(), 1);
 }
 
-TEST(PlantLostSteps, AreCountedAnewAfterTheyWereOver) {
+TEST(PlantLostSteps, AreCountedAgainAfterTheyWereOver) {
   Machine machine;
   machine.faults().loses_one_in = 10;
   machine.step(9);

@@ -67,7 +67,7 @@ TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
   EXPECT_GT(bytes, 3000U) << "or little was compared";
 }
 
-TEST(Replay, TellsTheFirstByteThatDiffers) {
+TEST(Replay, ReportsTheFirstByteThatDiffers) {
   BusyWorld busy(4);
   busy.play(300);
   const std::vector<std::string> lines = lines_of(busy.finish());
@@ -177,7 +177,7 @@ TEST(Replay, ASnapshotThatDoesNotBelongToTheBenchIsRefused) {
   EXPECT_TRUE(why.starts_with("a.jsonl:1: snapshot: bench: ")) << why;
 }
 
-TEST(Replay, StopsWhereItIsTold) {
+TEST(Replay, StopsWhereRequested) {
   BusyWorld busy(5);
   busy.play(100);
   const std::string text = busy.finish();

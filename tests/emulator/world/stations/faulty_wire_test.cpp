@@ -75,7 +75,7 @@ TEST(FaultyWire, LetsAllThroughWhereNothingIsBroken) {
   EXPECT_FALSE(rig.wire.take_early_frame());
 }
 
-TEST(FaultyWire, TellsWhichDeviceHears) {
+TEST(FaultyWire, ReportsWhichDeviceReceives) {
   Rig rig;
   rig.wire.set_faults(&rig.faults, 4, 7);
   EXPECT_TRUE(rig.receive({1, 2}, 5ms));
@@ -83,7 +83,7 @@ TEST(FaultyWire, TellsWhichDeviceHears) {
   EXPECT_EQ(rig.faults.line, 7u);
 }
 
-TEST(FaultyWire, GarblesDropsAndDelaysBothWays) {
+TEST(FaultyWire, GarblesDropsAndDelaysInBothDirections) {
   struct Case {
     const char* what;
     std::vector<pty::WireFault> stages;

@@ -73,7 +73,7 @@ TEST(TextBench, IsTheSameBenchAsText) {
   EXPECT_EQ(again.devices[0].settings.nv, bench.devices[0].settings.nv);
 }
 
-TEST(TextBench, WhatSuchADeviceCannotBeIsToldWithItsLine) {
+TEST(TextBench, WhatSuchADeviceCannotBeIsReportedWithItsLine) {
   const auto with = [](const std::string& stations) {
     return "understudy: 1\nlines:\n  a:\n    stations:\n" + stations;
   };

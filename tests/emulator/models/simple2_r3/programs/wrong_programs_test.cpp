@@ -6,7 +6,7 @@ namespace understudy::emulator::models::simple2_r3 {
 namespace wrong_programs_test {
 
 // "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is reached.
-TEST(WrongProgram, WithNestedLoopsEndsWhereTheInnerLoopIsMetAgain) {
+TEST(WrongProgram, WithNestedLoopsEndsWhereTheInnerLoopIsReachedAgain) {
   expect_course({.listing = "wrong_nested_loops.lst", .until = 100}, R"(
 0       run L0 C1=1
 2       L1 C2=1
@@ -98,7 +98,7 @@ TEST(WrongProgram, WithoutEndStopsAfterLine255) {
 )");
 }
 
-TEST(WrongProgram, WithoutEndGoesOnAtLine0IfThatIsChosen) {
+TEST(WrongProgram, WithoutEndContinuesAtLine0IfThatIsChosen) {
   expect_course({.listing = "wrong_no_end.lst",
                  .given = {.choices = {{"after_last_line", "goes_on_at_0"}}},
                  .deeds = {{host_writes(2 * 256 + 13, "PROG_MAIN_RunTime_END", 1)}},
@@ -147,7 +147,7 @@ const std::vector<std::pair<std::string, Value>> kLongWay = {
 
 // Erasing stops the program; the axis and the outputs are not the program's any more. Started again, it
 // finds 256 NOPs.
-TEST(WrongMoment, ErasedWhileItRunsItStopsAndTheMoveGoesOn) {
+TEST(WrongMoment, ErasedWhileItRunsItStopsAndTheMoveContinues) {
   expect_course({.listing = "endless_blinker.lst",
                  .host = kLongWay,
                  .deeds = {{host_writes(241, "PROG_MAIN_Erase_ALL", 1),
@@ -178,7 +178,7 @@ TEST(WrongMoment, ErasedWhileItRunsItStopsAndTheMoveGoesOn) {
 )");
 }
 
-TEST(WrongMoment, StartedWhileItRunsItBeginsAnewAtThatLine) {
+TEST(WrongMoment, StartedWhileItRunsItRestartsAtThatLine) {
   expect_course({.listing = "endless_blinker.lst",
                  .host = kLongWay,
                  .deeds = {{host_writes(30, "PROG_MAIN_RunTime_START", 6),
@@ -202,7 +202,7 @@ TEST(WrongMoment, StartedWhileItRunsItBeginsAnewAtThatLine) {
 }
 
 // A delay that has begun continues as it began; flags jump to their present places.
-TEST(WrongMoment, RewrittenWhileItRunsItGoesOnWithTheNewLines) {
+TEST(WrongMoment, RewrittenWhileItRunsItContinuesWithTheNewLines) {
   expect_course({.listing = "rewritten_as_it_runs.lst",
                  .deeds = {{host_writes(31, "MAIN_LINE1_DATA1", 4), host_writes(61, "MAIN_LINE0_JMP", 0),
                             host_writes(61, "MAIN_LINE3_JMP", 1)}},

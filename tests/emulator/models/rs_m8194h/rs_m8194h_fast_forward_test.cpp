@@ -10,7 +10,7 @@
 #include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::models::rs_m8194h {
-namespace rs_m8194h_crossing_test {
+namespace rs_m8194h_fast_forward_test {
 
 constexpr const char* kProgram =
     "MP 1\nRSM_MACRO_FOR 3\nRSM_MACRO_FIXED_MOVE X 700\nRSM_MACRO_STOP_WAIT X\nRSM_MACRO_NEXT\nEND\n"
@@ -126,7 +126,7 @@ class Course {
   std::mt19937_64 random_;
 };
 
-TEST(RsM8194hCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
+TEST(RsM8194hFastForward, RandomCoursesAreTheSameInBulkAndByTicks) {
   const std::uint64_t first = number_from("UNDERSTUDY_SEED", 81'940);
   std::uint64_t skipped = 0;
   std::int64_t moved = 0;
@@ -163,7 +163,7 @@ TEST(RsM8194hCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
   EXPECT_GT(moved, 10'000);
 }
 
-TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
+TEST(RsM8194hFastForward, AMoveWithNothingToMeetIsFastForwarded) {
   OneRsm rsm;
   rsm.send({"RSM_SET_SV XY 1000", "RSM_SET_V XY 1000", "RSM_FIXED_MOVE XY 10000"});
   const std::uint64_t before = rsm.world().ticks_skipped();
@@ -173,7 +173,7 @@ TEST(RsM8194hCrossing, AMoveWithNothingToMeetIsCrossed) {
 }
 
 /// An encoder that is not compared with anything causes no events.
-TEST(RsM8194hCrossing, AMoveWithAnEncoderIsCrossedAsWell) {
+TEST(RsM8194hFastForward, AMoveWithAnEncoderIsFastForwardedAsWell) {
   GivenRsm given;
   given.plant[0].encoder_counts_per_revolution = 4000;
   given.plant[0].pulses_per_revolution = 1000;
@@ -186,5 +186,5 @@ TEST(RsM8194hCrossing, AMoveWithAnEncoderIsCrossedAsWell) {
   EXPECT_EQ(rsm.get("EP_X"), 4 * rsm.get("LP_X"));
 }
 
-}  // namespace rs_m8194h_crossing_test
+}  // namespace rs_m8194h_fast_forward_test
 }  // namespace understudy::emulator::models::rs_m8194h

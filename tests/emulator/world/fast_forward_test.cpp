@@ -10,7 +10,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace crossing_test {
+namespace fast_forward_test {
 
 using namespace std::chrono_literals;
 
@@ -168,7 +168,7 @@ World world_of(const std::string& bench) {
   return World(parse_bench(models::all_models(), bench, "course.yaml", "."), {}, {});
 }
 
-TEST(WorldCrossing, RandomCoursesAreTheSameInBulkAndByTicks) {
+TEST(WorldFastForward, RandomCoursesAreTheSameInBulkAndByTicks) {
   std::uint64_t skipped = 0;
   std::uint64_t run = 0;
   std::uint64_t single = 0;
@@ -210,7 +210,7 @@ std::string one_device(const std::string& plant) {
          plant + "\n";
 }
 
-TEST(WorldCrossing, AnHourLongMoveIsAFewTicks) {
+TEST(WorldFastForward, AnHourLongMoveIsAFewTicks) {
   // 3200 pulses per revolution at 60 rpm: 3200 pulses per second, for an hour.
   for (const char* plant :
        {"{ }", "{ encoder: { per_revolution: 4000 } }",
@@ -229,7 +229,7 @@ TEST(WorldCrossing, AnHourLongMoveIsAFewTicks) {
   }
 }
 
-TEST(WorldCrossing, AnHourInVelocityModeToo) {
+TEST(WorldFastForward, AnHourInVelocityModeToo) {
   World world = world_of(one_device("{ encoder: { per_revolution: 4000 } }"));
   set(world, "feeder.ALL_SVON", 1);
   set(world, "feeder.Aaxis_DirectmRPM", 60'000);
@@ -239,7 +239,7 @@ TEST(WorldCrossing, AnHourInVelocityModeToo) {
   EXPECT_LT(world.ticks_run(), 2'000u);
 }
 
-TEST(WorldCrossing, AWatcherSeesEveryTick) {
+TEST(WorldFastForward, AWatcherSeesEveryTick) {
   struct Eye final : TickWatcher {
     void on_tick(Tick) override { ++ticks; }
     int ticks = 0;
@@ -253,7 +253,7 @@ TEST(WorldCrossing, AWatcherSeesEveryTick) {
   world.remove_watcher(eye);
 }
 
-TEST(WorldCrossing, TakenBackItCrossesAgain) {
+TEST(WorldFastForward, RestoredItFastForwardsAgain) {
   World world = world_of(one_device("{ }"));
   set(world, "feeder.ALL_SVON", 1);
   set(world, "feeder.Aaxis_DirectmRPM", 60'000);
@@ -266,5 +266,5 @@ TEST(WorldCrossing, TakenBackItCrossesAgain) {
   EXPECT_LT(world.ticks_run() - before, 100u);
 }
 
-}  // namespace crossing_test
+}  // namespace fast_forward_test
 }  // namespace understudy::emulator::world

@@ -6,7 +6,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace told_faults_test {
+namespace reported_faults_test {
 
 using Lines = std::vector<std::string>;
 
@@ -103,7 +103,7 @@ const std::vector<Told>& cells() {
   return all;
 }
 
-TEST(ToldFaults, EachKindIsToldOfWhereItActs) {
+TEST(ReportedFaults, EachKindIsReportedWhereItActs) {
   for (const Told& cell : cells()) {
     FaultyLine line(
         "plant: { feeder.A: { encoder: { per_revolution: 4000 } }, feeder.B: { encoder: { on: wheel, "
@@ -115,7 +115,7 @@ TEST(ToldFaults, EachKindIsToldOfWhereItActs) {
   }
 }
 
-TEST(ToldFaults, NoKindIsForgottenHere) {
+TEST(ReportedFaults, NoKindIsForgottenHere) {
   for (const FaultKindRow& row : fault_kinds()) {
     const auto is_of_kind = [&](const Told& cell) {
       return cell.fault.starts_with(std::string(row.name) + " ");
@@ -124,7 +124,7 @@ TEST(ToldFaults, NoKindIsForgottenHere) {
   }
 }
 
-TEST(ToldFaults, SeveralOnOneMessageAreToldTogether) {
+TEST(ReportedFaults, SeveralOnOneMessageAreReportedTogether) {
   FaultyLine line;
   Captured captured(line);
   line.inject("corrupt_checksum feeder");
@@ -141,7 +141,7 @@ TEST(ToldFaults, SeveralOnOneMessageAreToldTogether) {
                                      "fault 2 truncate: cut; fault 3 drop: not sent"}));
 }
 
-TEST(ToldFaults, OnlyWhatIsHitIsTold) {
+TEST(ReportedFaults, OnlyWhatIsHitIsReported) {
   FaultyLine line;
   Captured captured(line);
   line.inject("drop feeder function=6");
@@ -152,7 +152,7 @@ TEST(ToldFaults, OnlyWhatIsHitIsTold) {
                    "out L  # fault 2 drop: not sent"}));
 }
 
-TEST(ToldFaults, AReplyToNobodySaysBoth) {
+TEST(ReportedFaults, AReplyToNobodySaysBoth) {
   FaultyLine line;
   Captured captured(line);
   line.inject("corrupt_checksum feeder");
@@ -164,7 +164,7 @@ TEST(ToldFaults, AReplyToNobodySaysBoth) {
             "fault 1 corrupt_checksum: last byte inverted");
 }
 
-TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
+TEST(ReportedFaults, ALineOfTextIsReportedNextToIt) {
   World world(parse_bench(models::all_models(),
                           "understudy: 1\nlines: { t: { stations: [ { name: chain, model: slim } ] } }\n",
                           "t.yaml", "."),
@@ -194,5 +194,5 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
   EXPECT_GT(lines.size(), 4u) << "the second reply arrives";
 }
 
-}  // namespace told_faults_test
+}  // namespace reported_faults_test
 }  // namespace understudy::emulator::world

@@ -6,7 +6,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace hearing_test {
+namespace host_settings_test {
 
 void expect_answer(Host& host) {
   EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
@@ -32,7 +32,7 @@ TEST(HostWithAnotherSpeed, GetsNoReplyAndTheUserOneWarning) {
   EXPECT_EQ(lines_of(daemon.errors()).size(), 1U) << daemon.errors();
 }
 
-TEST(HostWithAnotherSpeed, IsHeardOnceItSetsTheRightOne) {
+TEST(HostWithAnotherSpeed, IsReceivedOnceItSetsTheRightOne) {
   const RunningUnderstudy daemon;
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(B115200));
@@ -51,7 +51,7 @@ TEST(HostWithTwoStopBits, GetsNoReply) {
   EXPECT_EQ(lines_of(daemon.errors()).size(), 1U) << daemon.errors();
 }
 
-TEST(HostWithAnotherSpeed, IsHeardWithIgnoreBaud) {
+TEST(HostWithAnotherSpeed, IsReceivedWithIgnoreBaud) {
   const RunningUnderstudy daemon({"--ignore-baud"});
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(B9600));
@@ -59,7 +59,7 @@ TEST(HostWithAnotherSpeed, IsHeardWithIgnoreBaud) {
   EXPECT_EQ(daemon.errors(), "");
 }
 
-TEST(HostThatSetsNoSpeed, IsHeardWithOneWarning) {
+TEST(HostThatSetsNoSpeed, IsReceivedWithOneWarning) {
   const RunningUnderstudy daemon;
   Host host(daemon.port());
   for (int time = 0; time < 3; ++time) expect_answer(host);
@@ -78,7 +78,7 @@ TEST(HostWithTheRightSpeed, CausesNoWarning) {
 
 bool set_speed(const Host& host, int baud) { return set_any_speed(host.descriptor(), baud); }
 
-TEST(HostWithNearlyTheSpeed, IsHeardWithinTwoPercent) {
+TEST(HostWithNearlyTheSpeed, IsReceivedWithinTwoPercent) {
   const RunningUnderstudy daemon;
   for (const int baud : {19200, 19201, 18900, 19584, 18816}) {
     Host host(daemon.port());
@@ -94,7 +94,7 @@ TEST(HostWithNearlyTheSpeed, IsHeardWithinTwoPercent) {
   }
 }
 
-TEST(HostWithNearlyTheSpeed, IsHeardAsTheLineChooses) {
+TEST(HostWithNearlyTheSpeed, IsReceivedAsTheLineChooses) {
   const RunningUnderstudy exact({"--baud-tolerance", "0%"});
   Host host(exact.port());
   ASSERT_TRUE(set_speed(host, 19201));
@@ -114,5 +114,5 @@ TEST(HostWithNearlyTheSpeed, IsHeardAsTheLineChooses) {
   }
 }
 
-}  // namespace hearing_test
+}  // namespace host_settings_test
 }  // namespace understudy::acceptance

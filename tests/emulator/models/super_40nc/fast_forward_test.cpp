@@ -13,7 +13,7 @@
 #include "tests/sanitized.h"
 
 namespace understudy::emulator::models::super_40nc {
-namespace crossing_test {
+namespace super_40nc_fast_forward_test {
 
 /// They settle: only counters change in a scan.
 constexpr const char* kPlc =
@@ -104,7 +104,7 @@ std::uint64_t number_from(const char* name, std::uint64_t usual) {
   return given != nullptr ? std::strtoull(given, nullptr, 10) : usual;
 }
 
-TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
+TEST(Super40ncFastForward, IsTheSameAsSingleTicks) {
   const std::uint64_t first = number_from("UNDERSTUDY_SEED", 1);
   std::uint64_t ticks_skipped = 0;
   for (std::uint64_t seed = first;
@@ -142,7 +142,7 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
 }
 
 /// Also if an input has changed since the last tick.
-TEST(Super40ncCrossing, ARestoredWorldIsTheOneThatWasSaved) {
+TEST(Super40ncFastForward, ARestoredWorldIsTheOneThatWasSaved) {
   for (const std::string input : {"X0", "X1", "X4", "X7", "X20", "ALM_Y", "CEMG", "PLC_RUN"}) {
     OneSuper40nc one(drawn(7));
     one.set("M8103", 1);
@@ -160,12 +160,12 @@ TEST(Super40ncCrossing, ARestoredWorldIsTheOneThatWasSaved) {
 }
 
 /// A settled PLC and axes at rest cost almost nothing: an hour of it.
-TEST(Super40ncCrossing, ASettledDeviceCostsNoTicks) {
+TEST(Super40ncFastForward, ASettledDeviceCostsNoTicks) {
   OneSuper40nc one({.program = kPlc});
   one.set("M1", 1);
   one.run(3'600'000);
   EXPECT_TRUE(one.output("Y20"));
 }
 
-}  // namespace crossing_test
+}  // namespace super_40nc_fast_forward_test
 }  // namespace understudy::emulator::models::super_40nc

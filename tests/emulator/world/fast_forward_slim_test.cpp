@@ -9,7 +9,7 @@
 #include "tests/sanitized.h"
 
 namespace understudy::emulator::world {
-namespace crossing_slim_test {
+namespace fast_forward_slim_test {
 
 using namespace std::chrono_literals;
 
@@ -128,7 +128,7 @@ void apply(World& world, const RandomDialogue::Act& act) {
   }
 }
 
-TEST(SlimCrossing, RandomDialoguesAreTheSameInBulkAndByTicks) {
+TEST(SlimFastForward, RandomDialoguesAreTheSameInBulkAndByTicks) {
   std::uint64_t run = 0;
   std::uint64_t single = 0;
   std::int64_t moved = 0;
@@ -161,7 +161,7 @@ TEST(SlimCrossing, RandomDialoguesAreTheSameInBulkAndByTicks) {
   EXPECT_GT(moved, fewer_if_sanitized(100'000, 3));
 }
 
-TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {
+TEST(SlimFastForward, AMoveOfAnHourIsAFewTicks) {
   RandomDialogue dialogue(1);
   Bench bench = dialogue.bench();
   bench.machines.clear();
@@ -173,5 +173,5 @@ TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {
   EXPECT_LT(world.ticks_run(), 500u);
 }
 
-}  // namespace crossing_slim_test
+}  // namespace fast_forward_slim_test
 }  // namespace understudy::emulator::world

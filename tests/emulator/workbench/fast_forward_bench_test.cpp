@@ -13,7 +13,7 @@
 #include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::workbench {
-namespace crossing_bench_test {
+namespace fast_forward_bench_test {
 
 using world::World;
 
@@ -126,7 +126,7 @@ std::uint64_t number_from(const char* name, std::uint64_t usual) {
   return given != nullptr ? std::strtoull(given, nullptr, 10) : usual;
 }
 
-TEST(CrossingWithEdges, EqualsSingleTicks) {
+TEST(FastForwardWithEdges, EqualsSingleTicks) {
   const std::uint64_t seed = number_from("UNDERSTUDY_SEED", 51'000);
   std::uint64_t skipped = 0;
   for (std::uint64_t i = 0; i < number_from("UNDERSTUDY_COURSES", 60); ++i) {
@@ -153,5 +153,5 @@ TEST(CrossingWithEdges, EqualsSingleTicks) {
   EXPECT_GT(skipped, 1000U);
 }
 
-}  // namespace crossing_bench_test
+}  // namespace fast_forward_bench_test
 }  // namespace understudy::emulator::workbench
