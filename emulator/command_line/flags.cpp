@@ -108,7 +108,7 @@ struct CommandLine {
         ->capture_default_str();
     command
         .add_option("--evidence", describe.evidence,
-                    "Of choices: show what `calibrate -o` has measured in these files")
+                    "For choices: show what `calibrate -o` has measured in these files")
         ->check(kNotEmpty);
     command.callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
@@ -364,9 +364,9 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
      &CommandLine::add_exec},
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
     {"hunt",
-     "Search for disturbances that break a scenario, or a command beside it (hunt FILE -- COMMAND), and "
-     "reduce "
-     "them to the fewest that do",
+     "Search for disturbances that break a scenario, or a command that runs with it (hunt FILE -- COMMAND), "
+     "and "
+     "reduce them to the fewest that do",
      &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},

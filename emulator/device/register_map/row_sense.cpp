@@ -83,7 +83,7 @@ void validate_acts(const RegisterRow& row, const Require& require) {
           "can only be read, and has an effect");
   require(row.access != Access::write || row.reader == nullptr, "can only be written, and has a reader");
   require((row.varies == Varies::with_time) == (row.next_change != nullptr),
-          "changes with time, and does not say at which ticks, or says so and does not change");
+          "must say at which ticks its value changes if it changes with time, and only then");
   require(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
           "is a view that can be written, but nothing handles the write");
   if (row.message == nullptr) return;

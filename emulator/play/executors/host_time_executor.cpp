@@ -22,7 +22,7 @@ namespace understudy::emulator::play {
 namespace {
 
 [[noreturn]] void refuse() {
-  throw std::logic_error("a host program uses the lines; expected only steps that use no line");
+  throw std::logic_error("a host program uses the lines; expected only steps that do not use a line");
 }
 
 }  // namespace

@@ -218,7 +218,7 @@ Tick RealExecutor::tick_of_last_write() {
 LibmodbusHost& RealExecutor::host(std::size_t line) {
   throw_if_given_up();
   if (!options_.has_hosts) {
-    throw std::logic_error("a host program uses the lines; expected only steps that use no line");
+    throw std::logic_error("a host program uses the lines; expected only steps that do not use a line");
   }
   found_at_.reset();
   return *hosts_[line];

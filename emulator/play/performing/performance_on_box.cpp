@@ -92,13 +92,13 @@ struct StepOnBox {
   }
 
   void operator()(const MemoryStep&) const { throw OnBox::Skip("the memory is not on the line", false); }
-  void operator()(const CommandEndStep&) const { throw OnBox::Skip("no command runs beside it", true); }
+  void operator()(const CommandEndStep&) const { throw OnBox::Skip("no command runs with it", true); }
   void operator()(const SnapshotStep&) const { throw OnBox::Skip("the state cannot be kept", false); }
   void operator()(const RestoreStep&) const { throw OnBox::Skip("time cannot go back", true); }
   void operator()(const ForkStep&) const { throw OnBox::Skip("time cannot go back", false); }
 
  private:
-  /// In a rehearsal, the world takes the place of the machine.
+  /// In a rehearsal, the world replaces the machine.
   void rehearse(const auto& what) const {
     if (on_box.box_.is_rehearsal()) on_box.performance_.perform(what);
   }

@@ -41,9 +41,8 @@ struct Objection {
   const char* operator()(const auto&) const { return nullptr; }
 
   static constexpr const char* kUsesLine =
-      "uses a line, which belongs to the host program; expected steps that use no line, such as `wait` "
-      "without "
-      "`poll`, `assert`, `input`";
+      "uses a line, which belongs to the host program; expected steps that do not use a line, such as `wait` "
+      "without `poll`, `assert`, `input`";
   static constexpr const char* kGoesBack =
       "goes back in time, but the host program cannot; expected steps that go forward";
 };

@@ -148,11 +148,11 @@ inline constexpr auto kInputRows15 = section("12.1.13", {
     input(114, "Download: error type", u16).means("last error at the download of macros: sort of error", "巨集程序的下載錯誤訊息: 錯誤類型").also("DOWNLOAD_ERROR").shows<download_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows16 = section("12.1.14", {
-    input(115, "Execution: MP number", u16).means("last error at the execution of macros: MP number", "巨集程序的執行錯誤訊息: MP 巨集程序編號").also("EXECUTION_MP").shows<execution_field, Varies::in_ticks>(0),
-    input(116, "Execution: ISR number", u16).means("last error at the execution of macros: ISR number", "巨集程序的執行錯誤訊息: ISR 巨集程序編號").also("EXECUTION_ISR").shows<execution_field, Varies::in_ticks>(1),
-    input(117, "Execution: command type", u16).means("last error at the execution of macros: code of the command", "巨集程序的執行錯誤訊息: 造成錯誤的指令代碼").also("EXECUTION_CMD").shows<execution_field, Varies::in_ticks>(2),
-    input(118, "Execution: line number", u16).means("last error at the execution of macros: line", "巨集程序的執行錯誤訊息: 發生錯誤的指令行號").also("EXECUTION_LINE").shows<execution_field, Varies::in_ticks>(3),
-    input(119, "Execution: error type", u16).means("last error at the execution of macros: sort of error", "巨集程序的執行錯誤訊息: 錯誤類型").also("EXECUTION_ERROR").shows<execution_field, Varies::in_ticks>(4),
+    input(115, "Execution: MP number", u16).means("last macro execution error: MP number", "巨集程序的執行錯誤訊息: MP 巨集程序編號").also("EXECUTION_MP").shows<execution_field, Varies::in_ticks>(0),
+    input(116, "Execution: ISR number", u16).means("last macro execution error: ISR number", "巨集程序的執行錯誤訊息: ISR 巨集程序編號").also("EXECUTION_ISR").shows<execution_field, Varies::in_ticks>(1),
+    input(117, "Execution: command type", u16).means("last macro execution error: code of the command", "巨集程序的執行錯誤訊息: 造成錯誤的指令代碼").also("EXECUTION_CMD").shows<execution_field, Varies::in_ticks>(2),
+    input(118, "Execution: line number", u16).means("last macro execution error: line", "巨集程序的執行錯誤訊息: 發生錯誤的指令行號").also("EXECUTION_LINE").shows<execution_field, Varies::in_ticks>(3),
+    input(119, "Execution: error type", u16).means("last macro execution error: kind of error", "巨集程序的執行錯誤訊息: 錯誤類型").also("EXECUTION_ERROR").shows<execution_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows17 = section("12.1.15", {
     with_names(input(130, "INT factor 0 PULSE", u16).means("axes with this interrupt, a bit each: a pulse has risen", "控制脈波上升時").also("INT_PULSE").shows<factor_axes, Varies::in_ticks>(0), kAxisMaskBits),

@@ -38,11 +38,11 @@ inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(�
     relay(m8::kMotionInhibit).means("inhibits motion", "移行禁止").does<write_command>(m8::kMotionInhibit),
     relay(m8::kMCodeFinished).means("the M code is finished", "M CODE 完成命令").does<write_command>(m8::kMCodeFinished),
     relay(m8::kPause).means("pauses the path program C on its rising edge", "暫停路徑程式執行").does<write_command>(m8::kPause),
-    relay(8007).means("path program C: 0 once, 1 over and over", "路徑程式 0 單動 1 連動"),
+    relay(8007).means("path program C: 0 once, 1 repeatedly", "路徑程式 0 單動 1 連動"),
     relay(m8::kFactoryParameters).means("restores the factory values of D9", "復歸 D9 參數成出廠值").does<write_command>(m8::kFactoryParameters).may(Hazards::all),
     relays(8009, 8011).means("reserved", "保留"),
     relays(8012, 8019).means("no function in the manual, plain storage"),
-    relays(8020, 8021).means("message of the system without a meaning in the manual", "系統訊息"),
+    relays(8020, 8021).means("system message without a meaning in the manual", "系統訊息"),
     relay(8022).means("the path program pauses", "暫停中").shows<read_pausing, Varies::in_ticks>().does<write_nothing>(),
     relay(8023).means("on for one scan after another file has been selected", "檔案號碼改變").shows<read_file_changed, Varies::in_ticks>().does<write_nothing>(),
     relays(8024, 8099).means("reserved", "保留"),
@@ -102,7 +102,7 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
     axis_relay(8158, R).means("state of the preregister of operations", "監控預置寄存器的狀態 PFM0").always(0),
     axis_relays(8159, 8191, 0).means("no function in the manual, plain storage"), axis_relays(8159, 8191, 1).means("no function in the manual, plain storage"), axis_relays(8159, 8191, 2).means("no function in the manual, plain storage"), axis_relays(8159, 8191, 3).means("no function in the manual, plain storage"),
     axis_relay(8192, R).means("ready input of the drive", "驅動器 READY 輸入狀態").shows<read_status, Varies::in_ticks>(SRDY),
-    axis_relays(8193, 8194, 0).means("message of the system without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 1).means("message of the system without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 2).means("message of the system without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 3).means("message of the system without a meaning in the manual", "系統訊息"),
+    axis_relays(8193, 8194, 0).means("system message without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 1).means("system message without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 2).means("system message without a meaning in the manual", "系統訊息"), axis_relays(8193, 8194, 3).means("system message without a meaning in the manual", "系統訊息"),
     axis_relay(8195, R).means("the last homing has found home", "HOME 完成").shows<read_status, Varies::in_ticks>(HOME_DONE),
     axis_relay(8196, R).means("the last return to zero has reached zero", "ZERO 完成").shows<read_status, Varies::in_ticks>(ZERO_DONE),
     axis_relay(8197, R).means("homing is in progress", "由 M8x05 引起的找原點運動中").shows<read_status, Varies::in_ticks>(HOME_RUNS),
@@ -126,7 +126,7 @@ inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", kPr
 });
 
 inline constexpr auto kKeptPanelContactRows = section("M86x 人機對應接點", kPlc, {
-    relay(8600).means("key of the panel: once, or over and over", "單動/連動選擇鍵").kept_at_once(),
+    relay(8600).means("key of the panel: once, or repeatedly", "單動/連動選擇鍵").kept_at_once(),
     relays(8601, 8699).means("no function in the manual, plain storage, persistent").kept_at_once(),
 });
 // clang-format on
