@@ -1,7 +1,7 @@
 // One axis in a tick in which something can happen: it goes from moment to moment and handles each edge.
 //
-//   tick - 1 ├──────●───────────────●──────┤ tick       ● an edge at a pulse, the end of the drive
-//            begin  look            look   finish
+//   tick - 1 ├──────●───────────────●─────────────┤ tick       ● an edge at a pulse, the end of the drive
+//            begin  step_events     step_events   finish
 //
 // If several axes act on each other, motion/shared_tick.h brings an axis to any moment in between.
 #pragma once

@@ -72,7 +72,7 @@ double ramp_distance(const RampLaw& law, double from_u_s, double to_u_s);
 /// Appends the ramp from one speed (>= 0) to another.
 void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double to_u_s);
 
-/// The range in which the speed stays during a change: 0 <= least <= most.
+/// The range in which the speed stays during a change: 0 <= min <= max.
 struct SpeedRange {
   double min_u_s = 0;
   double max_u_s = 0;
@@ -83,7 +83,7 @@ struct SpeedRange {
 /// of the law it belongs to (`up` for above 0, `down` for below), so the speed may pass `to_u_s` on the way;
 /// laws without jerk drop it at once. A section law continues with the present jerk, as that depends on the
 /// change under way. If a jerk is too small to keep the speed within `range`, a greater one is used, except
-/// for a jerk law going up: that passes range.most_u_s, up to at most speed_without_acceleration(), which is
+/// for a jerk law going up: that passes range.max_u_s, up to at most speed_without_acceleration(), which is
 /// no more than twice the speed.
 void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,
                    const SpeedRange& range);

@@ -5,8 +5,8 @@
 //   Station::run() --transmit()--> [wire] --> output() --> host
 //
 // The two directions do not disturb each other. A station never receives another station's reply as bytes,
-// only the notice that there is one: a reply to "write single register" is the same frame as its request, and
-// slaves that answer every address would take each other's replies for requests without end.
+// only the notice that one is being sent: a reply to "write single register" is the same frame as its
+// request, and slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
 #include <cstddef>

@@ -40,9 +40,9 @@ class Station {
   /// settings.
   virtual LineSettings settings() const = 0;
 
-  /// A character from the host has started; hear() follows when it has ended. Called only if characters take
-  /// time. Without it a silence rule could not distinguish a short gap from a long one: the character that
-  /// ends the gap is received a whole character time after its start bit.
+  /// A character from the host has started; receive() follows when it has ended. Called only if characters
+  /// take time. Without it a silence rule could not distinguish a short gap from a long one: the character
+  /// that ends the gap is received a whole character time after its start bit.
   virtual void on_start_bit(SimTime /*at*/) {}
 
   /// A character from the host has wholly arrived.

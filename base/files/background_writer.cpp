@@ -75,7 +75,7 @@ void BackgroundWriter::run() {
     changed_.wait(lock, [this] { return !waiting_.sizes.empty() || is_finishing_; });
     changed_.wait_for(lock, kGathering,
                       [this] { return waiting_.bytes.size() >= capacity_ / 2 || is_finishing_; });
-    if (waiting_.sizes.empty()) return;  // finishing, and all is written
+    if (waiting_.sizes.empty()) return;  // finishing, and everything is written
     std::swap(waiting_, writing);
     lock.unlock();
     int error = 0;

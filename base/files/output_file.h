@@ -40,8 +40,8 @@ std::string output_target(const std::string& path);
 /// Throws OutputError if the file at `target` is of another kind or cannot be read.
 void require_replaceable(const std::string& target, ContentKind kind);
 
-/// Returns why nothing of that kind can be written to `path`. Empty if it can be, or if only opening it can
-/// tell.
+/// Returns why contents of that kind cannot be written to `path`. Empty if they can be, or if that shows only
+/// when the file is opened.
 std::string why_not_writable(const std::string& path, ContentKind kind);
 
 /// The owner, group and permissions of a file.

@@ -18,7 +18,7 @@
 //
 // A type whose saved form differs from its form in memory (a ring, a program kept as its lines) has a pair of
 // functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have `fields`,
-// or `told(value)`, for comparing two values. StateHeldBy (state_bytes.h) is such a pair.
+// or `reported(value)`, for comparing two values. StateHeldBy (state_bytes.h) is such a pair.
 #pragma once
 
 #include <cstddef>

@@ -138,7 +138,7 @@ struct HuntArguments {
   std::string shard;        // "1/4"
   bool unguided = false;    // draws every course without regard to earlier ones
   std::string corpus;       // a file of courses to start from
-  std::string coverage;     // files, as of `run`
+  std::string coverage;     // files, as for `run`
   std::string device_coverage;
   std::string found = "found";  // the folder for what is found
   HostArguments host;           // the command beside which courses are played; none if it has no words

@@ -14,7 +14,7 @@ namespace understudy::emulator::command_line {
 
 // Exit codes for a command that cannot run.
 inline constexpr int kExitNoHostTime = 125;  // not in simulated time
-inline constexpr int kExitNotStarted = 127;  // as of shells
+inline constexpr int kExitNotStarted = 127;  // as in shells
 
 /// Throws FileError at the first step that this run cannot take: with a command, one that uses a line;
 /// without one, a `host` step. `verb` is what runs a scenario with a command.

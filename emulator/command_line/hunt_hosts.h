@@ -1,5 +1,5 @@
-// Plays the courses of a hunt beside a command. Each thread of the hunt has a process of its own for that,
-// because a command needs signals, of which a process has one set.
+// Plays the courses of a hunt beside a command. Each thread of the hunt uses a process of its own, because
+// a command needs signals, and a process has only one set of them.
 #pragma once
 
 #include <atomic>

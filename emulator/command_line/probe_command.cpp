@@ -54,7 +54,7 @@ struct OptionCase {
 struct Probed {
   const ChoiceRow* choice = nullptr;
   std::vector<OptionCase> cases{};
-  bool is_unsteady = false;  // a case ended otherwise when it was played again, so nothing is excluded
+  bool is_unsteady = false;  // a case ended differently the second time, so nothing is excluded
 
   /// A case in which a step was skipped has not judged everything, so it speaks for no option.
   std::vector<std::string> agreeing() const {
@@ -185,7 +185,7 @@ bool are_telling(const Probed& probed, OnStage& stage) {
 }
 
 /// Plays each case, and then each once more, because a late reply or what an earlier case has left behind can
-/// change a verdict. If a case cannot be told, the others of its choice would not decide either.
+/// change a verdict. If the result of a case is unknown, the others of its choice would not decide either.
 void play_all(Probed& probed, OnStage& stage, int times) {
   if (!are_telling(probed, stage)) return;
   for (int time = 0; time < times; ++time) {

@@ -20,7 +20,7 @@ void require_flags_that_agree(const RunArguments& arguments);
 /// Returns everything besides its sources on which the result of a case depends: the program's version, and
 /// the command, with the contents of the files that it names.
 std::string maker_of(const RunArguments& arguments);
-/// Returns the hash of a case's sources and of what has played it.
+/// Returns the hash of a case's sources and of the program that ran it.
 std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& maker);
 
 }  // namespace understudy::emulator::command_line

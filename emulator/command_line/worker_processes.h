@@ -1,5 +1,5 @@
-// Works in processes of their own: a case with a command has children and signals, of which a process has
-// one set.
+// Runs work in processes of its own: a case with a command has children and signals, and a process has only
+// one set of them.
 #pragma once
 
 #include <sys/types.h>

@@ -213,9 +213,9 @@ std::string shortest_text(double number) {
   return error == std::errc{} ? std::string(text.data(), end) : std::string();
 }
 
-/// Writes a register. `told` is the value as the user gave it; `value_for` returns nothing if the register
+/// Writes a register. `given` is the value as the user gave it; `value_for` returns nothing if the register
 /// cannot hold it.
-void set_register(Device& device, const std::string& name, const std::string& told,
+void set_register(Device& device, const std::string& name, const std::string& given,
                   const std::function<std::optional<Value>(const NamedPlace&)>& value_for) {
   RegisterBank* const bank = device.register_bank();
   const auto place = find_register(device.model(), name, device.firmware());
@@ -231,8 +231,8 @@ void set_register(Device& device, const std::string& name, const std::string& to
     case Refusal::bad_value: {
       const std::string expected =
           "; expected " + (value ? range_text(*place, *value) : range_text(*place->place.row));
-      throw SettingEntryError("set", name, told + " is out of range" + expected,
-                              told + " is out of range for " + name + expected);
+      throw SettingEntryError("set", name, given + " is out of range" + expected,
+                              given + " is out of range for " + name + expected);
     }
     case Refusal::busy:
     case Refusal::failure: throw SettingEntryError("set", name, "the device does not accept it now");

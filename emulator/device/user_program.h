@@ -37,7 +37,7 @@ class UserProgram {
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
   /// Adds an observer, which is not part of the state. It is notified of all lines from the next ones on;
-  /// before that it receives the program's mark (ProgramWatch::look()).
+  /// before that it receives the program's mark (ProgramWatch::program_loaded()).
   void add_watch(ProgramWatch& watch) {
     watches_.add(watch);
     watch_program(watches_.watch());

@@ -27,7 +27,7 @@ struct ListReading {
   std::vector<std::pair<Column, std::string>> columns{};  // and their headings
   std::optional<AddressReading> addresses{};              // none: wire, unless they cannot be that
   bool guesses_addresses = false;                         // false: refuses uncertain ones
-  Table table = Table::holding;                           // of rows that do not say it
+  Table table = Table::holding;                           // of rows that do not name one
   std::string encoding{};                                 // empty: guessed
   std::vector<Firmware> firmwares{};                      // that rows may begin with; empty: any
 };

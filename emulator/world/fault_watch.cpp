@@ -171,8 +171,8 @@ bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const ReceivedFra
   return strikes_frame(armed.fault.trigger, armed.course, protocol.facts_of(frame), *this, stream(number));
 }
 
-/// Returns true if the fault strikes the request. All stations of a line hear the same request, so the fault
-/// is judged once, when the first station asks.
+/// Returns true if the fault strikes the request. All stations of a line receive the same request, so the
+/// fault is judged once, when the first station asks.
 bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const ReceivedFrame& frame) {
   FaultCourse& course = armed.course;
   if (!armed.fault.on_line) return frame.is_for_device && is_hit(number, armed, frame);

@@ -25,9 +25,9 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
-  /// Returns when look() must be called next between ticks (is_tick = false), or kForever.
+  /// Returns when check() must be called next between ticks (is_tick = false), or kForever.
   SimTime next_moment() const;
-  /// Returns the first tick after `done` at whose end look() must be called.
+  /// Returns the first tick after `done` at whose end check() must be called.
   Tick next_tick(Tick done) const;
   /// Records which faults have begun or ended by now.
   void check(SimTime now, bool is_tick);

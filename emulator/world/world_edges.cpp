@@ -1,5 +1,5 @@
 // Tells devices that handle edges between ticks where along an axis its machine's switches change the levels
-// of inputs. They are told again whenever that changes: when the machine loses pulses or gets them back, or
+// of inputs. It does so again whenever that changes: when the machine loses pulses or gets them back, or
 // is pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
 #include <algorithm>
 #include <cstddef>

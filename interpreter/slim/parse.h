@@ -18,7 +18,7 @@ inline constexpr std::size_t kLongestLine = 255;
 /// Options about the language that the manual leaves open.
 struct Dialect {
   /// `T1MA R0` is refused, or accepted: the manual prints variables for MA and XMA, and "the same function"
-  /// for TpMA, without a form.
+  /// for TpMA, without printing its syntax.
   enum class ModuleMoveFromVariable : std::uint8_t {
     refused,
     accepted

@@ -1,4 +1,4 @@
-// One axis of a described controller: how it obeys hosts, and what it shows.
+// One axis of a described controller: how it executes the commands of hosts, and what it shows.
 //
 // The effect of a command depends on the axis's activity: kAnswers in axis_drive.cpp has a row for each
 // command and a column for each activity. docs/import.md shows this table to users.

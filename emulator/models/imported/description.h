@@ -187,7 +187,7 @@ struct Following {
   Quantity of;                            // the followed value
   std::optional<Condition> as_long_as{};  // condition for following; none: always
   Quantity rest;                          // the value that it approaches otherwise
-  double time_constant_s = 0;             // 0: at once, limited only by `most_per_s`
+  double time_constant_s = 0;             // 0: at once, limited only by `max_per_s`
   double max_per_s = 0;                   // counts per second; 0: no limit
   Tick every = 100;                       // period of its updates
 };

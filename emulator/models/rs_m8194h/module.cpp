@@ -108,7 +108,7 @@ Tick Module::next_event_tick(Tick done, Tick max, const ClearTravel& ahead) cons
 
 void Module::prefetch() const {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // all that the middle of a move needs
+    understudy::prefetch(&state_.motors[a], 2 * kCacheLine);  // everything that the middle of a move needs
     prefetch_line(&state_.environment[a]);
     prefetch_line(&state_.units[a].sent_pulses);
   }

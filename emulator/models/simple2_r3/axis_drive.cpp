@@ -109,7 +109,7 @@ void remember_encoder(AxisState& axis, Tick tick) {
 }
 
 void prefetch(const AxisState& axis, Tick tick) {
-  understudy::prefetch(&axis.motor, 2 * kCacheLine);  // all that the middle of a move needs
+  understudy::prefetch(&axis.motor, 2 * kCacheLine);  // everything that the middle of a move needs
   prefetch_line(&axis.mode);
   prefetch_line(&axis.encoder_history[ring_place(tick)]);
 }

@@ -49,7 +49,7 @@ bool AxisCommands::may_begin(Outcome outcome, const KeptCommand& what) {
 void AxisCommands::start_move(Command command, const MoveParameters& move) {
   AxisState& axis = this->axis();
   std::int64_t distance_pulses = move.distance_pulses;
-  // Whatever the speed, a distance of 0 stops at once (appendix A).
+  // At any speed, a distance of 0 stops at once (appendix A).
   if (distance_pulses != 0) {
     if (lacks_ready()) return;
     if (is_refused_as_too_fast(std::int64_t{1000} * move.speed_rpm)) return;

@@ -48,7 +48,7 @@ inline constexpr auto kAxisMarks = [] {
 }();
 // clang-format on
 
-/// Returns true if a command with this outcome takes the place of one that waits for SVON.
+/// Returns true if a command with this outcome replaces one that waits for SVON.
 constexpr bool replaces_kept(Outcome outcome) { return outcome != Outcome::dropped; }
 
 inline void take_off(AxisState& axis, Outcome outcome) {

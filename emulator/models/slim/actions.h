@@ -47,7 +47,7 @@ const VerbActions& actions_of(lang::Verb verb);
 Order order_of(State& state, const Setup& setup, const lang::Machine& machine, const lang::Command& command);
 /// Executes a typed command, or a program's.
 Error perform(Order& order, Action action);
-/// Executes a line of a program. Where a host would be refused, the program waits: for room in a buffer, and
+/// Executes a line of a program. If a host would be refused, the program waits: for room in a buffer, and
 /// (unless chosen otherwise) for the end of a pause.
 lang::Outcome perform_stored(Order& order);
 

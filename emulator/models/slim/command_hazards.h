@@ -124,7 +124,7 @@ inline constexpr CompleteTable<Verb, Hazards> kTable(kVerbs, kRows);
 
 }  // namespace command_hazards
 
-/// Returns what a line of text can do. A line that is no command here may be one there, or belong to a
+/// Returns what a line of text can do. A line that is not a command here may be one there, or belong to a
 /// program that is being entered.
 inline Hazards hazards_of_line(std::string_view line) {
   namespace lang = interpreter::slim;

@@ -26,7 +26,7 @@ class Turns final : public serve::SimulatedTask {
   // --- called by the scenario's thread -------------------------------------------------------------
   /// Waits for the first turn.
   void begin();
-  /// Gives the turn away until simulated time is `end`, or the look has found its condition, or the scenario
+  /// Gives the turn away until simulated time is `end`, or the watch has found its condition, or the scenario
   /// is given up.
   void wait_until(SimTime end, const ConditionWatch* watch = nullptr);
   /// Called when the scenario no longer acts.

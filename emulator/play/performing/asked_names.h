@@ -1,5 +1,5 @@
 // The names of expressions as requests to real controllers: registers are read, neighbours in one request;
-// values of a text controller are queried. Other names may be told by a rig.
+// values of a text controller are queried. A rig may know other names.
 #pragma once
 
 #include <cstdint>

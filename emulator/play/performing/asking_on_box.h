@@ -26,7 +26,7 @@ class Performance::OnBox::Asking {
 
   world::Expression parse(const std::string& text) const { return world::parse_expression(text, names_); }
 
-  /// Asks for all names of an expression. Throws Skip if one cannot be told.
+  /// Asks for all names of an expression. Throws Skip if one is not known.
   void ask(const world::Expression& expression) {
     std::vector<Target> targets;
     std::vector<std::int32_t> handles;

@@ -66,7 +66,7 @@ class ResultsFile {
 inline constexpr std::string_view kJsonLinesEnding = ".jsonl";
 inline constexpr std::string_view kSqliteEnding = ".sqlite";
 
-/// Opens or creates the file; its old content stays until begin(). With `goes_on`, the run continues in the
+/// Opens or creates the file; its old content stays until begin(). With `continues`, the run continues in the
 /// file, so its rows are read. All functions throw GrowingFileError if a file cannot be written, or was not
 /// written by this program.
 std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool continues);

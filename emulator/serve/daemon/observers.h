@@ -42,8 +42,7 @@ struct Observers {
   }
   std::unique_ptr<world::Scope> scope;  // null: not armed
   world::Debugger debugger;
-  /// What has happened since debugging began, for the way back; null: nobody debugs, or the bench was
-  /// restored.
+  /// The events since debugging began, for going back; null: nobody debugs, or the bench was restored.
   std::unique_ptr<world::RecentCourse> course;
   struct Kept {
     SimTime at{0};

@@ -157,7 +157,8 @@ void HostTime::admit(Descriptor client) {
   waits_.add(number);
 }
 
-/// A process closes its connections when it becomes another program, which greets anew if it has the library.
+/// A process closes its connections when it becomes another program, which sends its greeting again if it has
+/// the library.
 void HostTime::drop(int number) {
   const int process = waits_.threads().at(number).process;
   must_poll_ = true;
@@ -295,7 +296,7 @@ bool HostTime::expire_timers() {
   return !expired.empty();
 }
 
-/// Returns how far time may advance before the host or the companion must act, or nothing if it must not
+/// Returns how far time may advance before the host or the task must act, or nothing if it must not
 /// advance.
 std::optional<SimTime> HostTime::next_stop() const {
   const world::World& world = daemon_.world();

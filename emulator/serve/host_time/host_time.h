@@ -42,13 +42,13 @@ class HostTime {
 
   /// Returns the variables that the host's environment needs. Throws NoTtyShim.
   std::vector<std::pair<std::string, std::string>> environment() const;
-  /// From now on time advances only while the companion waits too. It must outlive this object, or be removed
+  /// From now on time advances only while the task waits too. It must outlive this object, or be removed
   /// (null).
   void run_beside(SimulatedTask* task);
   /// Must be called when a signal is about to end the host: waiting threads may wake, and processes may end
   /// before they have greeted.
   void host_is_to_end() { must_poll_ = is_host_to_end_ = true; }
-  /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the companion
+  /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the task
   /// alone decides how far time advances.
   void host_ended();
   /// Returns true if the host's first process has loaded the library, even if it is another program by now.

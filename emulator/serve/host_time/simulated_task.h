@@ -1,4 +1,4 @@
-// Something that runs in simulated time beside the host, such as a scenario. Time advances only while both
+// A task that runs in simulated time next to the host, such as a scenario. Time advances only while both
 // wait.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace understudy::emulator::serve {
 class SimulatedTask {
  public:
   virtual ~SimulatedTask() = default;
-  /// Called while the host sleeps and time stands at `now`. If the companion's wait is over, it acts on the
-  /// world until it waits again.
+  /// Called while the host sleeps and it is `now`. If the task's wait is over, it acts on the world until it
+  /// waits again.
   virtual void act(SimTime now) = 0;
   /// Returns the latest end of its wait, or nothing if it does not wait for a time.
   virtual std::optional<SimTime> next_act() const = 0;

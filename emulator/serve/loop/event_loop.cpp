@@ -181,7 +181,7 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
 void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
   slice_end_ = wall_now() + slice;
   do {
-    // With many pieces in work, new messages wait until some are done.
+    // With many pieces in progress, new messages wait until some are done.
     const bool are_many = pieces_.size() >= kMaxPieces;
     if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;

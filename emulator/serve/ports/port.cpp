@@ -221,7 +221,7 @@ void Port::ignore_terminal() {
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
          ", but a TCP client has the line; the host is ignored until the client disconnects");
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
-  constexpr int kMaxReadings = 32;  // enough for all that the kernel holds
+  constexpr int kMaxReadings = 32;  // enough for everything that the kernel holds
   for (int i = 0; i < kMaxReadings && terminal_->read(ignored) > 0; ++i) {
   }
 }

@@ -32,8 +32,8 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// From now on the host's bytes are taken, and its comings and goings noticed, only by attend(): a host in
-  /// simulated time is served at the moment at which it waits.
+  /// From now on only attend() takes the host's bytes, and notices when the host opens or closes the port: a
+  /// host in simulated time is served at the moment at which it waits.
   void serve_on_demand();
   /// Takes what the host has written, as far as there is room, and gives it the line's output.
   void attend();

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kOneReading = 4096;
 
-// A client whose machine disappears without a word is detected after about half a minute.
+// A client whose machine disappears silently is detected after about half a minute.
 constexpr int kIdleSeconds = 15;
 constexpr int kProbeSeconds = 5;
 constexpr int kProbes = 3;

@@ -55,7 +55,7 @@ class Diagnostics {
     }
     throw_if_any();
   }
-  /// Adds an error, with `behind` appended to each line, unless it has been reported already. Throws
+  /// Adds an error, with `suffix` appended to each line, unless it has been reported already. Throws
   /// LastError if there are too many.
   void add(const FileError& error, const std::string& suffix = "");
   std::size_t count() const { return diagnostics_.size(); }

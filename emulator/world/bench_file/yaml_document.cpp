@@ -88,7 +88,7 @@ bool continues(const Stop& stop) {
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
 bool always(const Stop& /*stop*/) { return true; }
 
-/// Replaces a message of the library by plain words. The first row that fits is used.
+/// Replaces a message of the library with plain words. The first row that fits is used.
 struct PlainWords {
   std::string_view library;  // the beginning of the library's message; empty: any message
   bool (*fits)(const Stop& stop);

@@ -47,7 +47,7 @@ struct FaultCourse {
   std::int64_t hits = 0;
   SimTime until{-1};      // when the hit in effect ends
   SimTime looked_at{-1};  // when a trigger of time alone was last evaluated
-  bool was_met = false;   // time and condition held at the last look
+  bool was_met = false;   // time and condition held at the last check
   bool in_force = false;  // for faults of machines and devices
   bool is_news = false;   // it has just begun or ended, and is still to be executed
   // For faults of requests on a line: the last evaluated request, and the result. Each station asks about it.

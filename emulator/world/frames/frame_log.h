@@ -65,7 +65,7 @@ class FrameLog {
   };
   /// Returns the last `max` of the kept frames from that number on.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
-  /// Like begin_anew(), after these frames, the oldest first, which get new numbers.
+  /// Like restart(), after these frames, the oldest first, which get new numbers.
   void restart_after(std::vector<Frame> frames);
 
  private:

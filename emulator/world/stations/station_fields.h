@@ -38,8 +38,8 @@ struct StateOf<emulator::world::RtuStation::State> {
 template <>
 struct StateOf<emulator::world::TextStation::Waiting> {
   using Value = emulator::world::TextStation::Waiting;
-  static constexpr auto fields = FieldList{field("has_heard", &Value::has_received),
-                                           field("heard", &Value::received), field<&Value::echo>()};
+  static constexpr auto fields =
+      FieldList{field<&Value::has_received>(), field<&Value::received>(), field<&Value::echo>()};
 };
 
 template <>

@@ -27,7 +27,7 @@ class TextStation final : public LineStation {
   /// With this many waiting characters it accepts no more text from the device until some are sent.
   static constexpr std::size_t kMaxOutgoing = 64 * 1024;
 
-  /// `is_instant`: the line's characters take no time. The device must have a speaker.
+  /// `is_instant`: the line's characters take no time. The device must have a text protocol.
   TextStation(Device& device, std::size_t port, bool is_instant);
 
   void receive(const pty::TimedByte& byte) override;

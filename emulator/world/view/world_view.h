@@ -25,7 +25,7 @@ struct WorldLine {
   LineStations stations;
   pty::RtuFraming framing{};  // from its stations; the shortest silence if they differ
 
-  /// These functions use `speech`.
+  /// These functions use `protocol`.
   std::string request_text(std::span<const std::uint8_t> request) const {
     return protocol.request_text(stations, request);
   }

@@ -141,7 +141,7 @@ struct AxisUnit {
   std::uint32_t external_pps = 0;                // speed of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP- seen so far
   std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses were out
-  std::int64_t external_free_ns = 0;  // when the last drive's pulses are out; 0: it was no move by edges
+  std::int64_t external_free_ns = 0;  // when the last drive's pulses are out; 0: it was not a move by edges
   std::array<Compare, 2> compare{};   // C+, C-
   std::uint8_t factors = 0;           // INTFACTOR_ENABLE, a bit for each nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};

@@ -26,7 +26,7 @@ namespace {
 
 using motion::Point;
 
-/// The figure of a command, its direction of turn, and the first parameter of its points.
+/// The figure of a command, its turning direction, and the first parameter of its points.
 struct Figure {
   Draws draws = Draws::line;
   Turn turn = kCw;

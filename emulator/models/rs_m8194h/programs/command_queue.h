@@ -44,7 +44,7 @@ class CommandQueue final : public Part {
   lang::Fault take(const lang::Command& command);
   /// Returns the fault of a command for which there is no room here, or in the macro being downloaded.
   lang::Fault why_no_room(const lang::Command& command) const;
-  /// Adds a command. The caller has checked that there is room.
+  /// Adds a command. The caller has checked the room.
   void queue(const lang::Command& command);
   int free_blocks() const;
   /// Executes what the tick has room for.

@@ -45,7 +45,7 @@ enum class InPause : std::uint8_t {
 inline constexpr std::size_t kInPause = 10;
 
 enum class PauseOutcome : std::uint8_t {
-  slows_down,  // held motion slows down on its path; nothing of it is lost
+  slows_down,  // held motion slows down on its path; none of it is lost
   continues,   // motion that is no longer held continues
   gives_up,    // the unfinished and the waiting commands are discarded
   clears,      // the waiting commands are discarded; the unfinished one is finished, now or after the pause

@@ -42,7 +42,7 @@ inline constexpr std::size_t kSources = 3;
 
 enum class Outcome : std::uint8_t {
   // of a motion:
-  decelerates,          // decelerates along its ramp, on its path; nothing of it is lost
+  decelerates,          // decelerates along its ramp, on its path; none of it is lost
   continues_as_before,  // continues what it did before the pause
   is_dropped,           // is at rest and does not continue
   stops_at_once,        // stops without another pulse and does not continue

@@ -20,7 +20,7 @@ inline constexpr int kAxisCount = 4;
 inline constexpr std::array<std::string_view, kAxisCount> kAxisNames{"X", "Y", "Z", "U"};
 
 // What writes can do. The PLC and the programs use contacts and present values for anything, so a contact can
-// do all that they do.
+// do everything that they do.
 inline constexpr Hazards kValue = Hazards::settings;
 inline constexpr Hazards kMemory = Hazards::memory;
 inline constexpr Hazards kMotion = Hazards::motion;
