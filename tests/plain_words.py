@@ -8,8 +8,8 @@ import re
 
 WIDTH = 120  # of lines of prose
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "changes", "docs", ".github",
-         "scenarios/README.md", "benchmarks/README.md", "python/README.md", "emulator/play/README.md",
-         "third_party/README.md", "packaging/vscode/README.md", "packaging/understudy.1.in")
+         "scenarios/README.md", "benchmarks/README.md", "python/README.md", "emulator/hunt/README.md",
+         "emulator/play/README.md", "third_party/README.md", "packaging/vscode/README.md", "packaging/understudy.1.in")
 HELP = "emulator/command_line"
 
 # These pages are made from the models' rows (`describe MODEL choices --format markdown`).

@@ -271,10 +271,10 @@ class Answers : public testing::Test {
     const Value end = one.read("POSITION");
     switch (activity) {
       case Activity::rests: break;
-      case Activity::moves: return end == 4000 ? "-" : "goes on";
-      case Activity::runs: return has_end ? "goes on" : "-";
-      case Activity::homes: return one.read("STATUS.HOMED") == 1 && end == 0 ? "-" : "goes on";
-      case Activity::stops: return end < 1000 ? "-" : "goes on";
+      case Activity::moves: return end == 4000 ? "-" : "continues";
+      case Activity::runs: return has_end ? "continues" : "-";
+      case Activity::homes: return one.read("STATUS.HOMED") == 1 && end == 0 ? "-" : "continues";
+      case Activity::stops: return end < 1000 ? "-" : "continues";
     }
     return "?";
   }

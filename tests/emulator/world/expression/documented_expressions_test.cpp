@@ -16,7 +16,7 @@ struct Row {
   std::string meaning;
 };
 
-// The rows below "| expression | comes to |", and so on.
+// The rows below "| expression | result |", and so on.
 std::vector<Row> table_under(const std::string& heading) {
   std::ifstream page(std::string(PROJECT_FOLDER) + "/docs/expressions.md");
   std::string line;
@@ -44,7 +44,7 @@ std::vector<std::string> code_in(const std::string& text) {
 
 TEST(DocumentedExpressions, GiveTheResultsOnThePage) {
   const BenchOfNames bench = a_feeder();
-  const std::vector<Row> rows = table_under("| expression | comes to |");
+  const std::vector<Row> rows = table_under("| expression | result |");
   ASSERT_EQ(rows.size(), 15U);
   for (const Row& row : rows) {
     const std::string result = outcome(code_in(row.written).at(0), bench);
