@@ -49,7 +49,7 @@ class Process {
   std::string read_line();
 
   void stop() const;       // it takes no processor time until
-  void carry_on() const;   // it goes on
+  void carry_on() const;   // it continues
   void terminate() const;  // SIGTERM
   /// Waits for its end: the exit code, or 128 and the signal.
   int wait();

@@ -69,7 +69,7 @@ def test_apt_takes_what_is_signed_and_nothing_else(tmp_path, deb):
 
 
 @pytest.mark.parametrize("words", [(), ("bookworm",), ("bookworm=missing.deb",)])
-def test_a_wrong_call_is_told_in_one_line(tmp_path, deb, words):
+def test_a_wrong_call_is_reported_in_one_line(tmp_path, deb, words):
     refused = repository(tmp_path / "repository", *words)
     assert refused.returncode == 1
     assert refused.stderr.startswith("apt_repository.sh: ") and refused.stderr.count("\n") == 1, (refused.stderr, deb)

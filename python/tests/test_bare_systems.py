@@ -41,7 +41,7 @@ def test_it_needs_no_home_and_starts_nothing_from_tmp(mounts, words):
     ("mount -t tmpfs -o ro tmpfs /tmp", ("serve", "--model", "simple2-r3"), "expected a writable /tmp"),
     ("mount -t tmpfs -o ro tmpfs /mnt", ("run", SCENARIO, "--record", "/mnt/kept"), "/mnt/kept cannot be written"),
 ], ids=["no_dev_pts", "read_only_tmp", "read_only_folder"])
-def test_what_is_missing_is_told_in_one_line(mounts, words, said):
+def test_what_is_missing_is_reported_in_one_line(mounts, words, said):
     done = play(mounts, *words)
     assert done.returncode == 3, done.stderr
     assert said in done.stderr and done.stderr.count("\n") == 1, done.stderr

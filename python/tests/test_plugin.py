@@ -268,7 +268,7 @@ def test_misspelt_parameter(bench):
 """
 
 
-def test_mistakes_are_told_to_the_tests_author(pytester):
+def test_mistakes_are_reported_to_the_tests_author(pytester):
     pytester.makepyfile(MISTAKES_SUITE)
     result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin")
     result.assert_outcomes(errors=3)

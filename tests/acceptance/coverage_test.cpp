@@ -202,7 +202,7 @@ TEST(DeviceCoverage, TellsWhatNoTestHasTouched) {
             std::string::npos)
       << finished.output;
   EXPECT_NE(project.file("d.json").find("\"kind\": \"device-coverage\""), std::string::npos);
-  // The file can be written again, and it is the same whoever runs the cases.
+  // The file can be written again, and it is the same, no matter what runs the cases.
   const std::string first = project.file("d.json");
   EXPECT_EQ(project.sh("$UNDERSTUDY run two.yaml one.yaml --jobs 3 --device-coverage d.json").exit_code, 0);
   EXPECT_EQ(project.file("d.json"), first);

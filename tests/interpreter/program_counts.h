@@ -1,4 +1,4 @@
-// Adds up what an observer of a program is told.
+// Adds up what is reported to an observer of a program.
 #pragma once
 
 #include <cstdint>

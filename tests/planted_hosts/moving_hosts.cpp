@@ -8,8 +8,8 @@
 
 namespace understudy::planted {
 
-/// The answer to the command that starts the move may be lost after it was obeyed. The careless host sends it
-/// again; the careful one looks whether the axis has moved or moves.
+/// The answer to the command that starts the move may be lost after it was executed. The careless host sends
+/// it again; the careful one looks whether the axis has moved or moves.
 void double_move(bool is_careful, int pulses) {
   Line line;
   set_up(line);
@@ -98,7 +98,7 @@ void starved_stop(bool is_careful, int pulses) {
   }
 }
 
-/// A drive's alarm stops the motor while the controller goes on. After it the host takes the position from
+/// A drive's alarm stops the motor while the controller continues. After it the host takes the position from
 /// the encoder and moves again. The careless host clears the alarm once and takes it for gone; the careful
 /// one clears it until it is.
 void early_alarm_clear(bool is_careful, int pulses) {

@@ -59,8 +59,8 @@ void timeout_race(bool is_careful, int pulses) {
   }
 }
 
-/// The port is pulled out and comes back. The careless host goes on with the next part; the careful one looks
-/// whether the move that it has sent was made.
+/// The port is pulled out and comes back. The careless host continues with the next part; the careful one
+/// looks whether the move that it has sent was made.
 void lost_command(bool is_careful, int pulses) {
   Line line;
   set_up(line);

@@ -1,4 +1,4 @@
-// Stations for the line's tests: one that answers requests, and one that sends when it is told to.
+// Stations for the line's tests: one that answers requests, and one that sends on request.
 #pragma once
 
 #include <algorithm>

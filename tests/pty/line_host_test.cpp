@@ -269,7 +269,7 @@ TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
     rig.line.take_output(10);
     EXPECT_EQ(rig.line.output().size(), 4086u);
     talker.says[200s] = {Bytes(20, 0xEE)};
-    EXPECT_EQ(rig.line.due(), std::nullopt);  // it sent more without being asked: the line is told
+    EXPECT_EQ(rig.line.due(), std::nullopt);  // it sent more without being asked: the line learns of it
     rig.line.due_changed();
     EXPECT_EQ(rig.line.due(), 200s);
     rig.line.run(300s);

@@ -264,7 +264,7 @@ TEST(Edges, TwoThatLoseTheirPlacesAtOnceFindThem) {
   }
 }
 
-/// A controller's count may change at any moment, for example when it is told that a motor is reversed.
+/// A controller's count may change at any moment, for example when it learns that a motor is reversed.
 TEST(Edges, FollowAxesThatAllCountAgain) {
   Rig rig({.position = 2000});
   Rig as_before({.position = 2000});

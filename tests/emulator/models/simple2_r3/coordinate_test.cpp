@@ -54,7 +54,7 @@ TEST(Coordinate, AnAbsoluteTargetMayBeTwiceTheCoordinateRangeAway) {
     Value start, target;
     int sign;
   };
-  // 100 pulses per millisecond: 2^32 - 1 of them take half a day, so only the beginning is looked at.
+  // 100 pulses per millisecond: 2^32 - 1 of them take half a day, so only the beginning is checked.
   for (const auto& [start, target, sign] :
        {Case{INT32_MIN, INT32_MAX, +1}, Case{INT32_MAX, INT32_MIN, -1}, Case{-2, INT32_MAX, +1}}) {
     ReadySimple2 feeder;

@@ -28,7 +28,7 @@ TEST(FirmwareVersions, JumpTimer1NeverJumpsUntil141AndJumpTimer2DoesInAll) {
     Value min;  // what the timers are compared with, without a sign
     ProgramCourse by_timer1, by_timer2;
   };
-  // Timer1 runs from slot 12, Timer2 from 14. Timer1 is looked at in slots 16, 22, 28, ..., Timer2 in 18, 24,
+  // Timer1 runs from slot 12, Timer2 from 14. Timer1 is checked in slots 16, 22, 28, ..., Timer2 in 18, 24,
   // 30, ...: at 52 Timer1 is there in slot 64 (64 - 12), Timer2 in slot 66 (66 - 14).
   const std::vector<Case> table{
       {0, {.outputs = {kNone, 18, kNone}, .end = 20}, {.outputs = {kNone, kNone, 20}, .end = 22}},

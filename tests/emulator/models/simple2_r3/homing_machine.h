@@ -190,7 +190,7 @@ class HomingSimple2 : public ReadySimple2 {
     return given;
   }
 
-  // A reversed motor runs towards the plant's lower switch when it is told to go up. A machine's builder
+  // A reversed motor runs towards the plant's lower switch when it is commanded to go up. A machine's builder
   // would swap the two switches, and so does this test.
   void wire_reversed_limits() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {

@@ -104,7 +104,7 @@ TEST(PowerCycleOnTheLine, OfAReplyTheHostGetsTheCharactersThatHadBegun) {
 }
 
 TEST(PowerCycleOnTheLine, WhatWasServedBeforeTheCutHasHappened) {
-  // Whoever hears half an answer knows no more than that: the write took effect, and is kept if its time was
+  // A host that receives half an answer knows only that the write took effect, and is kept if its time was
   // up.
   PoweredLine line;
   line.to(20ms);

@@ -68,7 +68,7 @@ TEST(Simple2TickMemory, OfAnAxisIsThreeLines) {
 TEST(Simple2TickMemory, InputsOfARestoredStateAreSeen) {
   OneSimple2 saved;
   saved.run(5);
-  saved.device().set_input(10, 1);  // no tick has looked at it yet
+  saved.device().set_input(10, 1);  // no tick has sampled it yet
   saved.device().set_input(kFirstAnalog, 5000);
   const auto bytes = saved.device().save_state();
   OneSimple2 other;

@@ -1,5 +1,5 @@
-// Everything that a settled PLC reads wakes it, whoever changes it: each lamp follows its contact within two
-// scans, even if everything is at rest and time advances in one step.
+// Everything that a settled PLC reads wakes it, no matter what changes it: each lamp follows its contact
+// within two scans, even if everything is at rest and time advances in one step.
 #include <gtest/gtest.h>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"

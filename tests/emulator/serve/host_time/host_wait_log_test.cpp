@@ -1,4 +1,4 @@
-// Tests how the waits of a host in simulated time are told.
+// Tests how the waits of a host in simulated time are described.
 #include "emulator/serve/host_time/host_wait_log.h"
 
 #include <gtest/gtest.h>

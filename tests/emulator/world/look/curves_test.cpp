@@ -1,4 +1,4 @@
-// Curves and the history of a recording against the world itself, looked at in every tick and every frame.
+// Curves and the history of a recording against the world itself, sampled in every tick and every frame.
 #include "emulator/world/look/curves.h"
 
 #include <gtest/gtest.h>

@@ -237,7 +237,7 @@ struct Stage {
 void play_and_look(Stage& stage, const Wishes& wishes, Course& course) {
   stage.prepare();
   View before = look(stage.box, wishes.watched);
-  before.line = -1;  // so that the first line is told as well
+  before.line = -1;  // so that the first line is reported as well
   stage.start();
   for (Tick ms = 0; ms <= stage.play.until; ++ms) {
     stage.do_deeds(ms);

@@ -11,7 +11,7 @@
 // and, where the expected course asks for them,
 //
 //   A=1600             Cord_A at this ms, on the way
-//   PROG_MEM3=-5       any register by its name; from then on every change of it is told
+//   PROG_MEM3=-5       any register by its name; from then on every change of it is reported
 //
 // What is seen at ms t is how the device stands when tick t is over; what is given to it at ms t is there
 // when tick t begins. A table of expectations has one line for each ms, and remarks after ';':
@@ -51,7 +51,7 @@ struct Play {
   std::vector<std::vector<Deed>> deeds{};
   std::function<std::int64_t(Tick ms)> encoder_a{};  // counts, as the device finds them in each tick
   Value first_line = 0;
-  Tick until = 0;  // the last ms that is looked at
+  Tick until = 0;  // the last ms that is checked
 };
 
 /// Loads the listing over Modbus, starts it, and compares everything that happens with the table. Then runs
