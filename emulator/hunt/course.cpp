@@ -39,8 +39,10 @@ SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
     const std::size_t step = dice.below(undisturbed.begins.size());
     const SimTime edge = dice.one_in(2) ? undisturbed.begins[step] : undisturbed.ends[step];
     SimTime near = edge - kNear + kFine * static_cast<std::int64_t>(dice.below(2 * kNear / kFine + 1));
-    if (!ground.moments.empty() && dice.one_in(2))
-      near = ground.moments[dice.below(ground.moments.size())] + kFine * draw_distance(dice);
+    if (!ground.moments.empty() && dice.one_in(2)) {
+      near = ground.moments[dice.below(ground.moments.size())];
+      near += kFine * draw_distance(dice);  // compilers differ in which operand of a sum they draw first
+    }
     if (near >= low && near <= high) return near;
   }
   const auto ticks = static_cast<std::uint64_t>((high - low) / kTickLength) + 1;
