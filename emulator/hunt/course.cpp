@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -150,6 +151,32 @@ void change_value(Disturbance& one, const Ground& ground, Dice& dice) {
   }
 }
 
+/// Returns the time at which a disturbance begins, if that is known.
+std::optional<SimTime> begin_of(const Disturbance& one, const Undisturbed& undisturbed) {
+  if (has_time(one)) return SimTime(one.moment);
+  if (one.when == When::here) return undisturbed.begins[one.step];
+  return std::nullopt;
+}
+
+/// Goes on from the state at a moment at which something new happened: keeps the disturbances before it, and
+/// draws others after it.
+void go_on_from_moment(std::vector<Disturbance>& all, const Ground& ground, Dice& dice) {
+  constexpr std::uint64_t kMaxMore = 3;
+  const SimTime moment = ground.moments[dice.below(ground.moments.size())];
+  const auto is_later = [&](const Disturbance& one) {
+    const auto begin = begin_of(one, ground.undisturbed);
+    return begin && *begin > moment;
+  };
+  std::erase_if(all, is_later);
+  const auto& entries = ground.plan.entries();
+  const std::uint64_t more = 1 + dice.below(kMaxMore);
+  for (std::uint64_t i = 0; i < more; ++i) {
+    const Disturbance one = draw_one(ground, dice.below(entries.size()), dice);
+    const bool has_room = all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].max;
+    if (has_room && (one.when == When::nth || is_later(one))) all.push_back(one);
+  }
+}
+
 }  // namespace
 
 bool has_time(const Disturbance& one) { return one.when == When::at || one.when == When::late; }
@@ -207,7 +234,9 @@ std::vector<Disturbance> draw_disturbances(const Ground& ground, Dice& dice) {
 std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const Disturbance> others,
                                  const Ground& ground, Dice& dice) {
   const auto& entries = ground.plan.entries();
-  const std::uint64_t changes = 1 + dice.below(4);
+  const bool goes_on = !ground.moments.empty() && dice.one_in(4);
+  if (goes_on) go_on_from_moment(all, ground, dice);
+  const std::uint64_t changes = goes_on ? 0 : 1 + dice.below(4);
   for (std::uint64_t i = 0; i < changes; ++i) {
     const std::uint64_t how = all.empty() ? 0 : dice.below(6);
     if (how <= 1) {  // one more, of its own or of another course
