@@ -63,15 +63,31 @@ void Shrinker::end_early() {
   try_course(std::move(shorter));
 }
 
+/// Removes a disturbance. If it makes a host repeat a request, those after it have lower numbers without it.
+bool Shrinker::try_without(std::size_t number) {
+  constexpr std::int64_t kMaxRepeats = 3;
+  Course smaller = best_.course;
+  const Disturbance removed = smaller.disturbances[number];
+  smaller.disturbances.erase(smaller.disturbances.begin() + static_cast<std::ptrdiff_t>(number));
+  if (try_course(smaller)) return true;
+  for (std::int64_t repeats = 1; repeats <= kMaxRepeats; ++repeats) {
+    Course earlier = smaller;
+    for (Disturbance& one : earlier.disturbances) {
+      const bool is_before = removed.when == When::nth && one.moment <= removed.moment;
+      if (one.when == When::nth && one.moment > repeats && !is_before) one.moment -= repeats;
+    }
+    if (earlier != smaller && try_course(std::move(earlier))) return true;
+  }
+  return false;
+}
+
 /// Removes disturbances one by one until each is needed.
 bool Shrinker::remove_disturbances() {
   bool is_smaller = false;
   for (bool again = true; again;) {
     again = false;
     for (std::size_t i = best_.course.disturbances.size(); i-- > 0;) {
-      Course smaller = best_.course;
-      smaller.disturbances.erase(smaller.disturbances.begin() + static_cast<std::ptrdiff_t>(i));
-      again = try_course(std::move(smaller)) || again;
+      again = try_without(i) || again;
     }
     is_smaller = is_smaller || again;
   }

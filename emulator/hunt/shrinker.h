@@ -33,6 +33,7 @@ class Shrinker {
   /// Takes the course if it fails in the same way.
   bool try_course(Course course);
   void end_early();
+  bool try_without(std::size_t number);
   bool remove_disturbances();
   void simplify(std::size_t number);
   void lower(std::size_t number, std::uint64_t low, std::uint64_t high,
