@@ -61,9 +61,9 @@ Work HuntHosts::make_work() const {
   setpgid(0, 0);  // Ctrl-C ends the hunt, which ends this process; it must not break a course
   auto stages = std::make_shared<hunt::Stages>(
       cases_, models_,
-      hunt::Player{.here = [this](const play::Scenario& scenario, const play::RunOptions& options) {
-        return play_here(scenario, options);
-      }});
+      hunt::Player{.here = [this](const play::Scenario& scenario,
+                                  const play::RunOptions& options) { return play_here(scenario, options); },
+                   .can_begin_later = false});
   return [this, stages](std::span<const std::byte> question) {
     StateReader reader(question);
     StateWriter answer;
@@ -85,7 +85,7 @@ Work HuntHosts::make_work() const {
 }
 
 hunt::Player HuntHosts::player() {
-  hunt::Player player;
+  hunt::Player player{.can_begin_later = false};
   player.here = [this](const play::Scenario& scenario, const play::RunOptions& options) {
     return play_here(scenario, options);
   };

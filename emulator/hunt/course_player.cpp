@@ -1,5 +1,6 @@
 #include "emulator/hunt/course_player.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -60,6 +61,16 @@ CoursePlayer::CoursePlayer(std::shared_ptr<const play::Scenario> scenario, Model
   for (const world::YamlFields& span : plan().spans()) {
     for (play::Step& step : reader_.read_apart(span)) spans_.push_back(std::move(step));
   }
+  common_ = scenario_->steps.size();
+  for (const play::HuntPlan::Entry& entry : plan().entries()) common_ = std::min(common_, entry.first);
+}
+
+/// Returns true if the course has all steps that the courses have in common, and nothing before or among
+/// them.
+bool CoursePlayer::begins_later(const Course& course) const {
+  const bool has_all =
+      course.end >= common_ && (course.left_out.empty() || *course.left_out.begin() >= common_);
+  return common_ > 0 && player_.can_begin_later && has_all;
 }
 
 /// Makes the steps of a course.
@@ -91,6 +102,19 @@ Playing CoursePlayer::play_here(const Course& course, bool has_reached) {
   if (has_reached) options.observers.push_back(reach_observer(playing.reached));
   options.observers.push_back(
       [&](world::World& world) { return std::make_unique<RequestCount>(world, playing.requests); });
+  if (begins_later(course)) {
+    options.begin = beginning_;
+    if (beginning_ != nullptr) {
+      if (has_reached) playing.reached = reached_before_;
+    } else if (has_reached) {
+      options.keep_after = spans_.size() + common_;
+      options.keep = [&](play::Beginning kept) {
+        beginning_ = std::make_shared<const play::Beginning>(std::move(kept));
+        reached_before_ = playing.reached;
+        reached_before_.goes_on = true;
+      };
+    }
+  }
   playing.results = player_.here(played_, options);
   return playing;
 }
@@ -128,7 +152,8 @@ play::Steps CoursePlayer::disturbing_steps() {
 
 const Outcome& CoursePlayer::undisturbed_outcome() {
   if (undisturbed_outcome_) return *undisturbed_outcome_;
-  Playing playing = playing_of({}, false);
+  beginning_.reset();  // all steps are played, so that all requests are counted
+  Playing playing = playing_of({}, true);
   note_undisturbed(playing);
   undisturbed_outcome_ = outcome_of(std::move(playing.results));
   return *undisturbed_outcome_;

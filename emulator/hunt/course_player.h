@@ -43,6 +43,7 @@ struct Player {
   /// Plays a scenario in this process: run_scenario(), or something that runs a command beside it.
   std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)> here =
       play::run_scenario;
+  bool can_begin_later = true;  // `here` takes RunOptions::begin
   /// Plays a course of a stage like this one in another process. If it is empty, all are played here.
   std::function<Playing(const Course&, bool has_reached)> elsewhere{};
 };
@@ -72,6 +73,7 @@ class CoursePlayer {
  private:
   Playing playing_of(const Course& course, bool has_reached);
   const play::Steps& spans();
+  bool begins_later(const Course& course) const;
   void put_on(const Course& course);
   Outcome outcome_of(std::vector<play::ScenarioResult> results) const;
   void note_undisturbed(const Playing& playing);
@@ -83,7 +85,10 @@ class CoursePlayer {
   play::Trial trial_;
   play::StepsReader reader_;
   play::Steps spans_;
-  play::Scenario played_;             // with the steps of the present course
+  play::Scenario played_;   // with the steps of the present course
+  std::size_t common_ = 0;  // the steps of the scenario before which nothing may happen
+  std::shared_ptr<const play::Beginning> beginning_;  // after these steps; null: not known yet
+  Reached reached_before_{};                          // in these steps
   std::vector<std::size_t> sources_;  // for each of those steps: the scenario's step, or SIZE_MAX
   std::optional<Outcome> undisturbed_outcome_;
   Undisturbed undisturbed_;

@@ -116,7 +116,8 @@ Sights sights_of(const Device& device) {
 
 class Reach final : public play::Observer, private pty::LineObserver, private world::OutsideListener {
  public:
-  Reach(world::World& world, Reached& reached) : world_(world), reached_(reached) {
+  Reach(world::World& world, Reached& reached) : world_(world), reached_(reached), last_(reached.last) {
+    if (!std::exchange(reached.goes_on, false)) last_ = {};
     for (std::size_t d = 0; d < world_.device_count(); ++d) {
       sights_.push_back(sights_of(world_.device(d)));
       if (UserProgram* const program = world_.device(d).user_program())
@@ -150,14 +151,15 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
     std::uint64_t request = bytes.size() < kTelling ? bytes.size() : kTelling;
     for (const std::uint8_t byte : bytes.first(static_cast<std::size_t>(request)))
       request = mixed(request, byte);
-    note(Sort::order, mixed(mixed(std::exchange(request_, request), std::exchange(reply_, 0)), request));
+    note(Sort::order,
+         mixed(mixed(std::exchange(last_.request, request), std::exchange(last_.reply, 0)), request));
   }
   void on_transmission(const pty::Transmission& protocol) override {
-    reply_ = 1 + (protocol.bytes.size() > 1 ? protocol.bytes[1] >> 7 : 0);  // an exception has this bit
+    last_.reply = 1 + (protocol.bytes.size() > 1 ? protocol.bytes[1] >> 7 : 0);  // an exception has this bit
     look();
   }
   void on_strike(const pty::StruckMessage& message) override {
-    for (const pty::Strike& strike : message.strikes) event_ = mixed(event_, strike.fault);
+    for (const pty::Strike& strike : message.strikes) last_.event = mixed(last_.event, strike.fault);
     look();
   }
   std::optional<SimTime> due() const override { return std::nullopt; }
@@ -176,10 +178,10 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
   void look() {
     std::uint64_t state = 0;
     for (std::size_t d = 0; d < world_.device_count(); ++d) state = mixed(state, state_of(d));
-    if (state == state_ && event_ == 0) return;
+    if (state == last_.state && last_.event == 0) return;
     note(Sort::state, state);
-    note(Sort::order, mixed(mixed(state_, state), std::exchange(event_, 0)));
-    state_ = state;
+    note(Sort::order, mixed(mixed(last_.state, state), std::exchange(last_.event, 0)));
+    last_.state = state;
   }
 
   std::uint64_t state_of(std::size_t d) {
@@ -218,10 +220,7 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
   Reached& reached_;
   std::vector<Sights> sights_;  // by device
   std::vector<std::unique_ptr<Lines>> lines_;
-  std::uint64_t state_ = 0;
-  std::uint64_t event_ = 0;
-  std::uint64_t request_ = 0;  // the last one of the hosts
-  std::uint64_t reply_ = 0;    // 0: it has none yet
+  Reached::Last& last_;
 };
 
 void Lines::see(int part, int line, std::uint8_t what) {

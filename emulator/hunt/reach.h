@@ -28,6 +28,16 @@ constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3);
 struct Reached {
   /// The time at which each was first reached. Results must not depend on the order of iteration.
   std::unordered_map<Feature, SimTime> when{};
+
+  /// The observer's last sights. Orders are made of one of them and the next.
+  struct Last {
+    std::uint64_t state = 0;
+    std::uint64_t event = 0;
+    std::uint64_t request = 0;  // of the hosts
+    std::uint64_t reply = 0;    // 0: it has none yet
+  };
+  Last last{};
+  bool goes_on = false;  // the next observer goes on from `last`
 };
 
 /// Returns an observer that adds to `reached`, which must outlive it.

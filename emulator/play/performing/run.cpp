@@ -99,7 +99,8 @@ class Run {
     std::vector<Fork> forks;
     ScenarioResult result = std::move(results_[number]);
     if (performance.is_on_box()) result.failure = performance.begin_on_box();
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::size_t first = begin ? 0 : go_on(performance, observers, result);
+    for (std::size_t i = first; i < steps.size(); ++i) {
       const Step& step = steps[i];
       const auto* const fork = std::get_if<ForkStep>(&step.what);
       if (result.failure) {
@@ -130,6 +131,8 @@ class Run {
       end_step(performance, played, result);
       if (std::holds_alternative<RestoreStep>(step.what)) result.simulated -= played.end - played.begin;
       observers.step_over();
+      const bool is_kept = !begin && i + 1 == options_.keep_after && known.empty() && forks.empty();
+      if (is_kept && !result.failure) options_.keep({.state = save(), .played = result});
     }
     if (performance.is_on_box() && !has_judged(steps, result))
       result.verdict = ScenarioResult::Verdict::not_tellable;
@@ -161,6 +164,15 @@ class Run {
         }
       }
     }
+  }
+
+  /// Goes on from the state of options_.begin, if there is one. Returns how many steps are over.
+  std::size_t go_on(Performance& performance, Observers& observers, ScenarioResult& result) const {
+    if (!options_.begin) return 0;
+    result = options_.begin->played;
+    performance.restore(*options_.begin->state);
+    observers.world_restored(result.steps.size());
+    return result.steps.size();
   }
 
   static void end_step(Performance& performance, StepResult& played, ScenarioResult& result) {

@@ -1,12 +1,14 @@
 // Runs scenarios (docs/scenarios.md defines each step). Time is simulated on any executor.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/performing/observer.h"
+#include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 
@@ -19,11 +21,21 @@ using ExecutorMaker = std::function<std::unique_ptr<Executor>(const Scenario&)>;
 /// Returns an executor in virtual time with the scenario's bench and gap.
 std::unique_ptr<Executor> make_free_executor(const Scenario& scenario);
 
+/// The state of a run after its first steps. Other runs whose first steps are the same can begin there.
+struct Beginning {
+  std::shared_ptr<const Performance::Checkpoint> state;
+  ScenarioResult played{};  // the result of these steps
+};
+
 struct RunOptions {
   ExecutorMaker make_executor = make_free_executor;
   bool with_hash = false;  // ScenarioResult::outcome_hash
   std::vector<ObserverMaker> observers{};
-  HostCommand* command = nullptr;  // the command that runs with the scenario; null: none
+  HostCommand* command = nullptr;            // the command that runs with the scenario; null: none
+  std::shared_ptr<const Beginning> begin{};  // null: at power-up
+  /// Called after so many steps, if none of them failed, took a snapshot or was a fork.
+  std::size_t keep_after = 0;  // 0: never
+  std::function<void(Beginning)> keep{};
 };
 
 /// Runs a scenario. Returns its own result, then those of its branches in the order of the file. A step that
