@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,8 +77,10 @@ Walk walk(const CLI::App& app, int argc, char** argv) {
       const bool is_number = parse_real(word).has_value();
       if (flag == nullptr && is_number) continue;
       if (flag == nullptr) {
-        found.diagnostic = quoted(name) + " is not a flag here" + nearest(name, flags_of(*found.command)) +
-                           std::string(kListed);
+        found.diagnostic = quoted(name) + " is not a flag here";
+        found.diagnostic += std::filesystem::exists(word)
+                                ? "; expected ./" + word + " for the file of that name"
+                                : nearest(name, flags_of(*found.command)) + std::string(kListed);
         return found;
       }
       const bool has_value = flag->get_items_expected_min() > 0 && word.find('=') == std::string::npos;

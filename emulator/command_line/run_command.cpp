@@ -214,7 +214,7 @@ class CaseRunner {
       add(options, coverage_.observers(*scenario));
       if (has_command(arguments_))
         return run_host_case(*scenario, std::move(options), arguments_, files_.next_spool(".jsonl"));
-      return play::run_scenario(*scenario, options);
+      return with_rerun(play::run_scenario(*scenario, options));
     } catch (const FileError& error) {
       return {unreadable(reader, which_case, case_list, error)};
     }
@@ -253,6 +253,16 @@ class CaseRunner {
       result.failure = play::Failure{.what = one_line(error.what())};
       return {std::move(result)};
     }
+  }
+
+  /// Adds the seed of `--seed` to the words that run a case alone.
+  std::vector<play::ScenarioResult> with_rerun(std::vector<play::ScenarioResult> results) const {
+    for (play::ScenarioResult& result : results) {
+      if (!arguments_.seed || !result.which.is_varied) continue;
+      result.rerun = "run " + shell_text({result.file}) + " --seed " + std::to_string(*arguments_.seed) +
+                     " --filter " + play::identity_text(play::identity_of(result.which));
+    }
+    return results;
   }
 
   static play::ObserverMaker run_logger() {
