@@ -72,6 +72,11 @@ bool put_answer(int wire, const Work& work, std::span<const std::byte> question)
   }
 }
 
+std::string why_not_started(int number, int count) {
+  return "process " + std::to_string(number + 1) + " of " + std::to_string(count) + " cannot be started (" +
+         std::generic_category().message(errno) + "); expected fewer --jobs";
+}
+
 /// Ends with its parent, however that ends.
 [[noreturn]] void work(int wire, pid_t parent, const std::function<Work()>& make_work) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -91,11 +96,11 @@ WorkerProcesses::WorkerProcesses(int count, const std::function<Work()>& make_wo
   for (int i = 0; i < count; ++i) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-      throw std::system_error(errno, std::generic_category(), "socketpair");
+      throw pty::PortError(why_not_started(i, count));
     Descriptor ours(ends[0]);
     Descriptor theirs(ends[1]);
     const pid_t process = fork();
-    if (process < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (process < 0) throw pty::PortError(why_not_started(i, count));
     if (process == 0) {
       ours.close();
       workers_.clear();

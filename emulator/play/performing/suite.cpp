@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -106,6 +107,18 @@ class CaseQueue {
   bool is_last_taken_ = false;
 };
 
+/// Starts threads, or as many of them as the system allows, but at least one.
+void add_threads(std::vector<std::jthread>& threads, int count, const std::function<void()>& work) {
+  for (int i = 0; i < count; ++i) {
+    try {
+      threads.emplace_back(work);
+    } catch (const std::system_error&) {
+      if (threads.empty()) throw;
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
@@ -113,9 +126,9 @@ void run_suite(const NextCase& next, const std::function<Play()>& make_play, int
   CaseQueue queue(next);
   std::vector<std::jthread> threads;
   const auto stop_at_end = [&queue](void*) { queue.stop(); };
-  for (int i = 0; i < std::max(jobs, 1); ++i) threads.emplace_back([&] { queue.work(make_play); });
   // If anything throws, the threads must stop too.
   const std::unique_ptr<void, decltype(stop_at_end)> guard(&queue, stop_at_end);
+  add_threads(threads, std::max(jobs, 1), [&] { queue.work(make_play); });
   while (queue.report_next(report)) {
   }
 }
