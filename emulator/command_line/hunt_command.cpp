@@ -16,6 +16,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/corpus_file.h"
 #include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/ctl_coverage.h"
 #include "emulator/command_line/device_coverage_file.h"
@@ -57,7 +58,7 @@ std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
 
 int jobs_of_hunt(const HuntArguments& arguments) {
   if (!arguments.jobs) return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (*arguments.jobs >= 1) return *arguments.jobs;
+  if (*arguments.jobs >= 1) return std::min(*arguments.jobs, hunt::Hunt::kMaxJobs);
   throw UsageError("--jobs: " + std::to_string(*arguments.jobs) + " is too few; expected 1 or more");
 }
 
@@ -68,17 +69,19 @@ play::Shard shard_of_hunt(const HuntArguments& arguments) {
                    " is not a part; expected I/N such as 1/4, I up to N");
 }
 
-std::optional<std::uint64_t> courses_of(const HuntArguments& arguments) {
-  if (arguments.courses == 0U) throw UsageError("--courses: 0 is too few; expected 1 or more");
-  return arguments.courses;
+/// Throws FileError if the file, or one of its plays, has no plan.
+void require_plans(const std::string& file, const std::vector<std::string>& without, bool has_any) {
+  if (without.empty()) return;
+  if (has_any) {
+    throw FileError(file + ": hunt: is missing in the play " + quoted(without.front()) +
+                    "; expected it in each play, or once for the whole file");
+  }
+  throw FileError(file +
+                  ": hunt: is missing; expected `hunt:` with what may happen, as in "
+                  "`hunt: { may: [ inject: { drop: feeder } ] }`");
 }
 
 void require_hunted(const play::Scenario& scenario, ModelList models, bool has_command) {
-  if (scenario.hunt == nullptr) {
-    throw FileError(scenario.file +
-                    ": hunt: is missing; expected `hunt:` with what may happen, as in "
-                    "`hunt: { may: [ inject: { drop: feeder } ] }`");
-  }
   if (!scenario.saved.empty()) {
     throw FileError(scenario.file +
                     ": save: cannot be used in a hunt, because its courses would write the same file");
@@ -187,7 +190,7 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
   CorpusFile corpus(arguments.corpus);
   hunt::HuntOptions options{.seed = arguments.seed,
                             .jobs = jobs_of_hunt(arguments),
-                            .courses = courses_of(arguments).value_or(UINT64_MAX),
+                            .courses = arguments.courses.value_or(UINT64_MAX),
                             .shard = shard_of_hunt(arguments),
                             .first = corpus.next_course(arguments.seed),
                             .corpus = corpus.courses(),
@@ -196,18 +199,25 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
     throw UsageError("--unguided: uses no earlier courses; expected no --corpus");
   play::CaseList cases(models, {.command = arguments.host.command});
   FileClaims claims;
+  std::vector<std::string> without;  // the names of scenarios that have no plan
+  bool has_any = false;
   cases.add(arguments.scenario, [&](const play::Scenario& scenario) {
-    require_hunted(scenario, models, has_command);
     claims.add(scenario.files);
+    if (scenario.hunt == nullptr) return without.push_back(scenario.name);
+    has_any = true;
+    require_hunted(scenario, models, has_command);
   });
+  require_plans(arguments.scenario, without, has_any);
   const RunArguments covered = coverage_arguments(arguments);
   require_coverage(claims, coverage_of(covered));
   require_device_coverage(claims, covered.device_coverage);
   require_output(claims, "--corpus", arguments.corpus);
   RunCoverage coverage(covered);
+  corpus.try_to_write();
+  FoundFiles files(models, arguments, std::move(claims));
   std::optional<HuntHosts> hosts;
   if (has_command) hosts.emplace(cases, models, arguments, options.jobs);
-  FoundFiles files(models, arguments, std::move(claims), hosts ? &*hosts : nullptr);
+  if (hosts) files.show_with(*hosts);
   const auto end = end_of(arguments);
   watch_for_interruption();
   options.is_over = [&end] { return is_interrupted() || (end && Clock::now() >= *end); };

@@ -1,14 +1,17 @@
 #include "emulator/command_line/hunt_files.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,7 +28,6 @@
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
-#include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course_player.h"
 #include "emulator/hunt/found_file.h"
 #include "emulator/hunt/hunt.h"
@@ -39,8 +41,6 @@
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench_text.h"
-#include "emulator/world/bench_file/yaml_fields.h"
-#include "emulator/world/bench_file/yaml_text.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/world.h"
 
@@ -76,22 +76,48 @@ play::Scenario load_found(ModelList models, const std::string& path,
 
 }  // namespace
 
-FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims, HuntHosts* hosts)
-    : models_(models), arguments_(arguments), claims_(std::move(claims)), hosts_(hosts) {
-  if (fs::exists(arguments.found) && !fs::is_directory(arguments.found)) {
+FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims)
+    : models_(models), arguments_(arguments), claims_(std::move(claims)) {
+  std::error_code error;
+  if (fs::exists(arguments.found, error) && !fs::is_directory(arguments.found, error)) {
     throw UsageError("--found: " + arguments.found + ": is not a folder; expected one");
+  }
+  for (fs::path folder = arguments.found; !folder.empty() && !fs::exists(folder, error);
+       folder = folder.parent_path())
+    made_.push_back(folder.generic_string());
+  fs::create_directories(arguments.found, error);
+  const bool is_writable = !error && ::access(arguments.found.c_str(), W_OK | X_OK) == 0;
+  if (!is_writable) {
+    const std::string why = error ? error.message() : std::generic_category().message(errno);
+    throw GrowingFileError("--found: " + arguments.found + " cannot be written: " + why);
   }
 }
 
+FoundFiles::~FoundFiles() {
+  std::error_code ignored;  // a folder that is not empty stays
+  for (const std::string& folder : made_) fs::remove(folder, ignored);
+}
+
+/// Returns the path for a finding, without an ending: the first that no edited file has.
+std::string FoundFiles::path_of(const hunt::Finding& finding) const {
+  const std::string name = hunt::name_of_finding(*finding.course_player, finding.shrunk);
+  const std::string first = (fs::path(arguments_.found) / name).generic_string();
+  std::string path = first;
+  for (int number = 2; hunt::is_edited(read_text_file(path + kScenarioEnding).value_or("")); ++number)
+    path = first + "-" + std::to_string(number);
+  return path;
+}
+
 void FoundFiles::add(const hunt::Finding& finding) {
-  fs::create_directories(arguments_.found);
   const hunt::CoursePlayer& course_player = *finding.course_player;
-  const std::string path =
-      (fs::path(arguments_.found) / hunt::name_of_finding(course_player, finding.shrunk)).generic_string();
-  hunt::Origin origin{.command = "understudy hunt " + arguments_.scenario,
+  const std::string path = path_of(finding);
+  hunt::Origin origin{.command = "understudy hunt " + shell_text({arguments_.scenario}),
                       .course = finding.course,
                       .disturbances = finding.disturbances};
   if (arguments_.seed != 0) origin.command += " --seed " + std::to_string(arguments_.seed);
+  if (!arguments_.shard.empty()) origin.command += " --shard " + arguments_.shard;
+  if (arguments_.unguided) origin.command += " --unguided";
+  if (!arguments_.corpus.empty()) origin.command += " --corpus " + shell_text({arguments_.corpus});
   if (hosts_ != nullptr) {
     origin.command += " -- " + shell_text(arguments_.host.command);
     origin.again = again_with(finding, path);
@@ -129,13 +155,8 @@ void FoundFiles::print(const hunt::Finding& finding, const std::string& path) co
     std::printf("      without any disturbance\n");
     return;
   }
-  for (const play::Disturbance& one : found.course.disturbances) {
-    for (const world::YamlFields& fields : finding.course_player->plan().steps_of(one)) {
-      std::string step = world::flow_text(fields);
-      step = step.substr(2, step.size() - 4);  // without its braces
-      std::printf("      %s\n", one_line(step).c_str());
-    }
-  }
+  for (const play::Disturbance& one : found.course.disturbances)
+    std::printf("      %s\n", hunt::line_of(finding.course_player->plan(), one).c_str());
   std::printf("      course %" PRIu64 ": %zu of %zu disturbances, shrunk in %d more courses\n",
               finding.course, found.course.disturbances.size(), finding.disturbances, found.plays);
   if (hosts_ != nullptr) std::printf("      %s\n", again_with(finding, path).c_str());
@@ -179,39 +200,6 @@ std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArgum
   }
   write_found(path + kPageEnding, play::report_page(results, arguments.version), ContentKind::page);
   return results;
-}
-
-CorpusFile::CorpusFile(const std::string& path) : path_(path) {
-  if (path_.empty() || !fs::exists(path_)) return;
-  const FileText text = read_text_file(path_);
-  if (!text) throw FileError(path_ + ": corpus: " + text.why + "; expected the corpus of a hunt");
-  std::istringstream lines(*text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    auto parsed = hunt::parse_corpus_line(line);
-    if (!parsed) throw FileError({path_, number, 1}, "corpus: is not a line of a corpus; expected a course");
-    if (parsed->course) {
-      courses_.push_back(*std::move(parsed->course));
-    } else {
-      std::uint64_t& next = next_[parsed->seed];
-      next = std::max(next, parsed->next);
-    }
-  }
-}
-
-std::uint64_t CorpusFile::next_course(std::uint64_t seed) const {
-  const auto it = next_.find(seed);
-  return it == next_.end() ? 0 : it->second;
-}
-
-void CorpusFile::write(const hunt::Hunt& hunt, std::uint64_t seed) {
-  next_[seed] = hunt.next_course();
-  std::string text;
-  for (const auto& [its_seed, next] : next_) text += hunt::json_text(its_seed, next) + "\n";
-  for (const hunt::Seed& one : hunt.corpus().seeds()) text += hunt::json_text(one.course) + "\n";
-  const std::string why = replace_text_file(path_, text, ContentKind::other);
-  if (!why.empty()) throw GrowingFileError("--corpus: " + path_ + " cannot be written: " + why);
 }
 
 }  // namespace understudy::emulator::command_line

@@ -3,12 +3,25 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <string>
 
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "emulator/command_line/box_flags.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/serving_flags.h"
 
 namespace understudy::emulator::command_line {
+
+inline const CLI::Validator kCourses(
+    [](const std::string& value) {
+      const auto number = parse_integer(value);
+      if (!number)
+        return quoted(value) + " is not a number of courses; expected a whole number, up to " +
+               std::to_string(INT64_MAX);
+      return *number >= 1 ? std::string() : value + " is too few; expected 1 or more";
+    },
+    "");
 
 inline void add_save_below(CLI::App& command, std::string& folder) {
   command
@@ -79,10 +92,13 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
 }
 
 inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
-  command.add_option("SCENARIO", hunt.scenario, "A scenario file with a `hunt` section")->required();
+  command
+      .add_option("SCENARIO", hunt.scenario,
+                  "A scenario file with a `hunt` section; `-- COMMAND` comes after it")
+      ->required();
   command.add_option("--for", hunt.time, "End after this much real time [60s, unless --courses is given]")
       ->check(kNotEmpty);
-  command.add_option("--courses", hunt.courses, "End after this many courses [any number]");
+  command.add_option("--courses", hunt.courses, "End after this many courses [any number]")->check(kCourses);
   command.add_option("--seed", hunt.seed, "Seed of the courses: any whole number")
       ->check(kSeed)
       ->capture_default_str();

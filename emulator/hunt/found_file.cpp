@@ -136,7 +136,25 @@ std::string heading(const CoursePlayer& course_player, const Shrunk& found, cons
   return text;
 }
 
+constexpr std::string_view kMark = "# The next hunt replaces this file unless it is edited: ";
+
+/// Returns a line with the checksum of all other lines.
+std::string marked(const std::string& others) {
+  constexpr std::size_t kDigits = 8;
+  const std::uint64_t hash = hash_of(std::as_bytes(std::span(others)));
+  return std::string(kMark) + play::identity_text(hash).substr(0, kDigits) + "\n";
+}
+
 }  // namespace
+
+std::string line_of(const play::HuntPlan& plan, const play::Disturbance& disturbance) {
+  std::string line;
+  for (const world::YamlFields& fields : plan.steps_of(disturbance)) {
+    const std::string step = world::flow_text(fields);
+    line += (line.empty() ? "" : "; ") + step.substr(2, step.size() - 4);  // without its braces
+  }
+  return one_line(line);
+}
 
 std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found) {
   // The kind has the path of the file, which may be spelled differently.
@@ -148,11 +166,13 @@ std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& fou
   return fs::path(file).stem().string() + "-" + play::identity_text(hash).substr(0, kDigits);
 }
 
-std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
-                            const std::string& folder) {
+namespace {
+
+std::string text_without_heading(const CoursePlayer& course_player, const Shrunk& found,
+                                 const std::string& folder) {
   const Writer writer(folder);
   const play::Failure& failure = *found.outcome.failed->failure;
-  std::string text = heading(course_player, found, origin) + "understudy: 1\n";
+  std::string text = "understudy: 1\n";
   text += "name: " + name_of_finding(course_player, found) + "\n";
   for (const auto& [key, value] : writer.moved(course_player.plan().head()).entries())
     text += world::block_text(key, value, "", "");
@@ -183,6 +203,24 @@ std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& fou
     text += i == found.outcome.failed_step ? with_comment(step, "here: " + failure.what) : step;
   }
   return text;
+}
+
+}  // namespace
+
+bool is_edited(const std::string& text) {
+  if (text.empty()) return false;
+  const std::size_t begin = text.find(kMark);
+  const std::size_t end = begin == std::string::npos ? begin : text.find('\n', begin);
+  if (end == std::string::npos) return true;
+  const std::string rest = text.substr(0, begin) + text.substr(end + 1);
+  return text.compare(begin, end + 1 - begin, marked(rest)) != 0;
+}
+
+std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
+                            const std::string& folder) {
+  const std::string head = heading(course_player, found, origin);
+  const std::string steps = text_without_heading(course_player, found, folder);
+  return head + marked(head + steps) + steps;
 }
 
 }  // namespace understudy::emulator::hunt

@@ -6,6 +6,7 @@
 
 #include "emulator/hunt/course_player.h"
 #include "emulator/hunt/shrinker.h"
+#include "emulator/play/reading/hunt_plan.h"
 
 namespace understudy::emulator::hunt {
 
@@ -17,9 +18,13 @@ struct Origin {
   std::size_t disturbances = 0;  // of the course
 };
 
+/// Returns a disturbance in one line: "inject: { drop: feeder, nth: 3 }".
+std::string line_of(const play::HuntPlan& plan, const play::Disturbance& disturbance);
 /// Returns the name of its file, without a folder and an ending: always the same one for a kind of failure.
 std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found);
-/// Returns the text of a scenario file in that folder.
+/// Returns true if somebody has changed the text of a found file. An empty text is not one.
+bool is_edited(const std::string& text);
+/// Returns the text of a scenario file in that folder. Its first lines have a checksum, for is_edited().
 std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
                             const std::string& folder);
 

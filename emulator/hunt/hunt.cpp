@@ -154,7 +154,10 @@ void Hunt::play_earlier() {
   auto course_players = take_stages();
   options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances
   for (Course& course : options_.corpus) {
-    if (options_.is_over()) break;
+    if (options_.is_over()) {
+      unplayed_.push_back(std::move(course));
+      continue;
+    }
     if (course.case_number >= cases_.cases_of(0)) continue;
     CoursePlayer& course_player = *course_players->of(course.case_number);
     if (!course_player.undisturbed_outcome().kind.empty()) continue;
@@ -191,7 +194,10 @@ void Hunt::play_corpus(
 
 void Hunt::run(const std::function<void(const Finding&)>& found, const std::function<void()>& pause) {
   next_ = options_.first;
-  if (cases_.cases_of(0) == 1 && fails_by_itself(found)) return;
+  if (cases_.cases_of(0) == 1 && fails_by_itself(found)) {
+    unplayed_ = std::move(options_.corpus);
+    return;
+  }
   play_earlier();
   const std::uint64_t end =
       options_.courses > UINT64_MAX - options_.first ? UINT64_MAX : options_.first + options_.courses;

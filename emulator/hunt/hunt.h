@@ -60,6 +60,9 @@ struct CurvePoint {
 
 class Hunt {
  public:
+  /// No more courses than this are played at a time.
+  static constexpr int kMaxJobs = 256;
+
   /// `cases` has one file with a plan; it must outlive the hunt.
   /// `make_player` is called for each thread, and once more.
   Hunt(
@@ -77,6 +80,8 @@ class Hunt {
   const std::map<std::string, std::uint64_t>& kinds() const { return kinds_; }
   /// Returns the courses that reached something new.
   const Corpus& corpus() const { return corpus_; }
+  /// Returns the courses of earlier hunts for which there was no time.
+  const std::vector<Course>& unplayed() const { return unplayed_; }
   /// Returns the number of the next course.
   std::uint64_t next_course() const { return next_; }
   const std::vector<CurvePoint>& curve() const { return curve_; }
@@ -84,8 +89,8 @@ class Hunt {
   void play_corpus(const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers);
 
  private:
-  static constexpr std::uint64_t kFirstGeneration = 16;  // courses
-  static constexpr std::uint64_t kGeneration = 256;      // later ones
+  static constexpr std::uint64_t kFirstGeneration = 16;   // courses
+  static constexpr std::uint64_t kGeneration = kMaxJobs;  // later ones
 
   struct Played {
     Course course;
@@ -116,6 +121,7 @@ class Hunt {
   std::uint64_t next_ = 0;
   mutable std::mutex tally_mutex_;
   Tally tally_;
+  std::vector<Course> unplayed_;
 };
 
 }  // namespace understudy::emulator::hunt
