@@ -25,14 +25,18 @@
 #include "emulator/command_line/hunt_files.h"
 #include "emulator/command_line/hunt_hosts.h"
 #include "emulator/command_line/interruption.h"
+#include "emulator/command_line/nearest_courses.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
 #include "emulator/hunt/corpus.h"
+#include "emulator/hunt/course.h"
 #include "emulator/hunt/course_player.h"
+#include "emulator/hunt/found_file.h"
 #include "emulator/hunt/hunt.h"
 #include "emulator/hunt/reach.h"
 #include "emulator/play/performing/case_list.h"
+#include "emulator/play/reading/hunt_plan.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/scenario/scenario.h"
 
@@ -41,6 +45,8 @@ namespace understudy::emulator::command_line {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMaxGaps = 10;  // in programs, that are printed
 
 /// Returns the end of the hunt, or nothing if only the number of courses ends it.
 std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
@@ -150,15 +156,39 @@ void print_curve(const hunt::Hunt& hunt) {
   }
 }
 
+/// Prints gaps, and below those with the same nearest course that course.
+void print_gaps(const std::vector<Gap>& gaps) {
+  const std::size_t shown = std::min(gaps.size(), kMaxGaps);
+  for (std::size_t i = 0; i < shown; ++i) {
+    std::printf("  %s\n", gaps[i].text.c_str());
+    const bool is_last = i + 1 == shown || gaps[i + 1].nearest != gaps[i].nearest;
+    if (is_last && !gaps[i].nearest.empty()) std::printf("    nearest: %s\n", gaps[i].nearest.c_str());
+  }
+  if (gaps.size() > shown) std::printf("  ... and %zu more\n", gaps.size() - shown);
+}
+
 /// Plays the courses that reached something new again, and prints the lines and parts that none of them
-/// reached.
+/// reached, with the courses that came nearest.
 void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
-  hunt.play_corpus([&](const play::Scenario& scenario) {
-    return std::vector{coverage.programs.observer(scenario), coverage.devices.observer()};
-  });
+  std::optional<CoverageFile> of_course;
+  NearestCourses nearest;
+  hunt.play_corpus(
+      [&](const play::Scenario& scenario) {
+        of_course.emplace(CoverageWish{});
+        return std::vector{of_course->observer(scenario), coverage.devices.observer()};
+      },
+      [&](const hunt::Course& course, const play::HuntPlan& plan) {
+        coverage.programs.add(of_course->report());
+        std::string text;
+        for (const play::Disturbance& one : course.disturbances)
+          text += (text.empty() ? "" : "; ") + hunt::line_of(plan, one);
+        nearest.add(of_course->report(), course.disturbances.size(), text);
+      });
   if (!coverage.programs.report().files.empty() || coverage.programs.is_wanted()) {
+    const std::vector<Gap> gaps = nearest.gaps(coverage.programs.report());
     coverage.programs.write(stdout);
     print_files(coverage.programs.report());
+    print_gaps(gaps);
   }
   coverage.devices.write(stdout);
 }

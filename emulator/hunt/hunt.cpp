@@ -182,12 +182,14 @@ void Hunt::note_curve() {
 }
 
 void Hunt::play_corpus(
-    const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers) {
+    const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers,
+    const std::function<void(const Course&, const play::HuntPlan&)>& over) {
   corpus_.renew();
   auto course_players = take_stages();
   for (const Seed& seed : corpus_.seeds()) {
     CoursePlayer& course_player = *course_players->of(seed.course.case_number);
     course_player.play(seed.course, observers(course_player.scenario()));
+    over(seed.course, course_player.plan());
   }
   give_back(std::move(course_players));
 }

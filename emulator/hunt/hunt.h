@@ -86,7 +86,11 @@ class Hunt {
   std::uint64_t next_course() const { return next_; }
   const std::vector<CurvePoint>& curve() const { return curve_; }
   /// Plays the courses that together have reached everything, with these observers.
-  void play_corpus(const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers);
+  /// `over` is called after each.
+  void play_corpus(
+      const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers,
+      const std::function<void(const Course&, const play::HuntPlan&)>& over = [](const Course&,
+                                                                                 const play::HuntPlan&) {});
 
  private:
   static constexpr std::uint64_t kFirstGeneration = 16;   // courses
@@ -117,11 +121,11 @@ class Hunt {
   std::vector<std::unique_ptr<Stages>> stages_;  // that no thread uses
   std::map<std::string, std::uint64_t> kinds_;
   Corpus corpus_;
+  std::vector<Course> unplayed_;
   std::vector<CurvePoint> curve_;
   std::uint64_t next_ = 0;
   mutable std::mutex tally_mutex_;
   Tally tally_;
-  std::vector<Course> unplayed_;
 };
 
 }  // namespace understudy::emulator::hunt

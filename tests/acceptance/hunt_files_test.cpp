@@ -139,6 +139,38 @@ TEST_F(HuntFiles, AnEditedFindingStays) {
       << again.output;
 }
 
+TEST_F(HuntFiles, WhatWasNotReachedHasItsNearestCourse) {
+  folder_.write("press.yaml", R"(understudy: 1
+bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }
+steps:
+  - program:
+      feeder: |
+        again:  Wait_IO DIN_10 ON
+                Wait_IO DIN_9 ON
+                Wait_IO DIN_8 ON
+                Counter_Increase 1
+                Jump again
+  - write: { PROG_MAIN_RunTime_START: 0 }
+  - advance: 300ms
+hunt:
+  may:
+    - inject: { stuck: feeder.DIN_10, level: on, for: 4ms }
+    - inject: { stuck: feeder.DIN_7, level: on, for: 4ms }
+)");
+  const Finished finished = understudy({"hunt", press_, "--courses", "100", "--found", folder_ / "found"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  // Line 2 is reached through DIN_10 alone, and nothing presses DIN_9.
+  const std::size_t begin = finished.output.find(".lst:2: Wait_IO DIN_9 ON: its decision was never yes\n");
+  ASSERT_NE(begin, std::string::npos) << finished.output;
+  const auto lines = lines_of(finished.output.substr(begin));
+  ASSERT_GE(lines.size(), 5U);
+  EXPECT_NE(lines[1].find(".lst:3: Wait_IO DIN_8 ON: never ran"), std::string::npos) << lines[1];
+  const std::string nearest =
+      "    nearest: line 2 ran with inject: { stuck: feeder.DIN_10, level: on, for: 4ms, ";
+  EXPECT_EQ(lines[4].substr(0, nearest.size()), nearest);
+  EXPECT_EQ(lines[4].find("DIN_7"), std::string::npos) << lines[4];  // it has the fewest disturbances
+}
+
 TEST(RunOfCases, TheLineThatRunsACaseAloneHasTheSeed) {
   const PrivateFolder folder;
   const std::string path = folder.write("drawn.yaml", R"(understudy: 1
