@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 if [ "$what" = types ]; then
-  demand mypy pytest
+  demand mypy pytest hypothesis
   "$python" -m mypy --strict --cache-dir="$folder" "$project/python/understudy"
 else
   demand pytest xdist hypothesis

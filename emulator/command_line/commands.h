@@ -137,6 +137,7 @@ struct HuntArguments {
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
   bool unguided = false;    // draws every course without regard to earlier ones
+  bool plan = false;        // prints what may happen, and plays nothing
   std::string corpus;       // a file of courses to start from
   std::string coverage;     // files, as for `run`
   std::string device_coverage;

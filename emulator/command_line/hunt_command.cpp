@@ -24,6 +24,7 @@
 #include "emulator/command_line/host_course.h"
 #include "emulator/command_line/hunt_files.h"
 #include "emulator/command_line/hunt_hosts.h"
+#include "emulator/command_line/hunt_plan_text.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/command_line/nearest_courses.h"
 #include "emulator/command_line/output_paths.h"
@@ -101,6 +102,16 @@ RunArguments coverage_arguments(const HuntArguments& arguments) {
   covered.device_coverage = arguments.device_coverage;
   covered.version = arguments.version;
   return covered;
+}
+
+/// Prints the plan of the first case.
+int print_plan(const play::CaseList& cases, ModelList models, const HuntArguments& arguments) {
+  std::optional<HuntHosts> hosts;
+  if (!arguments.host.command.empty()) hosts.emplace(cases, models, arguments, 1);
+  hunt::CoursePlayer player(play::CaseReader(cases).read({.file = 0, .number = 0}), models,
+                            hosts ? hosts->player() : hunt::Player{});
+  std::fputs(plan_text(player.plan(), player.undisturbed()).c_str(), stdout);
+  return kExitWell;
 }
 
 std::string rate_text(double rate) {
@@ -238,6 +249,7 @@ int hunt_scenario(ModelList models, const HuntArguments& arguments) {
     require_hunted(scenario, models, has_command);
   });
   require_plans(arguments.scenario, without, has_any);
+  if (arguments.plan) return print_plan(cases, models, arguments);
   const RunArguments covered = coverage_arguments(arguments);
   require_coverage(claims, coverage_of(covered));
   require_device_coverage(claims, covered.device_coverage);

@@ -108,6 +108,7 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
   command.add_flag(
       "--unguided", hunt.unguided,
       "Draw each course independently, instead of building on courses that reached something new");
+  command.add_flag("--plan", hunt.plan, "Print what may happen as JSON, and play no course");
   command.add_option("--corpus", hunt.corpus, "Keep such courses in this file, and start from those in it")
       ->check(kNotEmpty);
   command.add_option("--coverage", hunt.coverage, kCoverageHelp)->check(kNotEmpty);
