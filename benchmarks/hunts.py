@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures how long hunts take to find the planted faults of tests/planted_faults, and how many courses.
 
-    benchmarks/hunts.py BUILD_FOLDER [--seeds 10] [--limit 300] [--mended 2000] [--only NAME ...]
+    benchmarks/hunts.py BUILD_FOLDER [--seeds 10] [--limit 300] [--mended 2000] [--only NAME ...] [--guidance guided]
     benchmarks/hunts.py BUILD_FOLDER --rate 20000
 
 Each fault is hunted with each seed, with guidance and without, until it is found. Then its mended twin is hunted for a
@@ -136,7 +136,7 @@ def main():
     parser.add_argument("--mended", type=int, default=2000, help="courses of each mended twin; 0: none")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", nargs="*", default=[])
-    parser.add_argument("--guided-alone", action="store_true")
+    parser.add_argument("--guidance", choices=["both", "guided", "unguided"], default="both")
     parser.add_argument("--rate", type=int, help="measure so many courses")
     given = parser.parse_args()
     if given.rate:
@@ -146,30 +146,31 @@ def main():
 
 
 def measure(given, folder):
-    print("| fault | found | seconds | courses | disturbances | steps | unguided: found | courses | mended |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    medians = []
+    print("| fault | found | seconds | at most | courses | disturbances | steps "
+          "| unguided: found | seconds | courses | mended |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     for path in sorted(FAULTS.glob("*.yaml")):
         if given.only and path.stem not in given.only:
             continue
         fault = Fault(path, given.build, folder)
         columns = {}
-        for guidance in ([], ["--unguided"])[: 1 if given.guided_alone else 2]:
-            columns[bool(guidance)] = [
-                hunt(given.build, fault, "careless", ["--seed", str(seed), "--jobs", str(given.jobs)] + guidance,
-                     given.limit) for seed in range(given.seeds)]
-        guided = [one for one in columns[False] if one]
-        unguided = [one for one in columns.get(True, []) if one]
+        for guidance, flags in (("guided", []), ("unguided", ["--unguided"])):
+            seeds = range(given.seeds) if given.guidance in ("both", guidance) else []
+            hunted = [hunt(given.build, fault, "careless", ["--seed", str(seed), "--jobs", str(given.jobs)] + flags,
+                           given.limit) for seed in seeds]
+            columns[guidance] = [one for one in hunted if one]
+        guided, unguided = columns["guided"], columns["unguided"]
         disturbances = [one[2].count("# disturbance ") for one in guided]
         steps = [one[2].count("\n  - ") for one in guided]
-        medians.append((middle([one[1] for one in guided]), middle([one[1] for one in unguided])))
         mended = "–"
         if given.mended:
             found = hunt(given.build, fault, "careful", ["--courses", str(given.mended), "--jobs", str(given.jobs)])
             mended = "found" if found else "none"
-        print(f"| {fault.name} | {len(guided)}/{given.seeds} | {middle([one[0] for one in guided]):.1f} | "
-              f"{medians[-1][0]:.0f} | {middle(disturbances):.0f} | {middle(steps):.0f} | "
-              f"{len(unguided)}/{given.seeds} | {medians[-1][1]:.0f} | {mended} |", flush=True)
+        seconds = [one[0] for one in guided]
+        print(f"| {fault.name} | {len(guided)}/{given.seeds} | {middle(seconds):.1f} | {max(seconds, default=0):.1f} | "
+              f"{middle([one[1] for one in guided]):.0f} | {middle(disturbances):.0f} | {middle(steps):.0f} | "
+              f"{len(unguided)}/{given.seeds} | {middle([one[0] for one in unguided]):.1f} | "
+              f"{middle([one[1] for one in unguided]):.0f} | {mended} |", flush=True)
 
 
 if __name__ == "__main__":
