@@ -154,7 +154,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
   // A change of speed next to a large start speed is only known to some rounding errors of the latter.
   const Long rounding = 1e-15L * peak;
   State before{};
-  bool told = true;  // `before` is what the last segment ended with
+  bool is_known = true;  // `before` is what the last segment ended with
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
     const Segment& segment = profile.segments[static_cast<std::size_t>(i)];
     const int sense = sense_of(segment);
@@ -165,7 +165,7 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
     // A segment that is hardly longer than the uncertainty of times proves nothing.
     if (duration_s <= 1e4L * blur.time_s) {
       before = {};
-      told = false;
+      is_known = false;
       continue;
     }
     const Long slack = limits.acceleration * kLimitTolerance + rounding / duration_s + blur.acceleration;
@@ -180,13 +180,13 @@ inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool who
         limits.jerk * (1 + kLimitTolerance) + rounding / (duration_s * duration_s)) {
       return "jerk is " + text(segment.jerk_u_s3) + ", not " + text(limits.jerk);
     }
-    const bool smooth = has_jerk(sense < 0 ? law.down : law.up) && whole_ramps && told;
+    const bool smooth = has_jerk(sense < 0 ? law.down : law.up) && whole_ramps && is_known;
     const Long jump = std::abs(begin.acceleration - before.acceleration);
     if (smooth && jump > slack + kGapTolerance * std::max(up.acceleration, down.acceleration)) {
       return "acceleration jumps by " + text(jump) + " before segment " + std::to_string(i);
     }
     before = has_jerk(sense < 0 ? law.down : law.up) ? end : State{};
-    told = true;
+    is_known = true;
   }
   return {};
 }

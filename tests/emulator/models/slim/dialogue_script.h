@@ -60,9 +60,9 @@ class DialogueScript {
 
   /// Returns the next line that was received; "(nothing)" if there is none.
   std::string next() {
-    if (said_.empty()) return "(nothing)";
-    const std::string line = said_.front();
-    said_.pop_front();
+    if (lines_.empty()) return "(nothing)";
+    const std::string line = lines_.front();
+    lines_.pop_front();
     return line;
   }
 
@@ -111,7 +111,7 @@ class DialogueScript {
     rest_.append(output.begin(), output.end());
     world_.take_output(0, output.size());
     for (std::size_t end = rest_.find("\r\n"); end != std::string::npos; end = rest_.find("\r\n")) {
-      said_.push_back(rest_.substr(0, end));
+      lines_.push_back(rest_.substr(0, end));
       rest_.erase(0, end + 2);
     }
   }
@@ -119,7 +119,7 @@ class DialogueScript {
   world::World world_;
   Tick tick_ = 0;
   std::string rest_;
-  std::deque<std::string> said_;
+  std::deque<std::string> lines_;
 };
 
 using Choices = std::map<std::string, std::string>;

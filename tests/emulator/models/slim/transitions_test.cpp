@@ -79,7 +79,7 @@ class Cell {
     const std::int64_t travel = chain().axis(0).travel_pulses;
     bring_about();
     script_.pass(400);
-    EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : said_by(expected));
+    EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : reply_to(expected));
     if (is_of_program(row_.task)) return check_program(expected);
     switch (expected) {
       case Outcome::decelerates:
@@ -142,14 +142,14 @@ class Cell {
   }
 
   /// The program prints something only if the motion that DN waits for is abandoned.
-  std::string said_by(Outcome expected) const {
+  std::string reply_to(Outcome expected) const {
     const bool is_over = row_.task == ActiveTask::program_waits_for_motion && row_.event == Event::give_up;
     return is_over && expected == Outcome::continues ? "B" : "(nothing)";
   }
 
   void check_program(Outcome expected) {
     if (from_ == From::event_routine) {
-      EXPECT_EQ(script_.next(), said_by(expected));
+      EXPECT_EQ(script_.next(), reply_to(expected));
     }
     EXPECT_EQ(script_.next(), "(nothing)");
     EXPECT_EQ(execution().running, expected == Outcome::continues);

@@ -47,7 +47,6 @@ class BusyWorld {
   }
 
   World& world() { return world_; }
-  std::uint64_t said() const { return said_; }
   /// Returns the recording, ended.
   std::string finish() {
     recorder_->finish();
@@ -121,7 +120,6 @@ class BusyWorld {
           world_.receive(0, bytes);
       }
     }
-    said_ += line.output().size();
     world_.take_output(0, line.output().size());
   }
 
@@ -129,7 +127,6 @@ class BusyWorld {
   Bench bench_;
   World world_;
   std::string text_;
-  std::uint64_t said_ = 0;
   RecordingHeader header_;
   std::unique_ptr<Recorder> recorder_;
 };
