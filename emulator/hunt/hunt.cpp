@@ -43,12 +43,20 @@ void Hunt::give_back(std::unique_ptr<Stages> course_players) {
   stages_.push_back(std::move(course_players));
 }
 
-/// Draws a course: a new one, or, as often, one that goes on from a course that reached something new.
+/// Returns true if a course goes on from another one: half of them do, except for the first ones. A fault
+/// that is easy to find needs no guidance, and later courses have more to go on from.
+bool Hunt::goes_on(std::uint64_t number) const {
+  const bool is_early = number < kDrawnAlone * options_.shard.of;
+  if (!options_.is_guided || is_early || corpus_.seeds().empty()) return false;
+  return Dice(~options_.seed, number).one_in(2);  // a course that is drawn alone is the same without guidance
+}
+
+/// Draws a course: a new one, or one that goes on from a course that reached something new.
 Course Hunt::draw(Stages& course_players, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
   Course course;
-  if (seeds.empty() || !options_.is_guided || dice.one_in(2)) {
+  if (!goes_on(number)) {
     course.case_number = dice.below(cases_.cases_of(0));
     CoursePlayer& course_player = *course_players.of(course.case_number);
     if (!course_player.undisturbed_outcome().kind.empty()) return course;

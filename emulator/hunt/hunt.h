@@ -96,6 +96,9 @@ class Hunt {
   static constexpr std::uint64_t kFirstGeneration = 16;   // courses
   static constexpr std::uint64_t kGeneration = kMaxJobs;  // later ones
 
+  /// So many courses go on from none. They fill the first generations: 16 + 32 + 64.
+  static constexpr std::uint64_t kDrawnAlone = 112;
+
   struct Played {
     Course course;
     Outcome outcome;
@@ -104,6 +107,7 @@ class Hunt {
 
   std::unique_ptr<Stages> take_stages();
   void give_back(std::unique_ptr<Stages> course_players);
+  bool goes_on(std::uint64_t number) const;
   Course draw(Stages& course_players, std::uint64_t number) const;
   Played play(Stages& course_players, Course course) const;
   void play_earlier();

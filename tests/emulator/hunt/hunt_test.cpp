@@ -76,6 +76,19 @@ TEST(Hunt, ShardsPlayTheCoursesOfTheWholeHunt) {
   EXPECT_EQ(sum.simulated, whole.simulated);
 }
 
+/// What is easy to find is found as soon as without guidance.
+TEST(Hunt, TheFirstCoursesAreDrawnAlone) {
+  const HuntFolder folder(kPresses + kBounce);
+  for (const std::uint64_t courses : {112, 240}) {
+    Tally guided;
+    Tally alone;
+    hunted(folder, {.seed = 3, .jobs = 1, .courses = courses}, &guided);
+    hunted(folder, {.seed = 3, .jobs = 1, .courses = courses, .is_guided = false}, &alone);
+    EXPECT_EQ(guided.simulated == alone.simulated, courses == 112) << courses;
+    EXPECT_GT(guided.failed, 0U);
+  }
+}
+
 TEST(Hunt, ConditionsMustHoldInEveryCourse) {
   const HuntFolder folder(kPresses + R"(hunt:
   may: [ { inject: { stuck: feeder.DIN_10, level: on, for: 5ms }, times: 9 } ]
