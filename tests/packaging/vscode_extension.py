@@ -6,12 +6,10 @@ usage: vscode_extension.py PROJECT UNDERSTUDY MODULES [unittest's arguments]
 MODULES is a folder for Node modules. If they are missing, npm fetches them if UNDERSTUDY_HEAVY_HOSTS is 1; otherwise the
 tests of colours and schemas are skipped.
 """
-import filecmp
 import functools
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -23,9 +21,10 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 PROJECT, PROGRAM, MODULES = (os.path.abspath(path) for path in sys.argv[1:4])
 EXTENSION = os.path.join(PROJECT, "packaging", "vscode")
-sys.path[:0] = [HERE, EXTENSION]
+sys.path[:0] = [HERE, os.path.dirname(HERE), EXTENSION]
 import generate  # noqa: E402
 import listings  # noqa: E402
+import npm_modules  # noqa: E402
 import vsix  # noqa: E402
 from tables import MODELS, Tables  # noqa: E402
 
@@ -67,17 +66,10 @@ def findings(model, texts):
 @functools.cache
 def fetch_modules():
     """Fetches the Node modules if that is allowed. Skips the test if they are missing, or not those of the lock file."""
-    lock = os.path.join(MODULES, "package-lock.json")
-    is_here = os.path.isdir(os.path.join(MODULES, "node_modules")) and filecmp.cmp(
-        lock, os.path.join(HERE, "package-lock.json"), shallow=False)
-    if is_here:
-        return
-    if os.environ.get("UNDERSTUDY_HEAVY_HOSTS") != "1":
-        raise unittest.SkipTest("UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs npm and 80 MB of modules)")
-    os.makedirs(MODULES, exist_ok=True)
-    for name in ("package.json", "package-lock.json"):
-        shutil.copy(os.path.join(HERE, name), MODULES)
-    subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"], cwd=MODULES, check=True)
+    try:
+        npm_modules.fetch(HERE, MODULES, "80 MB")
+    except npm_modules.Missing as missing:
+        raise unittest.SkipTest(str(missing)) from None
 
 
 class Generated(unittest.TestCase):
