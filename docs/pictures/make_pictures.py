@@ -35,6 +35,24 @@ steps:
 """
 
 
+FILLER = """AREA PLC
+LD X12          ; a bottle is there
+ANI T0
+OUT Y10         ; the valve
+LD X12
+OUT T0 K2000
+OUT C0 K3
+LD C0
+OUT Y11         ; the pusher
+LD X14          ; the crate is gone
+OR M1
+LDI M8002
+ANB
+RST C0
+END
+"""
+
+
 class Shown:
     """A command of the program that serves a page, with a browser."""
 
@@ -93,6 +111,16 @@ def main():
             ctl('set', 'M8000=1')
             time.sleep(0.7)
             page.picture('program')
+        pathlib.Path(folder, 'filler.lst').write_text(FILLER)
+        pathlib.Path(folder, 'bench.yaml').write_text(
+            'understudy: 1\nlines: { a: { stations: [ { name: filler, model: super-40nc, program: filler.lst } ] } }\n')
+        with Shown(program, ['serve', 'bench.yaml', '--control', control, '--page'], folder, 760) as page:
+            page.show('Program')
+            page.find('button[title="count the lines that run"]')[0].click()
+            ctl('break', 'filler', '9', 'when=filler.Y11 == 1')
+            ctl('input', 'filler.X12=1')
+            time.sleep(1.5)
+            page.picture('ladder')
         serve = ['serve', str(SCENARIOS / 'quickstart.yaml'), '--links', folder, '--control', control, '--page']
         with Shown(program, serve, folder, 620) as page:
             host = [program, 'poll', f'{folder}/rs485.port', '--model', 'simple2-r3']

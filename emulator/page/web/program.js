@@ -3,8 +3,12 @@ import { html, useEffect, useRef, useState } from './preact.js';
 import { ask, askQuietly, isLocked, store, unwant, valueOf, want } from './store.js';
 import { Button, Choice, Field, grouped } from './small.js';
 import { useKept } from './kept.js';
+import { Ladder } from './ladder.js';
+import { hasLadder } from './rungs.js';
+import { Steps, StopList, useCoverage, useStops } from './stops.js';
 
 const kLook_ms = 150;
+const kLookAtStack_ms = 450;  // it costs more
 const kMaxLines = 4000;  // in a listing; more would make the page slow
 
 // The simulated time since which each program has been waiting for the same thing at the same line.
@@ -65,7 +69,16 @@ function Operands({ device, line }) {
   return told.length > 0 && html`<small class="operands figure">${told.map(([word, value]) => `${word} = ${grouped(value)}`).join(', ')}</small>`;
 }
 
-function Listing({ device, lines, running }) {
+/// A line: its breakpoint, how often it has run, and its text.
+function Line({ device, number, text, isRunning, isCaller, point }) {
+  const { has, count, toggle } = point(number);
+  const title = `${has ? 'delete the breakpoint' : 'stop'} at line ${number}`;
+  return html`<li class=${`${isRunning ? 'running' : isCaller ? 'caller' : ''} ${count ? count.kind : ''}`} aria-current=${isRunning ? 'step' : undefined}>
+    <button type="button" class="stop" title=${title} aria-label=${title} aria-pressed=${has} tabindex=${has ? 0 : -1} onClick=${toggle}>●</button>
+    ${count && html`<small class="runs figure" title=${count.says}>${count.text}</small>`}<code>${text || ' '}</code><${Operands} device=${device} line=${text} /></li>`;
+}
+
+function Listing({ device, lines, running, callers, point, counts }) {
   const list = useRef(null);
   const first = Math.min(...running);
   const from = Number.isFinite(first) ? Math.max(0, first - kAround) : 0;
@@ -81,8 +94,8 @@ function Listing({ device, lines, running }) {
     const isOut = line.offsetTop < box.scrollTop || line.offsetTop + line.offsetHeight > box.scrollTop + box.clientHeight;
     if (isOut) box.scrollTop = line.offsetTop - box.clientHeight / 3;  // scrolls only the box, never the page
   }, [first]);
-  return html`<ol class="listing" ref=${list} tabindex="0" aria-label="listing">${lines.map((line, i) => html`<li key=${i}
-    class=${running.has(i + 1) ? 'running' : ''} aria-current=${running.has(i + 1) ? 'step' : undefined}><code>${line || ' '}</code><${Operands} device=${device} line=${line} /></li>`)}</ol>`;
+  return html`<ol class=${counts ? 'listing counted' : 'listing'} ref=${list} tabindex="0" aria-label="listing">${lines.map((line, i) => html`<${Line} key=${i}
+    device=${device} number=${i + 1} text=${line} isRunning=${running.has(i + 1)} isCaller=${callers.has(i + 1)} point=${point} />`)}</ol>`;
 }
 
 // What registers stand for, as far as somebody has asked.
@@ -134,12 +147,16 @@ export function Program() {
   const [text, setText] = useState('');
   const [programs, setPrograms] = useState([]);
   const [unread, setUnread] = useState('');  // why it could not be read
+  const [stacks, setStacks] = useState(null);
+  const [isCounted, count] = useKept('lines are counted', false);
   const device = devices.find((it) => it.name === deviceName) ?? devices[0];
   const [edited, setEdited] = useKept(`program text of ${device?.name}`, null);
   const [mistakes, setMistakes] = useKept(`mistakes of ${device?.name}`, []);
+  const [isDrawn, drawLadder] = useKept(`ladder of ${device?.name}`, true);
 
+  // The text in whose lines breakpoints, stacks and counts are: the bench's file, or what the device has.
   const read = async () => {
-    const reply = await askQuietly({ do: 'program', device: device.name });
+    const reply = await askQuietly({ do: 'source', device: device.name });
     setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : '');
     setUnread(reply.ok ? '' : reply.error);
   };
@@ -155,9 +172,18 @@ export function Program() {
       setPrograms(reply.programs ?? []);
       setTimeout(look, kLook_ms);
     };
+    const lookAtStack = async () => {
+      const reply = await askQuietly({ do: 'stack', device: device.name });
+      if (over) return;
+      setStacks(reply.ok ? reply : null);
+      setTimeout(lookAtStack, kLookAtStack_ms);
+    };
     look();
+    lookAtStack();
     return () => { over = true; };
   }, [device?.name, store.bench]);
+  const stops = useStops(device?.name);
+  const coverage = useCoverage(device?.name, isCounted && device !== undefined);
 
   if (!device) return html`<p>No device of this bench has a program.</p>`;
   const load = async (given) => {
@@ -172,7 +198,14 @@ export function Program() {
   };
   const lines = text.split('\n');
   const shown = (edited ?? text) === '' ? 0 : (edited ?? text).split('\n').length;
-  const running = new Set(programs.filter((it) => it.line).map((it) => it.line));
+  const frames = (stacks?.stacks ?? []).filter((it) => it.frames.length > 0).map((it) => it.frames);
+  // The listing that is shown may be the bench's file, and `where` counts in that of the device.
+  const lineOf = (program) => stacks?.stacks.find((it) => it.program === program.program)?.frames[0]?.line ?? program.line;
+  const running = new Set(frames.map(([first]) => first.line));
+  const callers = new Set(frames.flatMap(([, ...others]) => others).map((frame) => frame.line));
+  const point = (line) => ({ has: stops.at(line) !== undefined, count: coverage?.at(line) ?? null, toggle: () => stops.toggle(line) });
+  const stop = stacks?.stop && (store.look?.paused || store.look?.speed === 'manual') ? stacks.stop.text : '';
+  const ladder = hasLadder(lines);
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
         takes=${(name) => { setDevice(name); setPrograms([]); }} />`}
@@ -185,9 +218,13 @@ export function Program() {
             ${!isLocked() && html`<label class="file">load a file<input type="file" accept=${`${device.program.file_ending},text/plain`} onChange=${loadFile} /></label>`}`
         : html`<${Button} kind="main" title="load this text" does=${() => load(edited)}>load<//>
             <${Button} title="discard the changes" does=${() => { setEdited(null); setMistakes([]); }}>cancel<//>`}
-      <small>${device.program.language}, ${grouped(shown)} ${shown === 1 ? 'line' : 'lines'}</small>
+      ${ladder && edited === null && html`<${Button} title="draw the PLC as a ladder" pressed=${isDrawn} does=${() => drawLadder(!isDrawn)}>ladder<//>`}
+      ${text !== '' && edited === null && html`<${Button} title="count the lines that run" pressed=${isCounted} does=${() => count(!isCounted)}>coverage<//>
+        <${Steps} device=${device.name} />`}
+      <small>${coverage ? coverage.says : `${device.program.language}, ${grouped(shown)} ${shown === 1 ? 'line' : 'lines'}`}</small>
     </div>
-    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}
+    ${stop && html`<p class="stopped" role="status">stopped: ${stop}</p>`}
+    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${{ ...program, line: lineOf(program) }} />`)}
       ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
     ${mistakes.map((it, i) => html`<p class="bad" role="alert" key=${i}>${it.line > 0 && html`<button type="button" class="link" title=${`go to line ${it.line}`}
       onClick=${() => goToLine(it.line, it.column)}>line ${it.line}, column ${it.column}</button>: `}${it.what}</p>`)}
@@ -197,7 +234,9 @@ export function Program() {
         ? html`<textarea aria-label="program text" rows="24" spellcheck=${false} value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`
         : text === '' ? html`<p class="listing_none">${unread || 'There is no program yet: edit, or load a file.'}</p>`
-        : html`<${Listing} device=${device.name} lines=${lines.slice(0, kMaxLines)} running=${running} />`}
+        : html`<div class="program">${ladder && isDrawn && html`<${Ladder} device=${device.name} lines=${lines} point=${point} />`}
+            <${Listing} device=${device.name} lines=${lines.slice(0, kMaxLines)} running=${running} callers=${callers} point=${point} counts=${coverage !== null} />
+            <${StopList} stops=${stops} /></div>`}
       <${Values} key=${device.name} device=${device} />
     </div>`;
 }

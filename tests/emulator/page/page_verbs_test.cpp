@@ -77,7 +77,8 @@ TEST(ReadOnlyPages, PassOnWhatLooksAndNothingThatChanges) {
         R"({"do":"eval"})", R"({"do":"list"})", R"({"do":"frames"})", R"({"do":"events"})",
         R"({"do":"where"})", R"({"do":"scope"})", R"({"do":"program","device":"a"})", R"({"do":"faults"})",
         R"({"do":"choices"})", R"({"do":"snapshots"})", R"({"do":"timeline","from":500})",
-        R"({"do":"curves","names":["a"]})", R"({"do":"spans"})"}) {
+        R"({"do":"curves","names":["a"]})", R"({"do":"spans"})", R"({"do":"break"})",
+        R"({"do":"coverage","device":"a"})"}) {
     EXPECT_EQ(refusal_of(message, true), "") << message;
     EXPECT_EQ(refusal_of(message, false), "") << message;
   }
@@ -102,6 +103,13 @@ TEST(ReadOnlyPages, PassOnWhatLooksAndNothingThatChanges) {
                               R"({"do":"snapshots","drop":"a"})",
                               R"({"do":"seek","to_ns":5})",
                               R"({"do":"what-if"})",
+                              R"({"do":"break","device":"a","line":5})",
+                              R"({"do":"break","when":"time > 5s"})",
+                              R"({"do":"break","on":"exception"})",
+                              R"({"do":"break","write":"a.b"})",
+                              R"({"do":"break","instruction":0})",
+                              R"({"do":"break","delete":"all"})",
+                              R"({"do":"coverage","again":true})",
                               R"({"do":"what-if","off":true})",
                               R"({"do":"command","device":"a","text":"MOVE"})"}) {
     EXPECT_NE(refusal_of(message, true), "") << message;

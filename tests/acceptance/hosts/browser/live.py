@@ -380,6 +380,63 @@ def path(options):
         visit.close()
 
 
+LADDER = """AREA PLC
+LD X12          ; a bottle is there
+ANI T0
+OUT Y10
+LD X12
+OUT T0 K200
+END
+AREA C
+LAB K1
+TMR K100
+INC D1
+JMP K1
+END
+"""
+
+
+def ladder(options):
+    """Breakpoints, steps, coverage and the ladder of a program."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'ladder.lst').write_text(LADDER, encoding='utf-8')
+        (stage.folder / 'bench.yaml').write_text('understudy: 1\nlines: { a: { stations: [ { name: filler, model: super-40nc, '
+                                                 'program: ladder.lst, set: { M8000: 1 } } ] } }\n', encoding='utf-8')
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        visit.show('Program')
+        visit.until('the file is shown, with its remarks', lambda: any('a bottle is there' in text for text in visit.texts('.listing li')))
+        parts = lambda: visit.find('.ladder .part')
+        name_of = lambda part: part.get_attribute('aria-label').split(';')[0]
+        visit.until('the ladder has its contacts and coils', lambda: [name_of(part) for part in parts()] == [
+            'line 2: LD X12', 'line 3: ANI T0', 'line 4: OUT Y10', 'line 5: LD X12', 'line 6: OUT T0 K200'])
+        is_live = lambda number: 'live' in parts()[number].get_attribute('class')
+        visit.until('a contact that does not conduct is dark, one that is not ON conducts', lambda: not is_live(0) and is_live(1) and not is_live(2))
+        browse.control(visit.arguments, 'input', 'filler.X12=1')
+        visit.until('its input makes it conduct', lambda: is_live(0) and is_live(3))
+        visit.until('until the timer is over', lambda: not is_live(1) and not is_live(2) and is_live(4))
+        visit.press('count the lines that run')
+        visit.until('lines are counted', lambda: len(visit.find('.listing.counted .runs')) >= 8)
+        visit.until('a contact that has been in one state is half covered', lambda: 'half' in parts()[3].get_attribute('class'))
+        visit.press('stop at line 11')
+        visit.until('time stops at a line', lambda: any('line 11: INC D1' in text for text in visit.texts('.stopped')))
+        visit.until('which has a breakpoint in the list', lambda: any('filler, line 11' in text for text in visit.texts('ul.stops')))
+        visit.picture('stopped')
+        visit.press('to the next line')
+        visit.until('a step is at the next line', lambda: any('step: filler C line' in text for text in visit.texts('.stopped')))
+        after = browse.time_ns(visit.arguments)
+        visit.press('back to the line before')
+        visit.until('the way back leads to the line before', lambda: browse.time_ns(visit.arguments) < after)
+        visit.press('delete the breakpoint at line 11')
+        visit.until('it is gone', lambda: not visit.find('.stops .dot'))
+        parts()[2].click()
+        visit.until('a click on a coil sets one', lambda: any('filler, line 4' in text for text in visit.texts('ul.stops')))
+        visit.press('continue to the next breakpoint')
+        visit.until('and stops there', lambda: any('PLC line 4' in text for text in visit.texts('.stopped')))
+        visit.close()
+
+
 def crowd(options):
     """Connects sixteen browsers, one of which never reads again, and then one more than allowed."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
@@ -433,7 +490,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'path': path, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'path': path, 'ladder': ladder, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():
