@@ -121,6 +121,7 @@ class Session {
   Json stack_trace(const Json& arguments);
   Json source(const Json& arguments);
   Json stack_of(std::size_t device) const;
+  std::vector<std::string> programs_of(std::size_t device) const;
   Source source_of(std::size_t device) const;
   Json source_json(std::size_t device) const;
   const Thread& thread_of(const Json& arguments) const;

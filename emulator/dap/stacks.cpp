@@ -42,6 +42,18 @@ Json Session::stack_of(std::size_t device) const {
   }
 }
 
+/// Returns the names of a device's programs. A device that has one program at a time has one thread, without
+/// a name, whatever it runs: with many stations, a question to each would take too long.
+std::vector<std::string> Session::programs_of(std::size_t device) const {
+  std::vector<std::string> names;
+  if (devices_[device].has_many) {
+    const Json programs = link_->ask_for("programs", {{"do", "where"}, {"device", devices_[device].name}});
+    for (const Json& program : programs) names.push_back(text_or(program, "program"));
+  }
+  if (names.empty()) names.emplace_back();
+  return names;
+}
+
 /// Returns nothing if the device has no power, or no program.
 Session::Source Session::source_of(std::size_t device) const {
   try {
@@ -58,11 +70,8 @@ Json Session::threads(const Json& /*arguments*/) {
   Json all = Json::array();
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     if (!devices_[d].has_program) continue;
-    Json stacks = stack_of(d)["stacks"];
-    if (stacks.empty()) stacks.push_back(Json::object());
-    if (!devices_[d].has_many) stacks.erase(stacks.begin() + 1, stacks.end());
-    for (const Json& stack : stacks) {
-      const int number = thread_number(d, devices_[d].has_many ? text_or(stack, "program") : "");
+    for (const std::string& program : programs_of(d)) {
+      const int number = thread_number(d, program);
       all.push_back({{"id", number}, {"name", thread_name(threads_[static_cast<std::size_t>(number) - 1])}});
     }
   }
