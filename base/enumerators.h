@@ -1,4 +1,5 @@
-// Finds out which numbers of an enumeration have names, for tables that must have a row for each of them.
+// Finds out which numbers of an enumeration have names, and what these are, for tables that must have a row
+// for each of them.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,14 @@ constexpr bool has_name() {
   const std::size_t bracket = text.rfind(')');
   return bracket == std::string_view::npos ||
          text.find_first_not_of("0123456789", bracket + 1) != std::string_view::npos;
+}
+
+/// Returns the name of a value that has one.
+template <auto value>
+constexpr auto name_of() {
+  std::string_view text = __PRETTY_FUNCTION__;  // as above
+  text.remove_suffix(1);
+  return text.substr(text.rfind(':') + 1);
 }
 
 /// Returns true if the enumeration has no value after `last`.

@@ -24,6 +24,7 @@ namespace understudy::emulator {
 Device::Device(const Model& model, DeviceSettings settings)
     : model_(model),
       choices_(resolve_choices(model.choices, settings.choices)),
+      decisions_(model.choices.size(), model.transitions),
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 

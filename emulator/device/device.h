@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/decisions.h"
 #include "emulator/device/model.h"
 #include "pty/line_settings.h"
 
@@ -49,9 +50,16 @@ class Device {
   const std::string& name() const { return settings_.name; }
   Firmware firmware() const { return settings_.firmware; }
   const DeviceSettings& settings() const { return settings_; }
+  /// Returns the number of a row's option in effect, for observers. The device's own code calls chose().
   std::uint8_t choice(std::size_t number) const { return choices_[number]; }
   std::span<const std::uint8_t> choices() const { return choices_; }
-  bool chose(const Option& option) const { return choice(option.choice) == option.number; }
+  bool chose(const Option& option) const {
+    decisions_.ask(option.choice);
+    return choices_[option.choice] == option.number;
+  }
+  AskedOptions asked_options() const { return {.numbers = choices_, .decisions = &decisions_}; }
+  /// The device's code notes its decisions here, and coverage reads them.
+  Decisions& decisions() const { return decisions_; }
 
   // --- facets ----------------------------------------------------------------------------------
   /// The device's registers (register_map/register_bank.h).
@@ -181,6 +189,7 @@ class Device {
   bool powered_ = false;
   bool inputs_changed_ = true;  // not state: only tells whether a device may skip reading its inputs
   std::vector<std::uint8_t> choices_;
+  mutable Decisions decisions_;
   std::vector<std::int32_t> inputs_;
   DeviceSettings settings_;
   std::function<void(const std::string&)> log_;

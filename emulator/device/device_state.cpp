@@ -24,13 +24,14 @@ struct StateOf<emulator::Device> {
   using Value = emulator::Device;
   static constexpr auto fields =
       FieldList{field<&Value::inputs_>(), field<&Value::powered_>(), field<&Value::now_>()};
-  static constexpr std::size_t members = 9;
+  static constexpr std::size_t members = 10;
   /// These members are not part of the state: the device is made from its model, settings and choices, the
-  /// log and its memory of messages belong to the user, and the flag of changed inputs only saves work.
-  static constexpr std::size_t apart = 6;
+  /// log and its memory of messages belong to the user, coverage reads the decisions, and the flag of changed
+  /// inputs only saves work.
+  static constexpr std::size_t apart = 7;
   static void name_all(Value& all) {  // does not compile if the members change
-    [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] =
-        all;
+    [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, decisions, inputs, settings, log,
+                            mentioned] = all;
   }
 };
 

@@ -19,6 +19,7 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/hazards.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/transition_table.h"
 #include "pty/line_settings.h"  // IWYU pragma: export: rows of models have them
 
 namespace understudy::emulator {
@@ -231,6 +232,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const ProofRow> proofs{};
+  std::span<const TransitionTable> transitions{};
   bool csv_has_bits = true;  // false: the columns of its CSV were fixed before bits had names
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};

@@ -33,7 +33,8 @@ lang::WordOrder order_of(const WindowForm& form) {
 
 /// The options for how a command is written. Whether the device accepts it is checked elsewhere.
 lang::CommandOptions options_of(const WindowForm& form) {
-  return form.choices.empty() ? lang::CommandOptions{} : command_options(form.choices);
+  return form.choices.empty() ? lang::CommandOptions{}
+                              : command_options(AskedOptions{.numbers = form.choices});
 }
 
 class CommandNames final : public CommandWindow {

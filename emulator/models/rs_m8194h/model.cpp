@@ -14,6 +14,7 @@
 #include "emulator/models/rs_m8194h/command_hazards.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/drives/transition_tables.h"
 #include "emulator/models/rs_m8194h/first_files.h"
 #include "emulator/models/rs_m8194h/programs/language.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
@@ -126,6 +127,7 @@ const Model& model() {
       .choices = kChoices,
       .sections = kSections,
       .proofs = kProofs,
+      .transitions = transition_tables(),
       .terminals = terminal_tables().rows,
       .terminal_groups = terminal_tables().groups,
       .axes = terminal_tables().axes,

@@ -1,12 +1,14 @@
 #include "emulator/models/simple2_r3/axis_view.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/transition_tables.h"
 #include "emulator/models/simple2_r3/transitions.h"
 #include "motion/axis.h"
 #include "motion/following.h"
@@ -33,13 +35,19 @@ Outcome AxisView::reaction(Event event) const {
   const bool needs_servo = has(transitions::kCommands, event) &&
                            !(has(transitions::kDuties, event) && chose(transitions::kPwmNeedsNoServo));
   const bool is_held = needs_servo && lacks_servo();
-  const Transition* row =
-      reaction_row(activity(state()), is_held ? Phase::servo_off : phase_of(state(), now()), event);
+  const Phase phase = is_held ? Phase::servo_off : phase_of(state(), now());
+  note(phase, event);
+  const Transition* row = reaction_row(activity(state()), phase, event);
   if (row == nullptr) return Outcome::continues;
   for (const OtherOutcome& other : {row->other, row->another}) {
     if (other.exists && chose(other.chosen)) return other.outcome;
   }
   return row->outcome;
+}
+
+void AxisView::note(Phase phase, Event event) const {
+  setup_.device.decisions().meet(kReactions, reaction_state(activity(state()), phase),
+                                 static_cast<std::size_t>(event));
 }
 
 Event AxisView::event_by_direction(int direction, Event towards, Event away) const {

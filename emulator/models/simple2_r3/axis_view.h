@@ -59,6 +59,8 @@ class AxisView {
   bool is_refused_as_too_fast(std::int64_t milli_rpm) const;
   /// Returns the axis's reaction to an event, in its present state and under the chosen options.
   Outcome reaction(Event event) const;
+  /// Notes that the axis, in its present activity, meets the event (device/decisions.h).
+  void note(Phase phase, Event event) const;
   /// Returns `towards` if a limit that is on forbids that direction, otherwise `away`.
   Event event_by_direction(int direction, Event towards, Event away) const;
   /// Returns the law of a position move: appendix A and the 100 kHz limit.

@@ -19,6 +19,7 @@
 #include "emulator/models/simple2_r3/language.h"
 #include "emulator/models/simple2_r3/parameters.h"
 #include "emulator/models/simple2_r3/registers.h"
+#include "emulator/models/simple2_r3/transition_tables.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
@@ -143,6 +144,7 @@ const Model& model() {
       .choices = kChoices,
       .sections = kSections,
       .proofs = kProofs,
+      .transitions = transition_tables(),
       .csv_has_bits = false,
       .terminals = kTerminals,
       .axes = kAxes,

@@ -107,10 +107,26 @@ void AxisReactions::sample_signals() {
   apply_signals(signals().of_motor(number()));
 }
 
+/// In position mode the motor itself follows the table. Notes what it meets.
+void AxisReactions::note_for_motor(motion::Signals changed, motion::Signals on) const {
+  for (const motion::Signal signal :
+       {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
+    const motion::Signals bit = motion::bit(signal);
+    if ((changed & bit) == 0 || setup().ignores(signal)) continue;
+    const bool is_on = (on & bit) != 0;
+    if (((state().motor.signals ^ on) & bit) != 0) {
+      (void)reaction(event_of(state(), signal, is_on));
+    } else {  // it has met the switch on its way, in the tick before
+      note(is_on ? Phase::moving : Phase::leaving, is_on ? Event::limit_ahead : Event::limit_gone);
+    }
+  }
+}
+
 void AxisReactions::apply_signals(motion::Signals on) {
   AxisState& axis = this->axis();
   if (on == axis.signals.steady) return;
   const auto changed = static_cast<motion::Signals>(on ^ axis.signals.steady);
+  if (axis.mode == Mode::position) note_for_motor(changed, on);
   axis.signals.steady = on;
   ++axis.signals.version;
   if (axis.mode == Mode::position) return;

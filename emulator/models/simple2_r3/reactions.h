@@ -48,6 +48,7 @@ class AxisReactions : public AxisView {
   void apply_servo_state();
   /// Sets the axis's limits and alarm, and handles the changes.
   void apply_signals(motion::Signals on);
+  void note_for_motor(motion::Signals changed, motion::Signals on) const;
   void handle_in_sync(Outcome outcome);
 
   State& state_;

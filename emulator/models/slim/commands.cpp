@@ -18,6 +18,7 @@
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
+#include "emulator/models/slim/transition_tables.h"
 #include "emulator/models/slim/variables.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
@@ -224,24 +225,41 @@ struct Actions {
   // --- the whole chain ---
 
   static Error stop_from_program(Order& order) {
+    note_tasks(order.state, Event::stop);
     const bool in_routine = in_event_routine(order.state.execution);
     order.outcome.program = program_after_stop(order.setup, in_routine ? From::event_routine : From::program);
     order.chain.emergency_stop();
     return Error::none;
   }
   static Error stop_from_host(Order& order) {
+    note_tasks(order.state, Event::stop);
     const bool ends = program_after_stop(order.setup, From::host) == lang::Outcome::Program::ends;
     if (ends) stop(order.state.execution);
     return order.chain.emergency_stop();
   }
 
   static constexpr ActionRow kWholeChain[] = {
-      {Verb::pause, always([](Order& o) { return o.chain.pause_queues(); })},
-      {Verb::redo, always([](Order& o) { return o.chain.resume_queues(); })},
+      {Verb::pause, always([](Order& o) {
+         note_tasks(o.state, Event::pause_q);
+         return o.chain.pause_queues();
+       })},
+      {Verb::redo, always([](Order& o) {
+         if (o.chain.queues_paused()) note_tasks(o.state, Event::resume_q);
+         return o.chain.resume_queues();
+       })},
       {Verb::clear_buffer, always([](Order& o) { return o.chain.clear_queues(); })},
-      {Verb::pause_all, always([](Order& o) { return o.chain.pause(); })},
-      {Verb::resume_all, always([](Order& o) { return o.chain.resume(); })},
-      {Verb::abandon_all, always([](Order& o) { return o.chain.discard(); })},
+      {Verb::pause_all, always([](Order& o) {
+         note_tasks(o.state, Event::pause);
+         return o.chain.pause();
+       })},
+      {Verb::resume_all, always([](Order& o) {
+         if (o.chain.paused()) note_tasks(o.state, Event::resume);
+         return o.chain.resume();
+       })},
+      {Verb::abandon_all, always([](Order& o) {
+         if (o.chain.paused()) note_tasks(o.state, Event::give_up);
+         return o.chain.discard();
+       })},
       {Verb::stop_all, each(stop_from_program, stop_from_host)},
   };
 

@@ -19,6 +19,7 @@
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/rules/choices.h"
+#include "emulator/models/slim/transition_tables.h"
 #include "interpreter/slim/availability.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
@@ -153,6 +154,7 @@ const Model& model() {
       .choices = kChoices,
       .sections = kSections,
       .proofs = kProofs,
+      .transitions = transition_tables(),
       .terminals = names.terminals,
       .axes = names.axes,
       .state_registers = kStateNames,

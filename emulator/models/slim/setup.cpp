@@ -20,7 +20,7 @@ namespace {
 
 /// Returns the chosen option of each row, from the device.
 ChainOptions options_of(const Device& device) {
-  ChainOptions options;
+  ChainOptions options{.noted = {&device.decisions()}};
   for (std::size_t row = 0; row < options.numbers.size(); ++row) options.numbers[row] = device.choice(row);
   return options;
 }

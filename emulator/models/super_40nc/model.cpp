@@ -11,6 +11,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis/transition_tables.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/first_files.h"
 #include "emulator/models/super_40nc/language.h"
@@ -135,6 +136,7 @@ const Model& model() {
       .choices = kChoices,
       .sections = kSections,
       .proofs = kProofs,
+      .transitions = transition_tables(),
       .terminals = terminals(),
       .axes = kAxes,
       .state_registers = kStateRegisters,

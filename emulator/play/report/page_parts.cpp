@@ -57,6 +57,7 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .covered th { padding-right: 12px; }
 .covered .outcomes { white-space: nowrap; font-size: 12.5px; }
 .covered td:last-child, .programs td:first-child { width: 100%; }
+.touched td:first-child code { white-space: nowrap; }
 .covered tr.missed > td { background: var(--bad-card); }
 .programs th[colspan] { text-align: right; }
 .scene { position: relative; }

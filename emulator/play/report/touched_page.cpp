@@ -35,7 +35,7 @@ std::string cell_of(std::int64_t counted) {
 std::string text_of(const TouchedTable& table) {
   std::string text = "<details class=\"scenario\"><summary><h2>" + xml_escaped(table.name) +
                      "</h2><span class=\"dim\">" + share_text(table) +
-                     "</span></summary>\n<div class=\"scroll\"><table class=\"programs\">\n<tr><th "
+                     "</span></summary>\n<div class=\"scroll\"><table class=\"programs touched\">\n<tr><th "
                      "scope=\"col\"></th>";
   for (const std::string& column : table.columns) {
     text += "<th scope=\"col\" class=\"time\">" + xml_escaped(column) + "</th>";

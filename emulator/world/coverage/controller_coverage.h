@@ -1,5 +1,6 @@
 // Counts what hosts, programs and faults exercise of the devices: registers, bits, functions, commands,
-// instructions, faults. It only observes: nothing in the world depends on it, and a restored snapshot does
+// instructions, faults, cells of transition tables,
+// choices. It only observes: nothing in the world depends on it, and a restored snapshot does
 // not restore the counts.
 #pragma once
 

@@ -10,14 +10,18 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "emulator/device/command_window.h"
+#include "emulator/device/decisions.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_language.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/device/transition_table.h"
 #include "emulator/device/user_program.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/protocol/modbus_words.h"
@@ -85,6 +89,7 @@ DeviceTouches::DeviceTouches(const Device& device) : device_(device) {
   add_registers();
   add_functions();
   add_commands();
+  device.decisions().begin();
   for (const FaultKindRow& kind : fault_kinds()) {
     faults_.rows.push_back({.name = std::string(kind.name), .counts = {0, 0}});
   }
@@ -255,21 +260,55 @@ TouchedTable instruction_table(const Model& model, const std::map<std::string, C
   return table;
 }
 
-}  // namespace
+TouchedTable transition_table(const Device& device, std::size_t number) {
+  const TransitionTable& cells = device.model().transitions[number];
+  TouchedTable table{.name = std::string(cells.name), .columns = cells.events};
+  for (std::size_t state = 0; state < cells.states.size(); ++state) {
+    TouchedRow row{.name = cells.states[state], .counts = {}};
+    for (std::size_t event = 0; event < cells.events.size(); ++event) {
+      const std::int64_t met = device.decisions().met(number, state, event);
+      const bool can_occur = cells.can_occur == nullptr || cells.can_occur(state, event) || met > 0;
+      row.counts.push_back(can_occur ? met : kCannotBe);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
 
-TouchedModel DeviceTouches::tables(const std::map<std::string, CoveredLine>& instructions) const {
-  TouchedTable registers = registers_;
-  std::erase_if(registers.rows, [](const TouchedRow& row) {
+/// Returns which choices the device has asked for: 0 or 1. One whose option it keeps has no count, because
+/// nobody sees whether it matters.
+TouchedTable choice_table(const Device& device) {
+  TouchedTable table{.name = "choices", .columns = {"asked"}};
+  const auto& rows = device.model().choices;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool has_alternative = rows[i].options.find('|') != std::string_view::npos;
+    const bool is_kept = device.decisions().was_asked_before(i);
+    const std::int64_t asked = device.decisions().is_asked(i) ? 1
+                               : is_kept || !has_alternative  ? kCannotBe
+                                                              : 0;
+    table.rows.push_back({.name = std::string(rows[i].id), .counts = {asked}});
+  }
+  return table;
+}
+
+void drop_empty_rows(TouchedTable& table) {
+  std::erase_if(table.rows, [](const TouchedRow& row) {
     return std::all_of(row.counts.begin(), row.counts.end(),
                        [](std::int64_t counted) { return counted == kCannotBe; });
   });
-  TouchedModel tables;
-  for (const TouchedTable* const table : std::initializer_list<const TouchedTable*>{
-           &bits_, &functions_, &exceptions_, &commands_, &registers, &faults_}) {
-    if (!table->rows.empty()) tables.push_back(*table);
+}
+
+}  // namespace
+
+TouchedModel DeviceTouches::tables(const std::map<std::string, CoveredLine>& instructions) const {
+  TouchedModel tables{bits_, functions_, exceptions_, commands_, registers_, faults_};
+  for (std::size_t i = 0; i < device_.model().transitions.size(); ++i) {
+    tables.push_back(transition_table(device_, i));
   }
-  TouchedTable of_programs = instruction_table(device_.model(), instructions);
-  if (!of_programs.rows.empty()) tables.push_back(std::move(of_programs));
+  tables.push_back(instruction_table(device_.model(), instructions));
+  tables.push_back(choice_table(device_));
+  for (TouchedTable& table : tables) drop_empty_rows(table);
+  std::erase_if(tables, [](const TouchedTable& table) { return table.rows.empty(); });
   return tables;
 }
 

@@ -32,7 +32,8 @@ class DeviceTouches {
   void command(std::string_view text, bool is_refused);
   /// A fault has begun.
   void fault(Fault::Kind kind, bool is_moving);
-  /// Returns the tables, with the counts of instructions by their first word.
+  /// Returns the tables, with the counts of instructions by their first word, and with what the device itself
+  /// has noted (device/decisions.h).
   TouchedModel tables(const std::map<std::string, CoveredLine>& instructions) const;
 
  private:

@@ -8,6 +8,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/chip/axis_unit.h"
+#include "emulator/models/rs_m8194h/drives/transition_tables.h"
 #include "emulator/models/rs_m8194h/drives/transitions.h"
 #include "emulator/models/rs_m8194h/rows/axis_settings.h"
 #include "emulator/models/rs_m8194h/rows/options.h"
@@ -187,8 +188,25 @@ void Drives::change_speed(std::size_t axis, motion::Instant at) {
   }
 }
 
+/// Notes which of the axis's marks the event meets.
+void Drives::note_marks(std::size_t axis, DiscardEvent event) const {
+  const AxisUnit& unit = chip_.unit(axis);
+  const bool is_external =
+      unit.external.running != 0 || unit.external_waiting != 0 || unit.external_free_ns != 0;
+  const bool is_held =
+      std::ranges::any_of(state_.trigger_holds, [&](AxisMask held) { return has(held, axis); });
+  const auto meet = [&](Mark mark, bool is_there) {
+    if (!is_there) return;
+    decisions().meet(kDiscardTable, static_cast<std::size_t>(mark), static_cast<std::size_t>(event));
+  };
+  meet(Mark::paused_drive, unit.paused_drive.what != Drive::What::none);
+  meet(Mark::external_drive, is_external);
+  meet(Mark::trigger_hold, is_held);
+}
+
 void Drives::take_off(std::size_t axis, DiscardEvent event) {
   AxisUnit& unit = chip_.unit(axis);
+  note_marks(axis, event);
   if (takes_off(event, Mark::paused_drive)) unit.paused_drive = {};
   if (takes_off(event, Mark::external_drive)) {
     unit.external.running = 0;

@@ -68,6 +68,7 @@ class Drives final : public Part {
  private:
   bool is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const;
   bool holds_a_drive(AxisMask axes) const;
+  void note_marks(std::size_t axis, DiscardEvent event) const;
   bool takes_place_of_endless(std::size_t axis, const Drive& what);
 
   DriveState& state_;

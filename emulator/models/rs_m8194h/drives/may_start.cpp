@@ -4,6 +4,7 @@
 #include "emulator/models/rs_m8194h/chip/axis_unit.h"
 #include "emulator/models/rs_m8194h/chip/paths.h"
 #include "emulator/models/rs_m8194h/drives/drives.h"
+#include "emulator/models/rs_m8194h/drives/transition_tables.h"
 #include "emulator/models/rs_m8194h/drives/transitions.h"
 #include "emulator/models/rs_m8194h/rows/axis_settings.h"
 #include "emulator/models/rs_m8194h/rows/options.h"
@@ -34,6 +35,7 @@ Start Drives::may_start(std::size_t axis, Starter who, bool on_path) const {
   for (const ObstacleRow& row : kObstacleRows) {
     const Start outcome = by_command ? row.command : row.external;
     if (outcome == Start::starts || !is_obstructed(axis, row.obstacle, on_path)) continue;
+    decisions().meet(kStartTable, start_state(row.obstacle), static_cast<std::size_t>(who));
     if (outcome == Start::is_void) return outcome;
     held = outcome;
   }
@@ -42,6 +44,7 @@ Start Drives::may_start(std::size_t axis, Starter who, bool on_path) const {
     return Start::is_void;
   }
   const Activity activity_now = chip_.activity(axis);
+  decisions().meet(kStartTable, start_state(activity_now), static_cast<std::size_t>(who));
   const ActivityRow& row = kActivityRows[static_cast<std::size_t>(activity_now)];
   const Start outcome = by_command ? row.command : row.external;
   if (outcome != Start::waits) return outcome == Start::starts ? held : outcome;

@@ -9,6 +9,7 @@
 #include "base/simulated_time.h"
 #include "emulator/models/rs_m8194h/chip/axis_unit.h"
 #include "emulator/models/rs_m8194h/chip/paths.h"
+#include "emulator/models/rs_m8194h/drives/transition_tables.h"
 #include "emulator/models/rs_m8194h/drives/transitions.h"
 #include "emulator/models/rs_m8194h/rows/axis_settings.h"
 #include "emulator/models/rs_m8194h/rows/options.h"
@@ -69,7 +70,9 @@ void Stops::halt(AxisMask axes, const StopRow& row) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = chip_.unit(a);
     const Activity activity_now = chip_.activity(a);
-    const Halt halt = row.halts[static_cast<std::size_t>(activity_now)];
+    const auto does = static_cast<std::size_t>(activity_now);
+    decisions().meet(kStopTable, does, static_cast<std::size_t>(&row - kStopRows.data()));
+    const Halt halt = row.halts[does];
     if (halt != Halt::continues) halt_axis(a, halt, leaves_others);
     if (paths.open && !paths.together.engaged && has(paths.axes, a)) streams_.break_off();
     drives_.take_off(a, event);

@@ -15,8 +15,8 @@ namespace understudy::emulator::models::rs_m8194h {
 struct Ground {
   explicit Ground(const Device& whole)
       : device(whole),
-        language(language_options(whole.settings())),
-        machine(machine_options(whole.settings())) {}
+        language(language_options(whole.asked_options())),
+        machine(machine_options(whole.asked_options())) {}
 
   const Device& device;
   const LanguageOptions language;
@@ -38,6 +38,7 @@ class Part {
   explicit Part(const Ground& ground) : ground_(ground) {}
   ~Part() = default;
 
+  Decisions& decisions() const { return ground_.device.decisions(); }
   void warn_not_implemented(std::string_view what, std::string_view why) const {
     ground_.device.warn_not_implemented(what, why);
   }

@@ -1,10 +1,10 @@
 #include "emulator/models/rs_m8194h/rows/options.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/choices.h"
+#include "emulator/device/decisions.h"
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
 #include "interpreter/rs_m8194h/check.h"
@@ -15,8 +15,8 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
-  const auto chose = [chosen](const Option& option) { return chosen[option.choice] == option.number; };
+lang::CommandOptions command_options(const AskedOptions& asked) {
+  const auto chose = [&asked](const Option& option) { return asked.chose(option); };
   using Letters = lang::CommandOptions::Letters;
   return {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
                                         chose(option("rectangle_sides", "outer_length_and_width")),
@@ -43,11 +43,15 @@ lang::CommandOptions command_options(std::span<const std::uint8_t> chosen) {
 }
 
 LanguageOptions language_options(const DeviceSettings& settings) {
-  using Download = lang::DownloadOptions;
   const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
-  const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
+  return language_options(AskedOptions{.numbers = chosen});
+}
+
+LanguageOptions language_options(const AskedOptions& asked) {
+  using Download = lang::DownloadOptions;
+  const auto chose = [&asked](const Option& option) { return asked.chose(option); };
   LanguageOptions options;
-  options.command = command_options(chosen);
+  options.command = command_options(asked);
   options.download = {
       .close_takes_line = chose(option("close_line", "one_line")),
       .levels_are_of_both = chose(option("block_levels", "of_both_together")),
@@ -93,9 +97,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   return options;
 }
 
-MachineOptions machine_options(const DeviceSettings& settings) {
-  const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
-  const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
+MachineOptions machine_options(const AskedOptions& asked) {
+  const auto chose = [&asked](const Option& option) { return asked.chose(option); };
   MachineOptions options;
   if (chose(option("soft_limit_stop", "at_once"))) {
     options.axis.at_soft_limit = motion::Reaction::stop_at_once;

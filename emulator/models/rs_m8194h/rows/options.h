@@ -2,10 +2,9 @@
 // macro needs are looked up once, when the device is made.
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <string_view>
 
+#include "emulator/device/decisions.h"
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/rows/axis_settings.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
@@ -31,9 +30,9 @@ struct LanguageOptions {
   bool isr_requests_are_counted = false;
   bool isrs_are_bound_at_the_event = false;
 };
+LanguageOptions language_options(const AskedOptions& asked);
 LanguageOptions language_options(const DeviceSettings& settings);
-/// Returns the command options for option numbers, one per row.
-interpreter::rs_m8194h::CommandOptions command_options(std::span<const std::uint8_t> chosen);
+interpreter::rs_m8194h::CommandOptions command_options(const AskedOptions& asked);
 
 /// The options for inputs, axes and the FIFO.
 struct MachineOptions {
@@ -74,6 +73,6 @@ struct MachineOptions {
   bool isrs_raise_user_rint = false;
   bool zero_speeds_drive_nothing = false;
 };
-MachineOptions machine_options(const DeviceSettings& settings);
+MachineOptions machine_options(const AskedOptions& asked);
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include "emulator/device/decisions.h"
 #include "emulator/models/slim/rules/options.h"
 
 namespace understudy::emulator::models::slim {
@@ -12,11 +13,18 @@ namespace understudy::emulator::models::slim {
 /// The chosen option of each row; by default our own choice, the first of the row.
 struct ChainOptions {
   std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
+  DecisionsBeside noted{};
 
-  constexpr bool chose(const Option& option) const { return numbers[option.choice] == option.number; }
+  constexpr bool chose(const Option& option) const {
+    noted.ask(option.choice);
+    return numbers[option.choice] == option.number;
+  }
   constexpr void choose(const Option& option) { numbers[option.choice] = option.number; }
   /// Returns the number of the chosen option, for a row whose options are numbers.
-  constexpr int number(std::size_t row) const { return number_of(kChoices[row], numbers[row]); }
+  constexpr int number(std::size_t row) const {
+    noted.ask(row);
+    return number_of(kChoices[row], numbers[row]);
+  }
 
   bool operator==(const ChainOptions&) const = default;
 

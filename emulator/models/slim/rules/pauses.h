@@ -155,11 +155,15 @@ inline constexpr auto kRowOfCell = [] {
 
 }  // namespace pauses
 
+/// Its number among the tables of transition_tables.h.
+inline constexpr std::size_t kPauseTable = 1;
+
 constexpr const PauseRow& pause_row(Pauses now, InPause what) {
   return pauses::kRows[pauses::kRowOfCell[static_cast<std::size_t>(now)][static_cast<std::size_t>(what)]];
 }
 
 constexpr PauseResult pause_result(const ChainOptions& options, Pauses now, InPause what) {
+  options.noted.meet(kPauseTable, static_cast<std::size_t>(now), static_cast<std::size_t>(what));
   const PauseRow& row = pause_row(now, what);
   for (const OtherPauseResult& other : {row.other, row.another}) {
     if (other.chosen && options.chose(*other.chosen)) return other.result;

@@ -156,6 +156,9 @@ inline constexpr Transition kTransitions[] = {
      "while_program_runs"},
 };
 
+/// Its number among the tables of transition_tables.h.
+inline constexpr std::size_t kTaskTable = 0;
+
 /// Checks that every cell has exactly one row.
 consteval bool every_transition_has_a_row() {
   for (std::size_t task = 0; task < kActiveTasks; ++task) {

@@ -7,6 +7,7 @@
 
 #include "emulator/models/super_40nc/axis/axis_state.h"
 #include "emulator/models/super_40nc/axis/ownership.h"
+#include "emulator/models/super_40nc/axis/transition_tables.h"
 #include "emulator/models/super_40nc/ground/ground.h"
 #include "emulator/models/super_40nc/rows/options.h"
 #include "emulator/models/super_40nc/rows/terminals.h"
@@ -71,7 +72,15 @@ class Chips : protected OnGround {
 
   // --- who has an axis
   /// Looks up the table of ownership.h, under the chosen option.
-  Grant granted(Activity holder, Request request) const { return grant(holder, request, lines_wait_); }
+  Grant granted(Activity holder, Request request) const {
+    note_request(holder, request);
+    return grant(holder, request, lines_wait_);
+  }
+  /// Notes a request that is carried out without a look at the table.
+  void note_request(Activity holder, Request request) const {
+    ground_.decisions().meet(kOwnershipTable, static_cast<std::size_t>(holder),
+                             static_cast<std::size_t>(request));
+  }
   bool is_awaited_by(Mover mover) const;
 
  protected:

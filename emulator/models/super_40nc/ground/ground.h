@@ -79,6 +79,7 @@ class Ground {
   GroundState& state() { return state_; }
   const GroundState& state() const { return state_; }
   bool chose(const Option& option) const { return device_.chose(option); }
+  Decisions& decisions() const { return device_.decisions(); }
   Tick now() const { return device_.now(); }
   std::int32_t input(int terminal) const { return device_.input(terminal); }
   bool powered() const { return device_.powered(); }

@@ -55,6 +55,7 @@ bool Moves::end_by_ramp(int axis_number, Mover mover) {
 }
 
 void Moves::stop_by_command(int axis_number) {
+  note_request(axis(axis_number).holder, Request::stop);
   if (!chose(option("stp_stops", "by_its_ramp")) || (is_on_path(axis_number) && axes_.path_is_held)) {
     return stop_axis(axis_number);
   }

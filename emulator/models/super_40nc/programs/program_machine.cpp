@@ -198,6 +198,7 @@ Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
     if (!is_set(rotation.rpm, axis)) continue;
     const std::int32_t rpm = value_of_axis(rotation.rpm, axis);
     if (rpm == 0) {
+      note_request(state_of(axis).holder, Request::vdrv_0);
       const bool is_at_once = chose(option("vdrv_zero_stop", "at_once"));
       is_at_once ? controls_.moves.stop_axis(axis) : void(controls_.moves.end_by_ramp(axis, mover_of(by)));
       continue;

@@ -1,7 +1,10 @@
 // The parts of a device that steps, hosts and faults exercise, counted in the rows of its tables.
 #include "emulator/world/coverage/controller_coverage.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <string>
 
 #include "emulator/world/coverage/touched.h"
 #include "tests/emulator/play/performing/played.h"
@@ -95,6 +98,144 @@ TEST(ControllerCoverage, CountsInstructionsThatHaveRun) {
   EXPECT_EQ(counts(report, "instructions", "Wait_IO"), "1 0 1");
   EXPECT_EQ(counts(report, "instructions", "END"), "0 - -");
   EXPECT_EQ(counts(report, "instructions", "NOP"), "0 - -");
+}
+
+/// Returns a count by the name of its column.
+std::string count_in(const TouchedReport& report, const std::string& table, const std::string& row,
+                     const std::string& column) {
+  for (const auto& [model, tables] : report.models) {
+    for (const TouchedTable& one : tables) {
+      if (one.name != table) continue;
+      const auto place = std::find(one.columns.begin(), one.columns.end(), column) - one.columns.begin();
+      for (const TouchedRow& of : one.rows) {
+        if (of.name != row) continue;
+        const std::int64_t counted = of.counts.at(static_cast<std::size_t>(place));
+        return counted == kCannotBe ? "-" : std::to_string(counted);
+      }
+    }
+  }
+  return "none";
+}
+
+play::Scenario of_model(const std::string& model, const std::string& program, const std::string& steps) {
+  return play::parse_scenarios(
+             models::all_models(),
+             "understudy: 1\nbench: { lines: { a: { stations: [ { name: m, model: " + model +
+                 (program.empty() ? "" : ", program: \"" + program + "\"") + " } ] } } }\nsteps:\n" + steps,
+             "test.yaml")
+      .front();
+}
+
+TEST(ControllerCoverage, CountsTheCellsOfASimple2R3) {
+  const TouchedReport report = touched(play::kServoOn + play::kExampleMove +
+                                       "  - advance: 200ms\n"
+                                       "  - write: { feeder.Aaxis_STOP: 1 }\n"
+                                       "  - advance: 10ms\n"
+                                       "  - write: { feeder.Aaxis_STOP: 1 }\n"
+                                       "  - write: { feeder.Aaxis_DirectmRPM: 60000 }\n"
+                                       "  - advance: 100ms\n");
+  const std::string table = "reactions of axes";
+  EXPECT_EQ(count_in(report, table, "position, standing", "move towards"), "0");
+  EXPECT_EQ(count_in(report, table, "position, standing", "move away"), "1");
+  EXPECT_EQ(count_in(report, table, "position, moving", "stop"), "1");
+  EXPECT_EQ(count_in(report, table, "position, standing", "stop"), "1");
+  EXPECT_EQ(count_in(report, table, "position, standing", "velocity away"), "1");
+  EXPECT_EQ(count_in(report, table, "velocity, moving", "stop"), "0");
+  EXPECT_EQ(count_in(report, table, "position, turning", "stop"), "none") << "a move does not turn";
+  EXPECT_EQ(count_in(report, table, "homing, moving", "alarm gone"), "-");
+}
+
+TEST(ControllerCoverage, CountsLimitsThatAMoveMeets) {
+  // A switch that the machine reaches on its way, and an input that comes on by itself.
+  const std::string bench =
+      "understudy: 1\nbench:\n"
+      "  lines: { a: { stations: [ { name: m, model: simple2-r3, set: { DIN2_Aaxis_UP_Limit: 1 } } ] } }\n"
+      "  plant: { m.A: { travel: [-9000, 9000], limits: { lower: -8000, upper: 2000 } } }\n"
+      "steps:\n"
+      "  - write: { m.Aaxis_SVON: 1 }\n"
+      "  - write: { m.Aaxis_Pulse: 5000, m.Aaxis_Speed: 200, m.Aaxis_AccTime: 1, m.Aaxis_DecTime: 1 }\n"
+      "  - write: { m.Aaxis_Move_INC: 1 }\n"
+      "  - advance: 2s\n";
+  const auto counted = [&](const std::string& steps, const std::string& row, const std::string& column) {
+    return count_in(touched(play::parse_scenarios(models::all_models(), bench + steps, "test.yaml").front()),
+                    "reactions of axes", row, column);
+  };
+  EXPECT_EQ(counted("", "position, moving", "limit ahead"), "1");
+  EXPECT_EQ(counted("", "position, standing", "limit ahead"), "0");
+  const std::string back = "  - write: { m.Aaxis_Pulse: -500, m.Aaxis_Move_INC: 1 }\n  - advance: 1s\n";
+  EXPECT_EQ(counted(back, "position, leaving", "limit gone"), "1");
+  EXPECT_EQ(
+      counted(back + "  - input: { m.DIN_2: on }\n  - advance: 10ms\n", "position, standing", "limit ahead"),
+      "1");
+}
+
+TEST(ControllerCoverage, CountsTheCellsOfASuper40nc) {
+  const TouchedReport report =
+      touched(of_model("super-40nc", "AREA U\\nVDRV K150\\nTMR K100\\nVDRV K0\\nEND\\nAREA PLC\\nEND\\n",
+                       "  - write: { m.M8400: 1 }\n  - advance: 2s\n"));
+  const std::string table = "requests for axes";
+  EXPECT_EQ(count_in(report, table, "vdrv", "vdrv 0"), "1");
+  EXPECT_EQ(count_in(report, table, "vdrv", "stop"), "0");
+  EXPECT_NE(count_in(report, table, "nobody", "vdrv"), "0");
+}
+
+TEST(ControllerCoverage, CountsTheCellsOfAnRsM8194h) {
+  const TouchedReport report = touched(of_model("rs-m8194h", "",
+                                                "  - command: { m: RSM_FIXED_MOVE X 100000 }\n"
+                                                "  - advance: 50ms\n"
+                                                "  - command: { m: RSM_STOP_SLOWLY XY }\n"
+                                                "  - advance: 500ms\n"
+                                                "  - command: { m: RSM_FIXED_MOVE X 1000 }\n"
+                                                "  - advance: 50ms\n"));
+  EXPECT_NE(count_in(report, "starts of drives", "idle", "command"), "0");
+  EXPECT_NE(count_in(report, "starts of drives", "lock", "command"), "0");
+  EXPECT_EQ(count_in(report, "starts of drives", "homing", "command"), "0");
+  EXPECT_EQ(count_in(report, "starts of drives", "hold", "external"), "-");
+  EXPECT_EQ(count_in(report, "stops of axes", "single", "STOP_SLOWLY"), "1");
+  EXPECT_EQ(count_in(report, "stops of axes", "idle", "STOP_SLOWLY"), "1");
+  EXPECT_EQ(count_in(report, "stops of axes", "single", "STOP_SUDDENLY"), "0");
+}
+
+TEST(ControllerCoverage, CountsTheCellsOfASlim) {
+  const TouchedReport report = touched(of_model("slim", "WT 5000\\nRET\\n",
+                                                "  - send: { text: JGF }\n"
+                                                "  - send: { text: G }\n"
+                                                "  - advance: 100ms\n"
+                                                "  - send: { text: REDO }\n"
+                                                "  - send: { text: TAPZ }\n"
+                                                "  - advance: 500ms\n"
+                                                "  - send: { text: TAREDO }\n"
+                                                "  - advance: 500ms\n"));
+  EXPECT_EQ(count_in(report, "tasks", "jog", "TAPZ"), "1");
+  EXPECT_EQ(count_in(report, "tasks", "program waits for time", "TAPZ"), "1");
+  EXPECT_EQ(count_in(report, "tasks", "program waits for time", "TAREDO"), "1");
+  EXPECT_EQ(count_in(report, "tasks", "jog", "REDO"), "0") << "without a pause it resumes nothing";
+  EXPECT_EQ(count_in(report, "tasks", "move", "TAPZ"), "0");
+  EXPECT_EQ(count_in(report, "pauses", "no pause", "REDO"), "1");
+  EXPECT_EQ(count_in(report, "pauses", "no pause", "TAPZ"), "1");
+  EXPECT_EQ(count_in(report, "pauses", "TAPZ", "TAREDO"), "1");
+}
+
+TEST(ControllerCoverage, CountsChoicesThatTheDeviceHasAskedFor) {
+  const TouchedReport none = touched("  - advance: 10ms\n");
+  EXPECT_EQ(counts(none, "choices", "aclr_again"), "0");
+  EXPECT_EQ(counts(none, "choices", "boot_time"), "") << "it is looked up at power-up, and kept";
+  EXPECT_EQ(counts(none, "choices", "exceptions"), "0");
+  EXPECT_EQ(counts(none, "choices", "reply_delay"), "") << "it has one option";
+  const TouchedReport report = touched(
+      "  - write: { feeder.Aaxis_ACLR: 1 }\n"
+      "  - advance: 10ms\n"
+      "  - write: { feeder.Aaxis_ACLR: 1 }\n"
+      "  - send: { bytes: 01 03 7F 00 00 01 +crc, within: 100ms }\n");
+  EXPECT_EQ(counts(report, "choices", "aclr_again"), "1");
+  EXPECT_EQ(counts(report, "choices", "exceptions"), "1");
+}
+
+/// A choice that the device does ask for, and of which coverage says that it never has, would be a gap that
+/// no suite can close.
+TEST(ControllerCoverage, SeesEachChoiceOfASlim) {
+  const TouchedReport report = touched(of_model("slim", "", "  - send: { text: FOO }\n  - advance: 10ms\n"));
+  EXPECT_EQ(counts(report, "choices", "error_codes"), "1");
 }
 
 TEST(ControllerCoverage, CountsCommandsOfTextAndOfWindows) {

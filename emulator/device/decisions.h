@@ -1,0 +1,70 @@
+// What the code of a device has decided by: the choices that it has asked for, and the cells of its model's
+// transition tables that have occurred. Only coverage reads it. It is not part of the state: a snapshot does
+// not restore it, and two devices that differ in nothing else are equal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/choices.h"
+#include "emulator/device/transition_table.h"
+
+namespace understudy::emulator {
+
+class Decisions {
+ public:
+  Decisions(std::size_t choices, std::span<const TransitionTable> tables);
+
+  void ask(std::size_t choice) { asked_[choice] = 1; }
+  void meet(std::size_t table, std::size_t state, std::size_t event) {
+    Cells& cells = cells_[table];
+    ++cells.counts[state * cells.events + event];
+  }
+
+  /// Counts from now on. Choices that were asked for before, and are not again, are those whose options the
+  /// device keeps: it looks them up when it is made or switched on.
+  void begin();
+  bool is_asked(std::size_t choice) const { return asked_[choice] != 0; }
+  bool was_asked_before(std::size_t choice) const { return asked_before_[choice] != 0; }
+  std::int64_t met(std::size_t table, std::size_t state, std::size_t event) const {
+    return cells_[table].counts[state * cells_[table].events + event];
+  }
+
+ private:
+  struct Cells {
+    std::size_t events = 0;
+    std::vector<std::int64_t> counts{};  // by state, then by event
+  };
+  // Bytes, not bits: every tick may ask.
+  std::vector<std::uint8_t> asked_;
+  std::vector<std::uint8_t> asked_before_;
+  std::vector<Cells> cells_;
+};
+
+/// The options in effect, by row, for code that asks for them when a device is made.
+struct AskedOptions {
+  std::span<const std::uint8_t> numbers;
+  Decisions* decisions = nullptr;  // null: nobody counts
+
+  bool chose(const Option& option) const {
+    if (decisions != nullptr) decisions->ask(option.choice);
+    return numbers[option.choice] == option.number;
+  }
+};
+
+/// A pointer to decisions within a state, of which it is no part: all are equal.
+struct DecisionsBeside {
+  Decisions* decisions = nullptr;
+
+  constexpr void ask(std::size_t choice) const {
+    if (decisions != nullptr) decisions->ask(choice);
+  }
+  constexpr void meet(std::size_t table, std::size_t state, std::size_t event) const {
+    if (decisions != nullptr) decisions->meet(table, state, event);
+  }
+  constexpr bool operator==(const DecisionsBeside& /*other*/) const { return true; }
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,38 @@
+// A model's transition table: what something in its devices does when an event comes, by what it is doing.
+// The code looks up the tables of the model itself; this is their outline, for coverage.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/enumerators.h"
+
+namespace understudy::emulator {
+
+struct TransitionTable {
+  std::string_view name;  // "reactions of an axis"
+  std::vector<std::string> states;
+  std::vector<std::string> events;
+  /// Returns false for a cell that cannot occur. Null: each can.
+  bool (*can_occur)(std::size_t state, std::size_t event) = nullptr;
+};
+
+/// Returns the names of an enumeration's first values, with spaces: "in alarm".
+template <class T, std::size_t count>
+std::vector<std::string> words_of() {
+  const auto word = [](std::string_view name) {
+    std::string text(name);
+    for (char& letter : text) letter = letter == '_' ? ' ' : letter;
+    while (text.ends_with(' ')) text.pop_back();
+    return text;
+  };
+  return [&]<std::size_t... number>(std::index_sequence<number...>) {
+    return std::vector<std::string>{word(understudy::name_of<static_cast<T>(number)>())...};
+  }
+  (std::make_index_sequence<count>());
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,17 @@
+// The outline of rules/transitions.h and rules/pauses.h for coverage.
+#pragma once
+
+#include <span>
+
+#include "emulator/device/transition_table.h"
+#include "emulator/models/slim/rules/transitions.h"
+#include "emulator/models/slim/state.h"
+
+namespace understudy::emulator::models::slim {
+
+std::span<const TransitionTable> transition_tables();
+
+/// Notes what an event finds: the tasks of all modules, and of the program.
+void note_tasks(const State& state, Event event);
+
+}  // namespace understudy::emulator::models::slim
