@@ -242,8 +242,9 @@ bool HostTime::is_host_asleep() {
     ++waiting;
     if (thread.wait.has_others == 0 && !must_poll_) resting.insert(thread.thread);
   }
-  // A thread that has just ended may have woken one that waits for others too.
-  if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread()) return true;
+  // A thread that has just ended may have woken one that waits for others too. Its end is read first: threads
+  // that exist when time advances are numbered.
+  if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread() && !has_unread_messages()) return true;
   // A thread that has sent a message also sleeps until it is answered, so this comes last.
   if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
   must_poll_ = false;

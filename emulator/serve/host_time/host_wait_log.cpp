@@ -61,14 +61,16 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].bytes_out != answers_[i].bytes_out) answers_[i] = {lines[i].bytes_out, lines[i].bytes_in};
   }
-  std::map<int, Open> before = std::exchange(open_, {});
-  for (const auto& [number, thread] : waits.threads()) {
-    if (numbers_.try_emplace(number, next_number_).second) ++next_number_;
-    if (thread.state != HostState::waiting) continue;
-    Open open = open_for(thread, lines, now);
-    const auto found = before.find(number);
+  std::map<std::size_t, const HostWaits::Thread*> threads;
+  for (const auto& [connection, thread] : waits.threads()) threads.emplace(thread.order, &thread);
+  std::map<std::size_t, Open> before = std::exchange(open_, {});
+  for (const auto& [order, thread] : threads) {
+    if (numbers_.try_emplace(order, next_number_).second) ++next_number_;
+    if (thread->state != HostState::waiting) continue;
+    Open open = open_for(*thread, lines, now);
+    const auto found = before.find(order);
     if (found == before.end()) {
-      open_.emplace(number, std::move(open));
+      open_.emplace(order, std::move(open));
       continue;
     }
     const Open& last = found->second;
@@ -84,24 +86,24 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
       open.begin = last.begin;
       open.answered = last.answered;
     } else {
-      report(number, last, lines);
+      report(order, last, lines);
     }
-    open_.emplace(number, std::move(open));
+    open_.emplace(order, std::move(open));
     before.erase(found);
   }
-  for (const auto& [number, last] : before) report(number, last, lines);
-  std::erase_if(numbers_, [&](const auto& each) { return !waits.threads().contains(each.first); });
+  for (const auto& [order, last] : before) report(order, last, lines);
+  std::erase_if(numbers_, [&](const auto& each) { return !threads.contains(each.first); });
 }
 
 void HostWaitLog::end(SimTime now) {
-  for (auto& [number, open] : open_) open.end = now;
+  for (auto& [order, open] : open_) open.end = now;
 }
 
 void HostWaitLog::finish(const Lines& lines) {
-  for (const auto& [number, open] : std::exchange(open_, {})) report(number, open, lines);
+  for (const auto& [order, open] : std::exchange(open_, {})) report(order, open, lines);
 }
 
-void HostWaitLog::report(int number, const Open& open, const Lines& lines) {
+void HostWaitLog::report(std::size_t thread, const Open& open, const Lines& lines) {
   if (open.end <= open.begin) return;
   std::string text;
   switch (open.kind) {
@@ -115,7 +117,7 @@ void HostWaitLog::report(int number, const Open& open, const Lines& lines) {
   if (open.lines.size() == 1 && lines.size() > 1) text += " on " + lines[open.lines.front()].name;
   const bool is_in_vain =
       open.kind == Kind::reply && sum(open.lines, lines, &LineCount::bytes_out) == open.answered;
-  report_({.thread = numbers_.at(number),
+  report_({.thread = numbers_.at(thread),
            .begin = open.begin,
            .end = open.end,
            .text = text + (is_in_vain ? " in vain" : "")});

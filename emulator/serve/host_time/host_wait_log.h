@@ -64,12 +64,13 @@ class HostWaitLog {
   };
 
   Open open_for(const HostWaits::Thread& thread, const Lines& lines, SimTime now) const;
-  void report(int number, const Open& open, const Lines& lines);
+  void report(std::size_t thread, const Open& open, const Lines& lines);
 
   std::function<std::size_t(int)> line_of_;
   std::function<void(const HostWait&)> report_;
-  std::map<int, Open> open_;  // by the thread's connection
-  std::map<int, std::size_t> numbers_;
+  // Both by the thread's order: a new connection may have the descriptor of one that was closed.
+  std::map<std::size_t, Open> open_;
+  std::map<std::size_t, std::size_t> numbers_;
   std::size_t next_number_ = 1;
   std::vector<Answer> answers_;
 };

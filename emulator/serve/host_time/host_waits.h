@@ -86,7 +86,8 @@ class HostWaits {
   struct Thread {
     HostState state = HostState::unknown;
     int process = -1;
-    int thread = -1;  // the kernel's number
+    int thread = -1;        // the kernel's number
+    std::size_t order = 0;  // counted from 1, in the order in which threads have connected
     bool is_outside = false;
     host_time::Message wait{};  // while it waits
   };
@@ -95,7 +96,7 @@ class HostWaits {
   /// `report` is called with each answer but `nothing`.
   explicit HostWaits(Report report) : report_(std::move(report)) {}
 
-  void add(int number) { threads_[number]; }
+  void add(int number) { threads_[number].order = ++last_order_; }
   void remove(int number) { threads_.erase(number); }
   /// Handles a message of a thread. Messages that are not events of the table change nothing here.
   void on_message(int number, const host_time::Message& message);
@@ -126,6 +127,7 @@ class HostWaits {
 
   Report report_;
   std::map<int, Thread> threads_;
+  std::size_t last_order_ = 0;
 };
 
 }  // namespace understudy::emulator::serve

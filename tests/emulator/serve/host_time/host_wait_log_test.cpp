@@ -23,12 +23,14 @@ constexpr int kTerminal = 7;
 /// A thread that waits as the tests say, on a bench of one line.
 class HostWaitLogTest : public testing::Test {
  protected:
-  HostWaitLogTest() {
+  HostWaitLogTest() { greet(); }
+  void greet() {
     waits_.add(1);
     Message hello{};
     hello.what = MessageKind::hello;
     waits_.on_message(1, hello);
   }
+  void leave() { waits_.remove(1); }
   /// Waits from now on for this long; the line has then counted so many bytes.
   void wait(Message message, milliseconds length) {
     message.what = MessageKind::wait;
@@ -136,6 +138,18 @@ TEST_F(HostWaitLogTest, TellsSleepsApartAndWaitsByTheirKind) {
                         told_wait(milliseconds(21), milliseconds(23), "waits for another thread"),
                         told_wait(milliseconds(23), milliseconds(26), "waits until its bytes are sent"),
                         told_wait(milliseconds(26), milliseconds(30), "waits"),
+                    }));
+}
+
+// A new connection gets the lowest free descriptor, often that of a thread that has just ended.
+TEST_F(HostWaitLogTest, NumbersAThreadAnewThatHasADescriptorOfBefore) {
+  sleep(milliseconds(10));
+  leave();
+  greet();
+  sleep(milliseconds(10));
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        {.thread = 1, .begin = milliseconds(0), .end = milliseconds(10), .text = "sleeps"},
+                        {.thread = 2, .begin = milliseconds(10), .end = milliseconds(20), .text = "sleeps"},
                     }));
 }
 
