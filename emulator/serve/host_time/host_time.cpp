@@ -345,7 +345,7 @@ void HostTime::consider() {
     has_moved_ = true;
     if (!is_host_over_) log_.begin(waits_, line_counts(), daemon_.world().now());
     daemon_.advance_at_once(*stop);
-    log_.end(daemon_.world().now());
+    log_.end(line_counts(), daemon_.world().now());
     if (wall_now() >= until) {
       set_timer(next_poll_, WallTime{1});
       return;

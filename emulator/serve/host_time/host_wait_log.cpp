@@ -58,9 +58,6 @@ HostWaitLog::Open HostWaitLog::open_for(const HostWaits::Thread& thread, const L
 
 void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now) {
   answers_.resize(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].bytes_out != answers_[i].bytes_out) answers_[i] = {lines[i].bytes_out, lines[i].bytes_in};
-  }
   std::map<std::size_t, const HostWaits::Thread*> threads;
   for (const auto& [connection, thread] : waits.threads()) threads.emplace(thread.order, &thread);
   std::map<std::size_t, Open> before = std::exchange(open_, {});
@@ -95,7 +92,11 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
   std::erase_if(numbers_, [&](const auto& each) { return !threads.contains(each.first); });
 }
 
-void HostWaitLog::end(SimTime now) {
+void HostWaitLog::end(const Lines& lines, SimTime now) {
+  answers_.resize(lines.size());  // a host may have ended without a wait
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].bytes_out != answers_[i].bytes_out) answers_[i] = {lines[i].bytes_out, lines[i].bytes_in};
+  }
   for (auto& [order, open] : open_) open.end = now;
 }
 

@@ -40,8 +40,8 @@ class HostWaitLog {
 
   /// Must be called when all threads wait and time is about to advance.
   void begin(const HostWaits& waits, const Lines& lines, SimTime now);
-  /// Must be called when time has advanced.
-  void end(SimTime now);
+  /// Must be called when time has advanced, before the host continues.
+  void end(const Lines& lines, SimTime now);
   /// Reports the waits that are still open.
   void finish(const Lines& lines);
 

@@ -31,14 +31,15 @@ class HostWaitLogTest : public testing::Test {
     waits_.on_message(1, hello);
   }
   void leave() { waits_.remove(1); }
-  /// Waits from now on for this long; the line has then counted so many bytes.
-  void wait(Message message, milliseconds length) {
+  /// Waits from now on for this long; at the end the line sends so many bytes.
+  void wait(Message message, milliseconds length, std::uint64_t sent = 0) {
     message.what = MessageKind::wait;
     message.sequence = ++sequence_;
     waits_.on_message(1, message);
     log_.begin(waits_, lines_, now_);
     now_ += length;
-    log_.end(now_);
+    lines_[0].bytes_out += sent;
+    log_.end(lines_, now_);
   }
   static Message message_for_line() {
     Message message{};
@@ -47,14 +48,13 @@ class HostWaitLogTest : public testing::Test {
     message.lines[0] = kTerminal;
     return message;
   }
-  void wait_for_line(milliseconds length) { wait(message_for_line(), length); }
+  void wait_for_line(milliseconds length, std::uint64_t sent = 0) { wait(message_for_line(), length, sent); }
   void sleep(milliseconds length) {
     Message message{};
     message.until_ns = SimTime(now_ + length).count();
     wait(message, length);
   }
   void host_writes(std::uint64_t bytes) { lines_[0].bytes_in += bytes; }
-  void line_sends(std::uint64_t bytes) { lines_[0].bytes_out += bytes; }
   const std::vector<HostWait>& told() {
     log_.finish(lines_);
     return told_;
@@ -76,12 +76,9 @@ HostWait told_wait(milliseconds begin, milliseconds end, const char* text) {
 
 TEST_F(HostWaitLogTest, TellsTheBytesOfAReplyAsOneWait) {
   host_writes(8);
-  wait_for_line(milliseconds(5));
-  line_sends(1);
-  wait_for_line(milliseconds(1));
-  line_sends(1);
-  wait_for_line(milliseconds(1));
-  line_sends(1);
+  wait_for_line(milliseconds(5), 1);
+  wait_for_line(milliseconds(1), 1);
+  wait_for_line(milliseconds(1), 1);
   sleep(milliseconds(20));
   EXPECT_EQ(told(), (std::vector<HostWait>{
                         told_wait(milliseconds(0), milliseconds(7), "waits for a reply"),
@@ -106,12 +103,23 @@ TEST_F(HostWaitLogTest, TellsRequestsApart) {
   host_writes(8);
   wait_for_line(milliseconds(500));
   host_writes(8);
-  wait_for_line(milliseconds(4));
-  line_sends(7);
+  wait_for_line(milliseconds(4), 7);
   wait_for_line(milliseconds(3));
   EXPECT_EQ(told(), (std::vector<HostWait>{
                         told_wait(milliseconds(0), milliseconds(500), "waits for a reply in vain"),
                         told_wait(milliseconds(500), milliseconds(507), "waits for a reply"),
+                    }));
+}
+
+// A host that asks again as soon as it has the reply, without a pause.
+TEST_F(HostWaitLogTest, TellsRequestsWithoutAPauseApart) {
+  for (int request = 0; request < 2; ++request) {
+    host_writes(8);
+    wait_for_line(milliseconds(4), 7);
+  }
+  EXPECT_EQ(told(), (std::vector<HostWait>{
+                        told_wait(milliseconds(0), milliseconds(4), "waits for a reply"),
+                        told_wait(milliseconds(4), milliseconds(8), "waits for a reply"),
                     }));
 }
 
