@@ -160,6 +160,19 @@ void add_scope_words(const ControlArguments& arguments, Json& message) {
   }
 }
 
+void add_spans_words(const ControlArguments& arguments, Json& message) {
+  constexpr const char* kExpected = "from=1s or to=2s";
+  constexpr int kFine = 4'000;  // dots: as few spans as possible are joined
+  message["dots"] = kFine;
+  for (const std::string& word : arguments.operands) {
+    const auto pair = keyed(word);
+    if (!pair || (pair->key != "from" && pair->key != "to")) throw stray_word(arguments, word, kExpected);
+    const auto time = parse_duration(pair->value);
+    if (!time) throw stray_word(arguments, word, kExpected);
+    message[pair->key + "_ns"] = time->count();
+  }
+}
+
 void add_send_words(const ControlArguments& arguments, Json& message) {
   if (arguments.operands.size() > 2) {
     throw UsageError("ctl send: " + understudy::quoted(arguments.operands[2]) +
@@ -181,18 +194,53 @@ std::string time_text(const Json& entry) {
   return format_duration(SimTime{entry.at("time_ns").get<std::int64_t>()});
 }
 
+std::string event_text(const Json& event) {
+  std::string text = event.at("what").get<std::string>();
+  for (const char* key : {"name", "device", "line"}) {
+    if (!event.contains(key)) continue;
+    text += " " + event.at(key).get<std::string>();
+    break;
+  }
+  if (event.contains("value")) {
+    const Json& value = event.at("value");  // in spans it is a text
+    text += " = " + (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  if (event.contains("text")) text += ": " + event.at("text").get<std::string>();
+  if (event.contains("by")) text += "  (" + event.at("by").get<std::string>() + ")";
+  return text;
+}
+
 void print_events(const Json& events) {
-  for (const Json& event : events) {
-    std::string text = time_text(event) + " " + event.at("what").get<std::string>();
-    for (const char* key : {"name", "device", "line"}) {
-      if (!event.contains(key)) continue;
-      text += " " + event.at(key).get<std::string>();
-      break;
-    }
-    if (event.contains("value")) text += " = " + event.at("value").dump();
-    if (event.contains("text")) text += ": " + event.at("text").get<std::string>();
-    if (event.contains("by")) text += "  (" + event.at("by").get<std::string>() + ")";
+  for (const Json& event : events)
+    std::printf("%s\n", one_line(time_text(event) + " " + event_text(event)).c_str());
+}
+
+std::string span_text(const Json& span) {
+  if (span.at("kind") == "event") return event_text(span);
+  std::string text = span.value("text", std::string());
+  if (span.contains("line")) text = "line " + span.at("line").dump() + ": " + text;
+  if (span.contains("reply")) text += " -> " + span.at("reply").get<std::string>();
+  if (span.contains("remark")) text += " (" + span.at("remark").get<std::string>() + ")";
+  if (span.contains("waits_for")) text += "; waits for " + span.at("waits_for").get<std::string>();
+  return text;
+}
+
+void print_spans(const Json& reply) {
+  const auto time_of = [](const Json& span, const char* key) {
+    return SimTime{span.at(key).get<std::int64_t>()};
+  };
+  for (const Json& span : reply.at("spans")) {
+    const SimTime begin = time_of(span, "begin_ns");
+    const SimTime length = time_of(span, "end_ns") - begin;
+    std::string text =
+        format_duration(begin) + " " + span.at("lane").get<std::string>() + ": " + span_text(span);
+    if (length > SimTime{0}) text += ", " + format_duration(length);
+    if (span.contains("count")) text += ", " + span.at("count").dump() + " of them";
     std::printf("%s\n", one_line(text).c_str());
+  }
+  if (reply.contains("next")) {
+    std::printf("... of %s; from=%s continues\n", reply.at("of").dump().c_str(),
+                format_duration(time_of(reply.at("spans").back(), "begin_ns")).c_str());
   }
 }
 
@@ -289,6 +337,8 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
     message["to"] = arguments.operands[0];
   } else if (verb == "scope") {
     add_scope_words(arguments, message);
+  } else if (verb == "spans") {
+    add_spans_words(arguments, message);
   } else if (verb == "send") {
     add_send_words(arguments, message);
   } else {
@@ -300,6 +350,8 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
 bool print_look(const Json& reply) {
   if (reply.contains("events")) {
     print_events(reply.at("events"));
+  } else if (reply.contains("spans")) {
+    print_spans(reply);
   } else if (reply.contains("breakpoints")) {
     for (const Json& breakpoint : reply.at("breakpoints")) print_breakpoint(breakpoint);
   } else if (reply.contains("breakpoint")) {

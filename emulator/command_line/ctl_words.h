@@ -64,6 +64,8 @@ inline constexpr std::array kControlWords{
     ControlWord{"choices", "Show the choices that a device uses", "DEVICE", "Name of the device"},
     ControlWord{"events", "Show recent events: writes and who made them, faults, exceptions", "LAST",
                 "Number of events [200]"},
+    ControlWord{"spans", "Show what a host in simulated time waits for; in a recording, all that happened",
+                "WHAT", "from=1s, to=2s; without words, everything"},
     ControlWord{"where", "Show which line a device's programs are at, and what they wait for", "DEVICE",
                 "Name of the device"},
     ControlWord{"coverage", "Show which lines of the programs have run since the count began", "WHAT",

@@ -1,4 +1,5 @@
 """Tests host programs in simulated time, run by the client's exec."""
+import ast
 import sys
 import time
 
@@ -33,6 +34,21 @@ def test_runs_are_compared(bench, tmp_path):
     assert result.returncode == 0, result.stderr
     assert "2 runs, all the same" in result.stderr
     assert (tmp_path / "run").read_bytes() == (tmp_path / "run.2").read_bytes()
+
+
+WAITING_HOST = """
+import os, time, understudy
+time.sleep(2)
+with understudy.attach(os.environ["UNDERSTUDY_CONTROL"]) as bench:
+    print(bench.spans())
+"""
+
+
+def test_a_running_bench_tells_what_its_host_has_waited_for(bench):
+    result = understudy.exec(bench, [sys.executable, "-c", WAITING_HOST], host_time=True)
+    assert result.returncode == 0, result.stderr
+    assert ast.literal_eval(result.stdout) == [
+        {"lane": "host", "begin_ns": 0, "end_ns": 2_000_000_000, "kind": "wait", "text": "sleeps"}]
 
 
 def test_real_time_ends_at_the_timeout(bench):

@@ -266,7 +266,8 @@ class Bench:
         return dict(zip(names, reply["curves"]))
 
     def spans(self, from_ns: Optional[int] = None, to_ns: Optional[int] = None, dots: int = 1000) -> List[Dict[str, Any]]:
-        """Returns the frames, lines of programs, faults and events of a stretch of a recording."""
+        """Returns the frames, lines of programs, faults, events and waits of a stretch of a recording; of a bench that
+        runs, what its host in simulated time has waited for."""
         return self._pages("spans", "spans", {"from_ns": from_ns, "to_ns": to_ns, "dots": dots})
 
     def what_if(self, on: bool = True) -> None:

@@ -80,6 +80,7 @@ const std::vector<BadUsage> kBadUsages = {
     {"CtlAdvanceWithoutUnit", {"ctl", "--control", "{}/none", "advance", "250"}, "250ms"},
     {"CtlAdvanceWithoutDuration", {"ctl", "--control", "{}/none", "advance"}, "250ms"},
     {"CtlAdvanceNegative", {"ctl", "--control", "{}/none", "advance", "-5ms"}, "250ms"},
+    {"CtlSpansOfAKind", {"ctl", "--control", "{}/none", "spans", "kind=wait"}, "from=1s or to=2s"},
     {"CtlGetNothing", {"ctl", "--control", "{}/none", "get"}, "name"},
     {"CtlSetNothing", {"ctl", "--control", "{}/none", "set"}, "NAME=VALUE"},
     {"CtlSetTwice", {"ctl", "--control", "{}/none", "set", "STATUS=1", "STATUS=2"}, "twice"},

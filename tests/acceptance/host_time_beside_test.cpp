@@ -1,7 +1,10 @@
 // Hosts in simulated time beside scenarios and over TCP, and what recordings tell of their waits.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/acceptance/host_time_rig.h"
@@ -9,6 +12,8 @@
 
 namespace understudy::acceptance {
 namespace host_time_test {
+
+using Json = nlohmann::json;
 
 // The scenario beside it drops the host's second request from 0.538 s on, and ends long after the host.
 constexpr const char* kScenarioBeside = R"(understudy: 1
@@ -142,9 +147,9 @@ for n in range(5):
   EXPECT_EQ(host.output, "0.0\n0.0\n0.0\n0.0\n0.0\n");
 }
 
-TEST_F(HostTime, RecordsWhatAHostWaitsFor) {
-  python_twice(R"(
-import os, select, termios, time, tty
+// A request that is answered, a pause, and one to a station that is not there.
+constexpr const char* kAsker = R"(
+import os, select, sys, termios, time, tty
 port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
 tty.setraw(port)
 settings = termios.tcgetattr(port)
@@ -159,7 +164,10 @@ ask("010300010001D5CA")
 time.sleep(2)
 ask("090300010001D442")
 select.select([port], [], [], 0.25)
-)");
+)";
+
+TEST_F(HostTime, RecordsWhatAHostWaitsFor) {
+  python_twice(kAsker);
   const std::string recording = text_of(folder() / "first");
   for (const char* const part : {R"("do":"wait","since":0,"thread":1,"text":"waits for a reply"})",
                                  R"("text":"sleeps"})", R"("text":"waits for a reply in vain"})"}) {
@@ -171,6 +179,48 @@ select.select([port], [], [], 0.25)
   for (const char* const part :
        {"what the host waits for", "sleeps, 2s</title>", "in vain, 500ms</title>", "in vain, 250ms</title>"})
     EXPECT_NE(text_of(report).find(part), std::string::npos) << part;
+}
+
+/// The waits in a recording as spans of the control socket.
+Json waits_in(const std::string& recording) {
+  Json waits = Json::array();
+  for (const std::string& line : lines_of(text_of(recording))) {
+    const Json entry = Json::parse(line);
+    if (entry.value("do", "") != "wait") continue;
+    Json wait{{"lane", "host"},
+              {"kind", "wait"},
+              {"begin_ns", entry["since"]},
+              {"end_ns", entry["t"]},
+              {"text", entry["text"]}};
+    if (entry["text"].get<std::string>().ends_with("in vain")) wait["bad"] = true;
+    waits.push_back(wait);
+  }
+  return waits;
+}
+
+// The host then waits for a file, with the clock stopped.
+TEST_F(HostTime, TellsWhatItWaitsForWhileItRuns) {
+  const std::string gate = folder() / "gate";
+  ASSERT_EQ(mkfifo(gate.c_str(), 0600), 0);
+  const std::string socket = folder() / "control";
+  const std::string recording = folder() / "recording";
+  Process host({UNDERSTUDY_BINARY, "exec", bench(), "--host-time", "--control", socket, "--record", recording,
+                "--", kPython, "-c", kAsker + ("print('asked', flush=True)\nopen('" + gate + "').read()\n")});
+  ASSERT_TRUE(eventually([&] { return host.output() == "asked\n"; })) << host.errors();
+  const Finished shown = understudy({"ctl", "--control", socket, "spans"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.errors;
+  const auto lines = lines_of(shown.output);
+  ASSERT_EQ(lines.size(), 4U) << shown.output;
+  EXPECT_TRUE(lines[0].starts_with("0s host: waits for a reply, ")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(" host: sleeps, 2s")) << lines[1];
+  EXPECT_TRUE(lines[2].ends_with(" host: waits for a reply in vain, 500ms")) << lines[2];
+  EXPECT_TRUE(lines[3].ends_with(" host: waits for a reply in vain, 250ms")) << lines[3];
+  const Finished part = understudy({"ctl", "--control", socket, "spans", "from=1s", "to=2s"});
+  EXPECT_EQ(part.output, lines[1] + "\n") << part.errors;
+  const Finished spans = understudy({"ctl", "--control", socket, "--json", "spans"});
+  std::ofstream(gate) << "go on";
+  EXPECT_EQ(host.wait(kPatience), 0) << host.errors();
+  EXPECT_EQ(Json::parse(spans.output)["spans"], waits_in(recording));
 }
 
 }  // namespace host_time_test

@@ -14,7 +14,7 @@ async function curvesOf(names, [from_ns, to_ns], dots) {
   return Object.fromEntries(names.map((name, i) => [name, reply.curves[i]]));
 }
 
-async function spansOf([from_ns, to_ns], dots) {
+export async function spansOf([from_ns, to_ns], dots) {
   const spans = [];
   for (let from = 0; from !== undefined;) {
     const reply = await askQuietly({ do: 'spans', from_ns, to_ns, dots: Math.min(dots, kMaxDots), from });
@@ -102,9 +102,10 @@ function exchanges(frames) {
 const eventSpan = (event) => ({ ...event, lane: event.by ? `events of ${event.by}` : 'events', kind: 'event', begin_ns: event.time_ns, end_ns: event.time_ns,
   bad: event.what === 'exception' || event.what === 'dropped' });
 
-export function liveCourse(names, stretch, dots) {
+/// `waits` are those of a host in simulated time.
+export function liveCourse(names, stretch, dots, waits) {
   const curves = Object.fromEntries(names.filter((name) => past.rows.has(name)).map((name) => [name, thinned(past.rows.get(name), stretch, dots)]));
-  const spans = [...exchanges(store.frames), ...store.events.map(eventSpan)]
+  const spans = [...exchanges(store.frames), ...store.events.map(eventSpan), ...waits]
     .filter((span) => span.end_ns >= stretch[0] && span.begin_ns <= stretch[1]);
   return { stretch, curves, spans };
 }

@@ -4,7 +4,7 @@ import { html, useEffect, useRef, useState } from './preact.js';
 import { isAltered, isReadOnly, store, unwant, want } from './store.js';
 import { Button, exactly, grouped } from './small.js';
 import { drawLanes, heightOf, kRuler, lanesOf, matches, namesOf, spanAt, wordsOf } from './lanes.js';
-import { keepPast, liveCourse, pastBegin, recordedCourse } from './course.js';
+import { keepPast, liveCourse, pastBegin, recordedCourse, spansOf } from './course.js';
 import { goTo } from './story.js';
 import { useDevices } from './devices.js';
 import { useKept } from './kept.js';
@@ -15,6 +15,7 @@ const kLive_ns = 30e9;
 const kFirst_ns = 2e9;
 const kShortest_ns = 1e5;
 const kPause_ms = 120;
+const kBetweenWaits_ms = 500;
 
 /// All of the recording, or of what the page has kept.
 function whole() {
@@ -55,6 +56,28 @@ function useRecorded(names, stretch, dots) {
     return () => clearTimeout(timer);
   }, [key, store.timeline === null]);
   return told.course ?? { stretch, curves: {}, spans: [] };
+}
+
+/// What the host of a bench that runs has waited for, as it was told last.
+const waits = { key: '', of: '', spans: [], isAsking: false, last: -kBetweenWaits_ms };
+
+/// The waits in the stretch, asked for again from time to time, because the stretch moves on with the bench.
+function useWaits(isLive, shown, dots) {
+  const [, again] = useState(0);
+  const of = JSON.stringify([store.number, store.epochs[store.number]]);
+  const stretch = shown.map((time) => Math.max(0, Math.round(time)));
+  const key = JSON.stringify([of, stretch, dots]);
+  useEffect(() => {
+    if (!isLive || dots === 0 || waits.isAsking || waits.key === key) return undefined;
+    const timer = setTimeout(async () => {
+      waits.isAsking = true;
+      const spans = await spansOf(stretch, dots);
+      Object.assign(waits, { key, of, spans, isAsking: false, last: performance.now() });
+      again(waits.last);
+    }, Math.max(0, waits.last + kBetweenWaits_ms - performance.now()));
+    return () => clearTimeout(timer);
+  }, [isLive, key, waits.isAsking]);
+  return isLive && waits.of === of ? waits.spans : [];
 }
 
 /// Of a marked stretch: how long it is, its frames and how far each axis went.
@@ -120,7 +143,8 @@ export function Timeline() {
   const isRecording = store.timeline !== null;
   const stretch = chosen ? within(chosen) : isRecording ? whole() : present();
   const recorded = useRecorded(isRecording ? names : [], stretch, dots);
-  const course = isRecording ? recorded : liveCourse(names, stretch, Math.max(dots >> 1, 1));
+  const waited = useWaits(!isRecording, stretch, dots);
+  const course = isRecording ? recorded : liveCourse(names, stretch, Math.max(dots >> 1, 1), waited);
   const lanes = lanesOf(devices, course);
   const canGo = isRecording && !isReadOnly() && !isAltered();
 

@@ -10,6 +10,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/spans.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/events/history.h"
 #include "emulator/world/events/story.h"
@@ -24,36 +25,11 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::size_t kMaxCurves = 256;
-constexpr std::uint64_t kMaxDots = 4'000;
 constexpr std::size_t kMaxPoints = 200'000;  // of all names
-constexpr std::size_t kMaxSpans = 2'000;     // in a reply
 /// Up to this much work every tick is sampled; beyond it, only some moments of each dot.
 constexpr Tick kMaxCurveWork = 4'000'000;  // ticks times the weight of names and devices
 constexpr Tick kMaxProgramWork = 100'000;  // ticks times devices
 constexpr std::uint64_t kLooksADot = 8;
-
-struct Stretch {
-  SimTime from{0};
-  SimTime to{0};
-  std::uint64_t dots = 0;
-};
-
-Stretch stretch_of(const Json& message, const world::Timeline& timeline) {
-  Stretch stretch{.from = timeline.begin(), .to = timeline.end(), .dots = 1'000};
-  const auto time = [&](const char* key, SimTime otherwise) {
-    return message.contains(key) ? SimTime{static_cast<std::int64_t>(require_count(message, key, INT64_MAX))}
-                                 : otherwise;
-  };
-  stretch.from = std::clamp(time("from_ns", stretch.from), timeline.begin(), timeline.end());
-  stretch.to = std::clamp(time("to_ns", stretch.to), timeline.begin(), timeline.end());
-  // A scenario may fail before any time has passed.
-  if (timeline.begin() == timeline.end()) stretch.to = stretch.from + kTickLength;
-  if (message.contains("dots")) stretch.dots = require_count(message, "dots", kMaxDots);
-  if (stretch.dots == 0) throw MessageError("dots: expected 1 to " + std::to_string(kMaxDots));
-  if (stretch.to <= stretch.from)
-    throw MessageError("to_ns: is not later than from_ns; expected a stretch of the recording");
-  return stretch;
-}
 
 /// Returns the interval between samples: the whole stretch if a watcher sees every tick of it.
 SimTime apart_of(const Stretch& stretch, bool is_exact) {
@@ -66,24 +42,6 @@ Json points_of(const std::vector<double>& values) {
   Json points = Json::array();
   for (const double value : values) points.push_back(json_of(value));
   return points;
-}
-
-/// A span of the timeline. Spans of a lane that lie within one dot are reported as one.
-struct Span {
-  std::string lane;
-  SimTime begin{0};
-  SimTime end{0};
-  Json entry;
-  bool is_bad = false;
-  std::uint64_t count = 1;
-};
-
-Json json_of_span(const Span& span) {
-  Json entry{{"lane", span.lane}, {"begin_ns", span.begin.count()}, {"end_ns", span.end.count()}};
-  entry.update(span.entry);
-  if (span.is_bad) entry["bad"] = true;
-  if (span.count > 1) entry["count"] = span.count;
-  return entry;
 }
 
 void add_exchanges(std::vector<Span>& spans, const world::History& history) {
@@ -154,11 +112,8 @@ void add_events(std::vector<Span>& spans, const world::History& history, SimTime
 void add_waits(std::vector<Span>& spans, const world::Timeline& timeline) {
   for (const world::RecordedEvent& event : timeline.events()) {
     if (event.what != world::RecordedEvent::What::wait) continue;
-    spans.push_back({.lane = event.where == 1 ? "host" : "host thread " + std::to_string(event.where),
-                     .begin = event.since,
-                     .end = event.at,
-                     .entry = Json{{"kind", "wait"}, {"text", event.text}},
-                     .is_bad = event.text.ends_with("in vain")});
+    spans.push_back(
+        span_of_wait({.thread = event.where, .begin = event.since, .end = event.at, .text = event.text}));
   }
 }
 
@@ -186,39 +141,11 @@ void add_programs(std::vector<Span>& spans, const Stretch& stretch, const world:
   }
 }
 
-/// Keeps the spans in the stretch, ordered by their beginning. Spans of a lane within one dot become one.
-std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
-  std::erase_if(spans, [&](const Span& span) { return span.end < stretch.from || span.begin > stretch.to; });
-  std::stable_sort(spans.begin(), spans.end(),
-                   [](const Span& one, const Span& other) { return one.begin < other.begin; });
-  const SimTime dot =
-      std::max(SimTime{1}, (stretch.to - stretch.from) / static_cast<std::int64_t>(stretch.dots));
-  std::map<std::string, std::size_t> last;  // by lane
-  std::vector<Span> some;
-  for (Span& span : spans) {
-    const auto found = last.find(span.lane);
-    if (found != last.end()) {
-      Span& before = some[found->second];
-      const bool is_one = span.end - before.begin < dot;
-      if (is_one) {
-        before.end = std::max(before.end, span.end);
-        if (span.is_bad && !before.is_bad) before.entry = std::move(span.entry);
-        before.is_bad = before.is_bad || span.is_bad;
-        before.count += span.count;
-        continue;
-      }
-    }
-    last[span.lane] = some.size();
-    some.push_back(std::move(span));
-  }
-  return some;
-}
-
 }  // namespace
 
 Json curves_message(const Json& message, const world::Timeline& timeline, world::World& other) {
   require_keys(message, {"do", "names", "from_ns", "to_ns", "dots"});
-  const Stretch stretch = stretch_of(message, timeline);
+  const Stretch stretch = stretch_of(message, timeline.begin(), timeline.end());
   const Json& given = require(message, "names");
   if (!given.is_array() || given.empty() || given.size() > kMaxCurves)
     throw is_not("names", given, "a list of 1 to " + std::to_string(kMaxCurves) + " names");
@@ -253,8 +180,7 @@ Json curves_message(const Json& message, const world::Timeline& timeline, world:
 Json spans_message(const Json& message, const world::Timeline& timeline, world::World& other,
                    const world::History& history, const world::Story* story) {
   require_keys(message, {"do", "from_ns", "to_ns", "dots", "from"});
-  const Stretch stretch = stretch_of(message, timeline);
-  const std::size_t first = message.contains("from") ? require_count(message, "from") : 0;
+  const Stretch stretch = stretch_of(message, timeline.begin(), timeline.end());
   std::vector<Span> spans;
   add_exchanges(spans, history);
   add_events(spans, history, timeline.end());
@@ -267,13 +193,8 @@ Json spans_message(const Json& message, const world::Timeline& timeline, world::
                      .is_bad = true});
   }
   add_programs(spans, stretch, timeline, other);
-  const std::vector<Span> some = thinned(std::move(spans), stretch);
-  Json entry = Json::array();
-  const std::size_t end = std::min(some.size(), first < some.size() ? first + kMaxSpans : first);
-  for (std::size_t i = first; i < end; ++i) entry.push_back(json_of_span(some[i]));
-  Json reply{{"ok", true}, {"spans", std::move(entry)}, {"of", some.size()}};
+  Json reply = reply_with(std::move(spans), stretch, message);
   if (history.dropped() > 0) reply["left_out"] = history.dropped();
-  if (end < some.size()) reply["next"] = end;
   return reply;
 }
 

@@ -31,6 +31,10 @@ ReplyTask faults_message(Daemon& daemon, Json message);
 /// {"do":"events","since":17}, {"do":"events","last":10}
 ReplyTask events_message(Daemon& daemon, Json message);
 
+/// {"do":"spans","from_ns":0,"to_ns":6000000000,"dots":1000,"from":0}: what a host in simulated time has
+/// waited for, and waits for now. Recordings have more spans (course_messages.h).
+Json present_spans_message(Daemon& daemon, const Json& message);
+
 /// Returns the word for a program's state.
 std::string_view state_word(ProgramLocation::State state);
 /// {"do":"where","device":"feeder"}: the positions of its programs.

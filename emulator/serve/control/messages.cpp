@@ -36,7 +36,7 @@ struct Verb {
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*make_reply)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 38> kVerbs{{{"status", nullptr, nullptr, status_message},
+constexpr std::array<Verb, 39> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
                                        {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
@@ -73,7 +73,8 @@ constexpr std::array<Verb, 38> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"continue", nullptr, continue_message},
                                        {"stack", stack_message},
                                        {"source", source_message},
-                                       {"variables", variables_message}}};
+                                       {"variables", variables_message},
+                                       {"spans", present_spans_message}}};
 
 const Verb& require_verb(const Json& message) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {

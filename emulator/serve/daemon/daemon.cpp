@@ -124,6 +124,7 @@ void Daemon::watch_signals() {
 
 void Daemon::record_wait(std::size_t thread, SimTime since, const std::string& text) {
   using What = world::RecordedEvent::What;
+  observers_.waits.keep({.thread = thread, .begin = since, .end = world_.now(), .text = text});
   if (recording_) recording_->note({.what = What::wait, .since = since, .where = thread, .text = text});
 }
 

@@ -106,7 +106,7 @@ class Daemon {
     world_.advance_to(time);
     pacer_.moved_to(world_.now(), wall_now());
   }
-  /// Records that a thread of a host in simulated time has waited since `since`.
+  /// Keeps and records that a thread of a host in simulated time has waited since `since`.
   void record_wait(std::size_t thread, SimTime since, const std::string& text);
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/simulated_time.h"
+#include "emulator/serve/daemon/kept_waits.h"
 #include "emulator/world/coverage/program_coverage.h"
 #include "emulator/world/debug/debugger.h"
 #include "emulator/world/events/event_log.h"
@@ -48,6 +49,7 @@ struct Observers {
     SimTime at{0};
     world::WorldState state;
   };
+  KeptWaits waits;
   std::map<std::string, Kept> snapshots;  // by name; they end with the daemon
 };
 

@@ -130,12 +130,14 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       if (read(timer.get(), &ignored, sizeof ignored) > 0) act();
     });
   };
+  daemon_.observers().waits.add_source([this] { return log_.under_way(waits_, line_counts()); });
   on_timer(next_poll_, [this] { consider(); });
   on_timer(watch_, [this] { watch_over(); });
   set_timer(watch_, kWatch, kWatch);
 }
 
 HostTime::~HostTime() {
+  daemon_.observers().waits.add_source({});
   for (const auto& [number, descriptor] : connections_) daemon_.loop().unwatch(number);
   daemon_.loop().unwatch(next_poll_.get());
   daemon_.loop().unwatch(watch_.get());

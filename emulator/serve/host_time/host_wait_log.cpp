@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/serve/daemon/kept_waits.h"
 #include "emulator/serve/host_time/host_waits.h"
 #include "pty/host_time/protocol.h"
 
@@ -104,8 +105,23 @@ void HostWaitLog::finish(const Lines& lines) {
   for (const auto& [order, open] : std::exchange(open_, {})) report(order, open, lines);
 }
 
-void HostWaitLog::report(std::size_t thread, const Open& open, const Lines& lines) {
-  if (open.end <= open.begin) return;
+std::vector<HostWait> HostWaitLog::under_way(const HostWaits& waits, const Lines& lines) const {
+  std::vector<HostWait> all;
+  for (const auto& [order, open] : open_) {
+    if (open.end <= open.begin) continue;
+    // It is reported when time advances again; until then it may have ended.
+    const bool still_waits = std::ranges::any_of(waits.threads(), [&](const auto& each) {
+      const HostWaits::Thread& thread = each.second;
+      return thread.order == order && thread.state == HostState::waiting &&
+             thread.wait.sequence == open.sequence;
+    });
+    all.push_back(wait_of(order, open, lines, !still_waits));
+  }
+  return all;
+}
+
+HostWait HostWaitLog::wait_of(std::size_t thread, const Open& open, const Lines& lines,
+                              bool has_ended) const {
   std::string text;
   switch (open.kind) {
     case Kind::reply: text = "waits for a reply"; break;
@@ -117,11 +133,13 @@ void HostWaitLog::report(std::size_t thread, const Open& open, const Lines& line
   }
   if (open.lines.size() == 1 && lines.size() > 1) text += " on " + lines[open.lines.front()].name;
   const bool is_in_vain =
-      open.kind == Kind::reply && sum(open.lines, lines, &LineCount::bytes_out) == open.answered;
-  report_({.thread = numbers_.at(thread),
-           .begin = open.begin,
-           .end = open.end,
-           .text = text + (is_in_vain ? " in vain" : "")});
+      has_ended && open.kind == Kind::reply && sum(open.lines, lines, &LineCount::bytes_out) == open.answered;
+  if (is_in_vain) text += " in vain";
+  return {.thread = numbers_.at(thread), .begin = open.begin, .end = open.end, .text = text};
+}
+
+void HostWaitLog::report(std::size_t thread, const Open& open, const Lines& lines) {
+  if (open.end > open.begin) report_(wait_of(thread, open, lines, true));
 }
 
 }  // namespace understudy::emulator::serve

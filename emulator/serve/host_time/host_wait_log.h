@@ -10,19 +10,10 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/daemon/kept_waits.h"
 #include "emulator/serve/host_time/host_waits.h"
 
 namespace understudy::emulator::serve {
-
-/// A wait of a thread. Threads are numbered from 1, in the order in which they greeted.
-struct HostWait {
-  std::size_t thread = 0;
-  SimTime begin{0};
-  SimTime end{0};
-  std::string text{};
-  bool operator==(const HostWait&) const = default;
-};
 
 class HostWaitLog {
  public:
@@ -44,6 +35,8 @@ class HostWaitLog {
   void end(const Lines& lines, SimTime now);
   /// Reports the waits that are still open.
   void finish(const Lines& lines);
+  /// Returns the waits that are not reported yet, up to the present.
+  std::vector<HostWait> under_way(const HostWaits& waits, const Lines& lines) const;
 
  private:
   enum class Kind : std::uint8_t { reply, data, drain, thread, sleep, other };
@@ -64,6 +57,7 @@ class HostWaitLog {
   };
 
   Open open_for(const HostWaits::Thread& thread, const Lines& lines, SimTime now) const;
+  HostWait wait_of(std::size_t thread, const Open& open, const Lines& lines, bool has_ended) const;
   void report(std::size_t thread, const Open& open, const Lines& lines);
 
   std::function<std::size_t(int)> line_of_;

@@ -437,6 +437,23 @@ def ladder(options):
         visit.close()
 
 
+def waits(options):
+    """What a host in simulated time waits for is on the timeline while it runs; here it waits for a file at last."""
+    with Stage(options) as stage:
+        (stage.folder / 'bench.yaml').write_text(BENCH, encoding='utf-8')
+        os.mkfifo(stage.folder / 'gate')
+        stage.daemon = stage.start('exec', 'bench.yaml', '--host-time', '--control', stage.control, '--', 'sh', '-c',
+                                   'sleep 5; sleep 3; echo asleep no more; cat gate')
+        stage.daemon.stdout.readline()
+        stage.start_page()
+        visit = stage.visit()
+        visit.show('Timeline')
+        visit.find('input[aria-label="find in the timeline"]')[0].send_keys('sleeps')
+        visit.until('the timeline has the sleep of the last seconds', lambda: '1 found' in visit.texts('.bar small'))
+        visit.picture('waits')
+        visit.close()
+
+
 def crowd(options):
     """Connects sixteen browsers, one of which never reads again, and then one more than allowed."""
     with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
@@ -490,7 +507,7 @@ def does(options, part):
         visit.close()
 
 
-PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'path': path, 'ladder': ladder, 'crowd': crowd, 'firefox': firefox}
+PARTS = {**{f'does_{part}': functools.partial(does, part=part) for part in doing.PARTS}, **{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'before': before, 'burst': burst, 'restart': restart, 'recording': recording, 'story': story, 'story_file': story_file, 'path': path, 'ladder': ladder, 'waits': waits, 'crowd': crowd, 'firefox': firefox}
 
 
 def main():

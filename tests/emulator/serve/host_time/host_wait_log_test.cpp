@@ -31,6 +31,7 @@ class HostWaitLogTest : public testing::Test {
     waits_.on_message(1, hello);
   }
   void leave() { waits_.remove(1); }
+  void time_out() { waits_.time_is(now_); }
   /// Waits from now on for this long; at the end the line sends so many bytes.
   void wait(Message message, milliseconds length, std::uint64_t sent = 0) {
     message.what = MessageKind::wait;
@@ -59,6 +60,8 @@ class HostWaitLogTest : public testing::Test {
     log_.finish(lines_);
     return told_;
   }
+  std::vector<HostWait> under_way() const { return log_.under_way(waits_, lines_); }
+  const std::vector<HostWait>& told_before() const { return told_; }
 
  private:
   HostWaits waits_{[](int, HostAnswer, const HostWaits::Thread&) {}};
@@ -159,6 +162,25 @@ TEST_F(HostWaitLogTest, NumbersAThreadAnewThatHasADescriptorOfBefore) {
                         {.thread = 1, .begin = milliseconds(0), .end = milliseconds(10), .text = "sleeps"},
                         {.thread = 2, .begin = milliseconds(10), .end = milliseconds(20), .text = "sleeps"},
                     }));
+}
+
+TEST_F(HostWaitLogTest, TellsTheWaitThatIsUnderWay) {
+  EXPECT_EQ(under_way(), std::vector<HostWait>{});
+  sleep(milliseconds(10));
+  host_writes(8);
+  wait_for_line(milliseconds(5));
+  EXPECT_EQ(under_way(), (std::vector<HostWait>{
+                             told_wait(milliseconds(10), milliseconds(15), "waits for a reply"),
+                         }));
+  EXPECT_EQ(told_before(), (std::vector<HostWait>{told_wait(milliseconds(0), milliseconds(10), "sleeps")}));
+  Message message = message_for_line();
+  message.until_ns = SimTime(milliseconds(315)).count();
+  wait(message, milliseconds(300));
+  EXPECT_EQ(under_way().at(0).text, "waits for a reply");
+  time_out();
+  EXPECT_EQ(under_way().at(0).text, "waits for a reply in vain");
+  told();
+  EXPECT_EQ(under_way(), std::vector<HostWait>{}) << "it has ended";
 }
 
 }  // namespace host_wait_log_test
