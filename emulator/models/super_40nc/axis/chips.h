@@ -19,7 +19,10 @@ namespace understudy::emulator::models::super_40nc {
 class Chips : protected OnGround {
  public:
   Chips(Ground& ground, AxesState& axes)
-      : OnGround(ground), axes_(axes), lines_wait_(chose(option("axis_conflicts", "programs_always_wait"))) {}
+      : OnGround(ground),
+        axes_(axes),
+        lines_wait_(chose(option("axis_conflicts", "programs_always_wait"))),
+        has_chip_pins_(chose(option("pins_fitted", "also_clr_ltc_and_erc"))) {}
 
   AxisState& axis(int number) { return axes_.axes[static_cast<std::size_t>(number)]; }
   const AxisState& axis(int number) const { return axes_.axes[static_cast<std::size_t>(number)]; }
@@ -30,7 +33,7 @@ class Chips : protected OnGround {
     return axes_.environment[static_cast<std::size_t>(axis)];
   }
   bool is_on_path(int axis) const { return axes_.path.takes(static_cast<std::size_t>(axis)); }
-  bool has_chip_pins() const { return chose(option("pins_fitted", "also_clr_ltc_and_erc")); }
+  bool has_chip_pins() const { return has_chip_pins_; }
   /// Returns the level of CLR or LTC, as sampled.
   bool pin_seen(int axis, ChipPin pin) const {
     return (pin == kClearPin ? axes_.clears_seen : axes_.latches_seen)[static_cast<std::size_t>(axis)];
@@ -90,7 +93,9 @@ class Chips : protected OnGround {
   AxesState& axes_;
 
  private:
+  // Cached choices.
   bool lines_wait_;
+  bool has_chip_pins_;
 };
 
 /// The modes of D9x09.

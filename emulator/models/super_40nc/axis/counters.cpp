@@ -105,7 +105,7 @@ bool Counters::counts_now(int axis_number, int which) const {
 }
 
 bool Counters::counts_a_clock(int axis) const {
-  return chose(option("counter4_clock", "9_8304_mhz")) && registers().of(kept_x(d9x::kC4Source), axis) == 3;
+  return has_clock_ && registers().of(kept_x(d9x::kC4Source), axis) == 3;
 }
 
 bool Counters::is_quiet(int axis_number) const {

@@ -9,6 +9,7 @@
 #include "emulator/models/super_40nc/axis/axis_parameters.h"
 #include "emulator/models/super_40nc/axis/chips.h"
 #include "emulator/models/super_40nc/axis/comparators.h"
+#include "emulator/models/super_40nc/rows/options.h"
 #include "emulator/models/super_40nc/rows/settings.h"
 #include "motion/axis_tick.h"
 
@@ -35,7 +36,10 @@ std::int64_t counts_of(const Settings& settings, int axis, int counter, const Co
 class Counters : protected Chips {
  public:
   Counters(const Chips& chips, Comparators& comparators, AxisParameters& parameters)
-      : Chips(chips), comparators_(comparators), parameters_(parameters) {}
+      : Chips(chips),
+        comparators_(comparators),
+        parameters_(parameters),
+        has_clock_(chose(option("counter4_clock", "9_8304_mhz"))) {}
 
   BeforeTick begin_tick(Tick tick, std::int32_t wheel_counts);
   /// Counts the rest of a tick of an axis; set_encoder() counts the encoder.
@@ -78,6 +82,7 @@ class Counters : protected Chips {
 
   Comparators& comparators_;
   AxisParameters& parameters_;
+  bool has_clock_;  // cached choice: D9x25 = 3 counts a clock
   // Working values of a tick; none of them is state.
   Tick tick_ = 0;
   std::array<CountedSoFar, kAxisCount> so_far_{};

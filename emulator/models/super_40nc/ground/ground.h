@@ -130,7 +130,7 @@ class Ground {
  private:
   int line_step(Mover mover) const;
   /// Returns true if the PLC may switch FSH and END outputs between their signals.
-  bool shares_signals() const { return chose(option("signal_outputs", "the_plc_has_them_between")); }
+  bool shares_signals() const { return shares_signals_; }
 
   const Device& device_;
   GroundState& state_;
@@ -138,6 +138,7 @@ class Ground {
   interpreter::super_40nc::Options options_;
   Readings readings_;             // cached choices
   bool parameters_wait_ = false;  // cached: written parameters act later, all at once
+  bool shares_signals_ = false;   // cached
   int plc_step_ = 0;              // not state: 0 outside a line
 };
 

@@ -28,7 +28,8 @@ Ground::Ground(const Device& device, GroundState& state, const StepStates& steps
                 .limits_deceleration = chose(option("long_deceleration", "limited_to_2_x2")),
                 .starts_as_fast = chose(option("slow_speeds", "the_start_speed")),
                 .truncates = chose(option("rounding", "towards_0"))},
-      parameters_wait_(!chose(option("parameter_moment", "by_kind"))) {}
+      parameters_wait_(!chose(option("parameter_moment", "by_kind"))),
+      shares_signals_(chose(option("signal_outputs", "the_plc_has_them_between"))) {}
 
 /// The panel's parameters have other factory values where its chapter and the table of D9 differ (3 of them
 /// in every axis, the decimals, the logo).
