@@ -28,8 +28,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, PageInABrowser,
                                          "panels_super-40nc", "does_axes", "does_signals", "does_plot",
                                          "does_registers", "does_bus", "does_program", "does_faults",
                                          "does_keyboard", "does_keeps", "host", "before", "burst", "restart",
-                                         "recording", "story", "story_file", "path", "ladder", "waits", "crowd",
-                                         "firefox"),
+                                         "recording", "story", "story_file", "path", "ladder", "waits",
+                                         "crowd", "firefox"),
                          [](const testing::TestParamInfo<const char*>& part) {
                            std::string name = part.param;
                            std::replace(name.begin(), name.end(), '-', '_');
