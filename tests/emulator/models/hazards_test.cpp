@@ -105,7 +105,7 @@ std::vector<Range> super_40nc() {
       {H, data(9003), data(9005) + 1, "smx"},
       {H, data(9006), data(9010) + 1, "sm"},
       {H, data(9011), data(9016) + 1, "smx"},
-      {H, data(9017), data(9019) + 1, "sma"},
+      {H, data(9017), data(9019) + 1, "smx"},  // C24 to C26: arcs turn the other way
       {H, data(9020), data(9099) + 1, "sm"},
       {H, data(9100), data(9499) + 1, "smx"},
   };

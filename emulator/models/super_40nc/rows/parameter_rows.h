@@ -31,7 +31,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(d9::kAccelerationTime).means("acceleration time", "預設加速時間").kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C13
     data(d9::kDecelerationTime).means("deceleration time", "預設減速時間").kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C14
     data(d9::kArcPlane).means("arc plane: 0 XY, 1 XZ, 2 YZ", "做圓平面").kept_at_once().range(0, 2).from_factory(2).may(kMemory | kMotion),  // C23
-    data(9017, 9019).means_each(kSwappedArcs).kept_at_once().may(kMemory | Hazards::stops_answering),  // C24 to C26
+    data(9017, 9019).means_each(kSwappedArcs).kept_at_once().may(kMemory | kMotion),  // C24 to C26
     data(9020).means("no function in the manual, plain storage").kept_at_once(),
     data(d9::kEditLock).means("lock of the edit page", "編輯鍵上鎖").kept_at_once().not_modelled("the panel's edit page"),  // C15
     data(9022, 9024).means("no function in the manual, plain storage").kept_at_once(),
