@@ -247,6 +247,8 @@ struct Model {
   Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
   /// Returns what a line of text can do; null: it takes no lines.
   Hazards (*hazards_of_line)(std::string_view line) = nullptr;
+  /// Returns what a line of text does to the entry of a program; null: programs are not entered as lines.
+  EditMark (*edit_mark_of_line)(std::string_view line) = nullptr;
   int max_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
   /// The description file's text with everything that belongs to it, if a file describes the model.
   /// ModelFiles::parse() makes the same model from it.

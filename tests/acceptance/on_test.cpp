@@ -178,6 +178,25 @@ TEST(RunOn, TakesLinesOfTextAsQueries) {
   EXPECT_TRUE(has(on.output, "1 passed")) << on.output;
 }
 
+/// A query, or a stop, would become a line of the program.
+TEST(RunOn, AsksNothingWhileAProgramIsEntered) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_model("slim");
+  const std::string text = scenario(
+      "  - send: { line: line, text: \"CS 0\" }\n"
+      "  - send: { line: line, text: \"PG\" }\n"
+      "  - send: { line: line, text: \"MA 7\" }\n"
+      "  - assert: box.PE == 0\n",
+      "slim");
+  const Finished on = run_on(folder, text, served->port(), {"--allow-motion"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  EXPECT_TRUE(has(on.output, "a program is being entered on line line")) << on.output;
+  EXPECT_TRUE(has(on.errors, "stop: box: TASTOP: sent")) << on.errors;
+  const std::string program = served->ctl({"program"}).output;
+  EXPECT_TRUE(has(program, "MA 7")) << program;
+  EXPECT_FALSE(has(program, "?PE") || has(program, "TASTOP")) << program;
+}
+
 TEST(RunOn, SaysWhatWasTriedIfNothingAnswers) {
   const PrivateFolder folder;
   const RunningUnderstudy served;

@@ -121,6 +121,24 @@ void BoxExecutor::note(std::size_t line, const char* arrow, const std::string& t
   if (frames_.size() > kFramesKept) frames_.pop_front();
 }
 
+void BoxExecutor::note_edit(std::size_t line, const std::string& text) {
+  const Model& model = *scenario_.bench.devices[scenario_.bench.lines[line].stations.front().device].model;
+  if (model.edit_mark_of_line == nullptr) return;
+  const EditMark mark = model.edit_mark_of_line(text);
+  const auto open = editing_.find(line);
+  if (open == editing_.end()) {
+    if (mark == EditMark::begins || mark == EditMark::begins_one_line) editing_.emplace(line, mark);
+  } else if (mark == EditMark::ends || open->second == EditMark::begins_one_line) {
+    editing_.erase(open);
+  }
+}
+
+std::optional<std::string> BoxExecutor::why_no_query(std::size_t line) const {
+  if (!editing_.contains(line)) return std::nullopt;
+  return "a program is being entered on line " + scenario_.bench.lines[line].name +
+         ", and a query would become a part of it";
+}
+
 void BoxExecutor::plan(const SentRequest& request, std::size_t line, const std::string& remark) {
   if (!settings_.only_plans || !settings_.say) return;
   const bool only_reads = request.hazards == Hazards::reads;
@@ -222,6 +240,7 @@ void BoxExecutor::send_text(std::size_t line, const std::string& text) {
   with_world([&](world::World& world) { sent = judge_text(world, line, text); });
   const Hazards hazards = require(line, sent);
   note(line, "->", "\"" + text + "\"");
+  note_edit(line, text);
   const SimTime begin = now();
   is_rehearsal() ? shadow_.send_text(line, text) : host(line).send_text(text, scenario_.gap);
   note_written(line, begin, text.size() + 1, hazards);
@@ -235,6 +254,7 @@ std::vector<std::string> BoxExecutor::exchange_text(std::size_t line, const std:
     with_world([&](world::World& world) { sent = judge_text(world, line, *text); });
     hazards = require(line, sent);
     note(line, "->", "\"" + *text + "\"");
+    note_edit(line, *text);
   }
   const SimTime begin = now();
   std::vector<std::string> heard = is_rehearsal()
@@ -394,6 +414,8 @@ void BoxExecutor::stop_device(std::size_t number) {
              : reply.kind == play::HostReply::Kind::exception ? "REFUSED"
                                                               : "NOT ANSWERED";
     } else {
+      // While a program is being entered, the stop would become a line of it.
+      if (editing_.erase(*line) != 0) host(*line).send_text("EXIT", WallTime{0});
       host(*line).send_text(text, WallTime{0});
     }
     if (settings_.say)

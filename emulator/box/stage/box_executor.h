@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 
 #include "emulator/box/stage/box_lines.h"
 #include "emulator/box/stage/permission.h"
+#include "emulator/device/register_map/hazards.h"
 #include "emulator/play/executors/box_stage.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/free_executor.h"
@@ -64,6 +66,7 @@ class BoxExecutor final : public play::Executor, public play::BoxStage {
   std::optional<std::string> why_unreachable(std::size_t line) const override;
   std::optional<std::string> act(const std::vector<std::string>& words) override;
   std::optional<std::string> tell(const std::string& name) override;
+  std::optional<std::string> why_no_query(std::size_t line) const override;
   play::Moment last_write() const override { return last_write_; }
   std::vector<std::string> last_frames() const override { return {frames_.begin(), frames_.end()}; }
   bool is_rehearsal() const override { return settings_.rehearses || settings_.only_plans; }
@@ -76,6 +79,7 @@ class BoxExecutor final : public play::Executor, public play::BoxStage {
   Hazards require(std::size_t line, const SentRequest& request);
   void note_written(std::size_t line, SimTime begin, std::size_t bytes, Hazards hazards);
   void note(std::size_t line, const char* arrow, const std::string& text);
+  void note_edit(std::size_t line, const std::string& text);
   void plan(const SentRequest& request, std::size_t line, const std::string& remark);
   void keep_before(std::size_t line, const Bytes& request);
   void put_back();
@@ -93,6 +97,8 @@ class BoxExecutor final : public play::Executor, public play::BoxStage {
   std::deque<std::string> frames_;
   std::set<std::size_t> may_move_;  // devices
   std::set<std::string> planned_;   // reads since the last write
+  /// Lines of text on which a program is being entered, and how that began.
+  std::map<std::size_t, EditMark> editing_;
   /// What a register held before its first write.
   struct Before {
     std::size_t line = 0;

@@ -32,6 +32,15 @@ constexpr Hazards beyond(Hazards hazards, Hazards allowed) {
 }
 constexpr bool has(Hazards hazards, Hazards one) { return (hazards & one) != Hazards::reads; }
 
+/// What a line of text does to the entry of a program. Until that ends, every line is a part of the program,
+/// queries and stops as well.
+enum class EditMark : std::uint8_t {
+  none,
+  begins,           // all lines from here on, up to one that ends it
+  begins_one_line,  // the next line
+  ends,
+};
+
 struct HazardName {
   Hazards hazard;
   std::string_view name;  // in tables

@@ -124,6 +124,21 @@ inline constexpr CompleteTable<Verb, Hazards> kTable(kVerbs, kRows);
 
 }  // namespace command_hazards
 
+/// Returns what a line does to the entry of a program (PG, PE, PI, PA, DL).
+inline EditMark edit_mark_of_line(std::string_view line) {
+  namespace lang = interpreter::slim;
+  using lang::Verb;
+  constexpr char kEscape = '\x1B';
+  const bool is_blank = line.find_first_not_of(" \t\r\n") == std::string_view::npos;
+  if (is_blank || line.find(kEscape) != std::string_view::npos) return EditMark::ends;
+  const lang::ParseResult parsed = lang::parse_line(line, lang::kWidestDialect);
+  if (parsed.error != lang::Error::none || !parsed.line.command) return EditMark::none;
+  const Verb verb = parsed.line.command->verb;
+  if (verb == Verb::program_edit || verb == Verb::program_insert) return EditMark::begins_one_line;
+  const bool begins = verb == Verb::program_new || verb == Verb::program_append || verb == Verb::download;
+  return begins ? EditMark::begins : verb == Verb::exit ? EditMark::ends : EditMark::none;
+}
+
 /// Returns what a line of text can do. A line that is not a command here may be one there, or belong to a
 /// program that is being entered.
 inline Hazards hazards_of_line(std::string_view line) {

@@ -163,6 +163,7 @@ const Model& model() {
       .first_files = &kFirstFiles,
       .stop = kStop,
       .hazards_of_line = hazards_of_line,
+      .edit_mark_of_line = edit_mark_of_line,
       .max_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

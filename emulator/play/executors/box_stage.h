@@ -45,6 +45,9 @@ class BoxStage {
   /// Asks a rig for a value that is not on the line. Returns nothing if there is none.
   virtual std::optional<std::string> tell(const std::string& name) = 0;
 
+  /// Returns why no value can be queried on a line of text now, or nothing.
+  virtual std::optional<std::string> why_no_query(std::size_t line) const = 0;
+
   /// Returns when the last request that may have changed something took effect.
   virtual Moment last_write() const = 0;
   /// Returns the last frames, the oldest first.

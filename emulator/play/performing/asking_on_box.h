@@ -74,6 +74,7 @@ class Performance::OnBox::Asking {
     Performance& performance = on_box_.performance_;
     const world::LinesWanted single{.lines = {""}, .is_answer = true};
     const std::size_t line = performance.lines_[*place.device].front();
+    if (const auto why = on_box_.box_.why_no_query(line)) throw Skip(*why, true);
     const std::vector<std::string> lines =
         performance.executor_->exchange_text(line, place.query, single, std::chrono::milliseconds(500));
     for (const std::string& heard : lines) {

@@ -196,6 +196,28 @@ TEST(Hazards, LinesOfSlimHaveThoseOfTheirCommands) {
         << line.text;
 }
 
+// Manual PG, PE, PI, PA, DL: an empty line, EXIT or ESC ends them; PE and PI take one line.
+TEST(Hazards, LinesOfSlimBeginAndEndPrograms) {
+  const struct {
+    const char* line;
+    EditMark mark;
+  } cases[] = {
+      {"PG", EditMark::begins},
+      {"DLP", EditMark::begins},
+      {"PE 1", EditMark::begins_one_line},
+      {"PI 1", EditMark::begins_one_line},
+      {"", EditMark::ends},
+      {"EXIT", EditMark::ends},
+      {"\x1B", EditMark::ends},
+      {"MA 100", EditMark::none},
+      {"?PE", EditMark::none},
+      {"PD 1", EditMark::none},
+      {"what is it", EditMark::none},
+  };
+  for (const auto& row : cases)
+    EXPECT_EQ(model_called("slim").edit_mark_of_line(row.line), row.mark) << row.line;
+}
+
 TEST(Hazards, EveryModelCanBeStopped) {
   for (const auto& listed : models::all_models()) {
     const Model& model = *listed;
