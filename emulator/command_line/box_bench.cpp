@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <fstream>
 #include <ios>
+#include <istream>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,9 +18,12 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/box/capture/capture.h"
+#include "emulator/box/capture/followed_file.h"
+#include "emulator/box/capture/recorded_capture.h"
 #include "emulator/box/compare/input_log.h"
 #include "emulator/box/compare/replay_bench.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
 #include "emulator/command_line/text_argument.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/nv_file.h"
@@ -65,9 +68,9 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
 }
 
 /// The number of the only station on the line; nothing if it has several, or speaks text.
-std::optional<std::uint8_t> only_station(const box::ReplayBench& replay) {
+std::optional<std::uint8_t> only_station(const box::ReplayBench& bench) {
   std::optional<std::uint8_t> only;
-  for (const auto& station : replay.line().stations) {
+  for (const auto& station : bench.line().stations) {
     const ModbusStation* const modbus = station->device().modbus();
     for (int number = 0; modbus != nullptr && number < 256; ++number) {
       if (modbus->addressing(static_cast<std::uint8_t>(number)) != Addressing::execute_and_reply) continue;
@@ -83,43 +86,6 @@ void set_station(box::CapturedBytes& frame, std::uint8_t number) {
   frame[0] = number;
   frame.resize(frame.size() - 2);
   pty::append_rtu_crc(frame);
-}
-
-/// Takes out requests to stations that the bench does not have. Masters of Modbus TCP call a device that is
-/// alone at its address 0 or 255.
-void keep_stations_of(const world::Bench& bench, std::size_t line, box::Capture& capture) {
-  const box::ReplayBench replay(bench, line);
-  std::set<int> others;
-  const auto only = only_station(replay);
-  std::erase_if(capture.exchanges, [&](box::Exchange& exchange) {
-    if (exchange.request.empty()) return true;
-    const bool is_anyone = exchange.request[0] == 0 || exchange.request[0] == 255;
-    if (capture.notes.is_modbus_tcp && is_anyone && only) {
-      set_station(exchange.request, *only);
-      set_station(exchange.reply, *only);
-    }
-    if (replay.bank_of(exchange.request) != nullptr) return false;
-    others.insert(exchange.request[0]);
-    ++capture.notes.elsewhere;
-    return true;
-  });
-  if (!capture.exchanges.empty()) return;
-  std::string numbers;
-  for (const int number : others) numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
-  throw FileError(capture.path + ": all requests are to station " + numbers + ", which line " +
-                  quoted(bench.lines[line].name) + " of the bench does not have; expected a capture of " +
-                  (only ? "station " + std::to_string(*only) : std::string("one of its stations")));
-}
-
-box::Capture read_one(const BoxBench& box, const std::string& path, const box::CaptureSettings& settings) {
-  if (const std::string why = why_not_readable(path); !why.empty())
-    throw FileError(path + ": capture: " + why + "; expected a capture");
-  if (const std::string why = is_another_kind(head_of_file(path), ContentKind::capture); !why.empty())
-    throw FileError({path, 1, 1}, "capture: " + why);
-  std::ifstream file(path, std::ios::binary);
-  box::Capture capture = box::read_capture(file, path, settings);
-  if (!settings.is_text) keep_stations_of(box.bench, box.settings.line, capture);
-  return capture;
 }
 
 box::CaptureSettings capture_settings(const BoxBench& box, const CompareArguments& arguments) {
@@ -156,9 +122,92 @@ BoxBench read_box_bench(ModelList models, const std::string& command, const Comp
       throw FileError(arguments.inputs + ": inputs: " + text.why + "; expected a file of changes of inputs");
     box.settings.inputs = box::parse_input_log(box.bench, *text, arguments.inputs);
   }
-  const box::CaptureSettings settings = capture_settings(box, arguments);
-  for (const std::string& path : arguments.captures) box.captures.push_back(read_one(box, path, settings));
+  box.reading = capture_settings(box, arguments);
   return box;
+}
+
+StationFilter::StationFilter(const BoxBench& box)
+    : box_(box), stations_(box.bench, box.settings.line), only_(only_station(stations_)) {}
+
+bool StationFilter::keeps(box::Exchange& exchange, box::CaptureNotes& notes) {
+  if (exchange.request.empty()) return false;
+  const bool is_anyone = exchange.request[0] == 0 || exchange.request[0] == 255;
+  if (!box_.reading.is_text && notes.is_modbus_tcp && is_anyone && only_) {
+    set_station(exchange.request, *only_);
+    set_station(exchange.reply, *only_);
+  }
+  if (box_.reading.is_text || stations_.bank_of(exchange.request) != nullptr) return has_kept_ = true;
+  others_.insert(exchange.request[0]);
+  ++notes.elsewhere;
+  return false;
+}
+
+void StationFilter::require_some(const std::string& path) const {
+  if (has_kept_) return;
+  std::string numbers;
+  for (const int number : others_) numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
+  throw FileError(path + ": all requests are to station " + numbers + ", which line " +
+                  quoted(box_.bench.lines[box_.settings.line].name) +
+                  " of the bench does not have; expected a capture of " +
+                  (only_ ? "station " + std::to_string(*only_) : std::string("one of its stations")));
+}
+
+box::CaptureNotes take_exchanges(ModelList models, const BoxBench& box, const std::string& path,
+                                 const ExchangeTaker& take) {
+  if (const std::string why = why_not_readable(path); !why.empty())
+    throw FileError(path + ": capture: " + why + "; expected a capture");
+  const std::string head = head_of_file(path);
+  const bool is_recording = content_of(head) == ContentKind::recording;
+  if (const std::string why = is_another_kind(head, ContentKind::capture); !why.empty() && !is_recording)
+    throw FileError({path, 1, 1}, "capture: " + why);
+  std::ifstream file(path, std::ios::binary);
+  StationFilter filter(box);
+  if (is_recording) {
+    box::Capture capture = box::read_recorded_capture(models, file, path, box.reading, box.bench);
+    for (box::Exchange& exchange : capture.exchanges)
+      if (filter.keeps(exchange, capture.notes)) take(std::move(exchange), capture.notes, capture.inputs);
+    filter.require_some(path);
+    return capture.notes;
+  }
+  box::CaptureNotes notes;
+  box::read_exchanges(file, head, path, box.reading, notes, [&](box::Exchange exchange) {
+    if (filter.keeps(exchange, notes)) take(std::move(exchange), notes, {});
+  });
+  filter.require_some(path);
+  return notes;
+}
+
+box::CaptureNotes follow_exchanges(const BoxBench& box, const std::string& path, const ExchangeTaker& take) {
+  box::FollowedFile followed(path, is_interrupted);
+  const std::string head = followed.head();
+  if (head.empty()) throw FileError(path + ": capture: has not begun; expected a capture that grows");
+  if (const std::string why = is_another_kind(head, ContentKind::capture); !why.empty())
+    throw FileError({path, 1, 1}, "capture: " + why);
+  std::istream file(&followed);
+  StationFilter filter(box);
+  box::CaptureNotes notes;
+  box::read_exchanges(file, head, path, box.reading, notes, [&](box::Exchange exchange) {
+    if (filter.keeps(exchange, notes)) take(std::move(exchange), notes, {});
+  });
+  filter.require_some(path);
+  return notes;
+}
+
+std::vector<box::Capture> read_captures(ModelList models, const BoxBench& box,
+                                        const std::vector<std::string>& paths) {
+  std::vector<box::Capture> captures;
+  for (const std::string& path : paths) {
+    box::Capture capture{.path = path, .line = {}, .exchanges = {}};
+    capture.notes = take_exchanges(
+        models, box, path,
+        [&](box::Exchange exchange, const box::CaptureNotes&, const std::vector<box::InputChange>& inputs) {
+          if (capture.exchanges.empty()) capture.inputs = inputs;
+          capture.exchanges.push_back(std::move(exchange));
+        });
+    capture.line = capture.notes.line;
+    captures.push_back(std::move(capture));
+  }
+  return captures;
 }
 
 std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
@@ -166,7 +215,10 @@ std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
   const auto add = [&](std::size_t count, const std::string& one, const std::string& several) {
     if (count != 0) texts.push_back(std::to_string(count) + " " + (count == 1 ? one : several));
   };
-  if (!notes.begins_at_power_up) texts.push_back("read as " + notes.format);
+  if (!notes.begins_at_power_up || notes.knows_beginning) texts.push_back("read as " + notes.format);
+  if (!notes.beyond_the_line.empty())
+    texts.push_back("from " + notes.beyond_the_line +
+                    " on, what differs is undecidable, since it is not repeated");
   if (notes.is_side_inferred) texts.emplace_back("the host was told from the controller by their frames");
   add(notes.bytes_of_no_frame, "byte belongs to no frame", "bytes belong to no frame");
   add(notes.unasked, "reply follows no request", "replies follow no request");

@@ -56,12 +56,19 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
   command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
 }
 
+/// The name of the controller in evidence.
+inline void add_box_name(CLI::App& command, std::string& box) {
+  command.add_option("--box", box, "A name for the controller, such as its serial number, for the evidence")
+      ->check(kNotEmpty);
+}
+
 inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
   command.add_option("PORT", probe.port, "The controller's port, as for photograph")
       ->required()
       ->check(kNotEmpty);
   command.add_option("--model", probe.model, "The controller's model")->required()->check(kNotEmpty);
   command.add_option("-o,--output", probe.output, "Evidence to write: FILE.json")->check(kNotEmpty);
+  add_box_name(command, probe.box);
   command.add_option("--station", probe.station, "Station to ask [that of the proofs]");
   command.add_option("--proofs", probe.proofs, "Folder of proofs [the one that comes with this program]")
       ->check(kNotEmpty);
@@ -100,13 +107,24 @@ inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
   add_capture_flags(command, compare);
 }
 
+inline void add_compare_looks(CLI::App& command, CompareArguments& compare) {
+  CLI::Option* const format =
+      command.add_option("--format", compare.format, "Output format: text, json, sarif or github")
+          ->capture_default_str();
+  CLI::Option* const report =
+      command.add_option("--report", compare.report, "Write a page with the comparison: FILE.html")
+          ->check(kNotEmpty);
+  command
+      .add_flag("--follow", compare.follow,
+                "Follow a capture that grows: report each difference at once, until Ctrl-C")
+      ->excludes(format)
+      ->excludes(report);
+}
+
 inline void add_calibrate_flags(CLI::App& command, CalibrateArguments& calibrate) {
   add_compare_flags(command, calibrate.compare);
   command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);
-  command
-      .add_option("--box", calibrate.box,
-                  "A name for the controller, such as its serial number, for the evidence")
-      ->check(kNotEmpty);
+  add_box_name(command, calibrate.box);
   command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
 }
 

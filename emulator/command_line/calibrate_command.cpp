@@ -1,20 +1,18 @@
 // Implements `calibrate`: finds the options of choices with which a bench replies as in captures.
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
-#include <utility>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
+#include "base/files/sha256.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/box/calibrate/calibration.h"
+#include "emulator/box/calibrate/evidence_file.h"
+#include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/comparison.h"
 #include "emulator/command_line/box_bench.h"
 #include "emulator/command_line/commands.h"
@@ -28,15 +26,14 @@ namespace understudy::emulator::command_line {
 namespace {
 
 using RowState = box::RowFinding::State;
-using Evidence = nlohmann::ordered_json;
 
-constexpr std::array kRowStates = {std::pair{RowState::measured, "measured"},
-                                   std::pair{RowState::undecided, "undecided"},
-                                   std::pair{RowState::not_exercised, "not_exercised"}};
-
-const char* name_of_state(RowState state) {
-  for (const auto& [known, name] : kRowStates)
-    if (known == state) return name;
+/// Returns the word of box::kEvidenceStates.
+std::string name_of_state(RowState state) {
+  switch (state) {
+    case RowState::measured: return "measured";
+    case RowState::undecided: return "undecided";
+    case RowState::not_exercised: return "not_exercised";
+  }
   return "";
 }
 
@@ -60,44 +57,48 @@ std::string hypothesis_text(const world::Bench& bench, const box::Hypothesis& hy
   return text.empty() ? "the bench's own options" : text;
 }
 
-Evidence evidence_of(const BoxBench& box, const CalibrateArguments& arguments,
-                     const box::Calibration& found) {
-  Evidence evidence{{"understudy", 1}, {"kind", "evidence"}, {"bench", arguments.compare.bench}};
-  if (!arguments.box.empty()) evidence["box"] = arguments.box;
-  evidence["devices"] = Evidence::array();
+box::EvidenceRow evidence_row(const BoxBench& box, const std::vector<box::Capture>& captures,
+                              const box::RowFinding& finding) {
+  const world::DeviceSetup& device = box.bench.devices[finding.key.device];
+  box::EvidenceRow row{.device = device.settings.name,
+                       .choice = box::choice_id(box.bench, finding.key),
+                       .state = name_of_state(finding.state),
+                       .options = options_left(box.bench, finding),
+                       .expected = box::option_name(box.bench, finding.key, finding.before)};
+  if (finding.capture) {
+    row.capture = captures[*finding.capture].path;
+    row.place = finding.place;
+  }
+  return row;
+}
+
+box::EvidenceFile evidence_of(const BoxBench& box, const std::vector<box::Capture>& captures,
+                              const CalibrateArguments& arguments, const box::Calibration& found) {
+  box::EvidenceFile evidence{.box = arguments.box,
+                             .bench = arguments.compare.bench,
+                             .is_explained = found.explains,
+                             .drift_ppm = found.drift_ppm};
   for (const world::StationSetup& station : box.bench.lines[box.settings.line].stations) {
     const world::DeviceSetup& device = box.bench.devices[station.device];
-    evidence["devices"].push_back(
-        {{"name", device.settings.name},
-         {"model", device.model->name},
-         {"firmware", version_text(device.settings.firmware != 0 ? device.settings.firmware
-                                                                 : device.model->firmwares.back())}});
+    evidence.devices.push_back(
+        {device.settings.name, std::string(device.model->name),
+         version_text(device.settings.firmware != 0 ? device.settings.firmware
+                                                    : device.model->firmwares.back())});
   }
-  evidence["captures"] = Evidence::array();
-  for (const box::Capture& capture : box.captures)
-    evidence["captures"].push_back({{"file", capture.path}, {"exchanges", capture.exchanges.size()}});
-  evidence["explained"] = found.explains;
-  evidence["drift_ppm"] = found.drift_ppm;
+  for (const box::Capture& capture : captures)
+    evidence.captures.push_back(
+        {capture.path, capture.exchanges.size(), sha256_of_file(capture.path).value_or("")});
   if (found.contradictory)
-    evidence["contradictory"] = {box.captures[found.contradictory->first].path,
-                                 box.captures[found.contradictory->second].path};
-  evidence["choices"] = Evidence::array();
-  for (const box::RowFinding& finding : found.findings) {
-    Evidence row{{"choice", choice_name(box.bench, finding.key)},
-                 {"state", name_of_state(finding.state)},
-                 {"options", options_left(box.bench, finding)},
-                 {"bench", box::option_name(box.bench, finding.key, finding.before)}};
-    if (finding.capture) {
-      row["capture"] = box.captures[*finding.capture].path;
-      row["place"] = finding.place;
-    }
-    evidence["choices"].push_back(row);
-  }
+    evidence.contradictory = {captures[found.contradictory->first].path,
+                              captures[found.contradictory->second].path};
+  for (const box::RowFinding& finding : found.findings)
+    evidence.rows.push_back(evidence_row(box, captures, finding));
   return evidence;
 }
 
-void print_unexplained_calibration(const BoxBench& box, const box::Calibration& found) {
-  const box::Capture& capture = box.captures[found.capture];
+void print_unexplained_calibration(const BoxBench& box, const std::vector<box::Capture>& captures,
+                                   const box::Calibration& found) {
+  const box::Capture& capture = captures[found.capture];
   const box::Exchange& exchange = capture.exchanges[found.exchange];
   std::printf("no options explain %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
               format_duration(exchange.at).c_str());
@@ -107,30 +108,10 @@ void print_unexplained_calibration(const BoxBench& box, const box::Calibration& 
     std::printf(
         "%s and %s contradict each other: each is explained alone, but not both; were they made of the same "
         "controller, with the same settings?\n",
-        box.captures[first].path.c_str(), box.captures[second].path.c_str());
+        captures[first].path.c_str(), captures[second].path.c_str());
     return;
   }
   std::printf("next: run understudy compare with these options to see the difference\n");
-}
-
-void print_calibration(const BoxBench& box, const box::Calibration& found) {
-  std::array<std::size_t, kRowStates.size()> counts{};
-  for (const box::RowFinding& finding : found.findings) {
-    ++counts[static_cast<std::size_t>(finding.state)];
-    if (finding.state == RowState::not_exercised) continue;
-    std::string options;
-    for (const std::string& option : options_left(box.bench, finding))
-      options += (options.empty() ? "" : " or ") + option;
-    const bool is_new = finding.state == RowState::measured && !finding.remaining.contains(finding.before);
-    std::printf("  %-12s %s: %s%s\n", name_of_state(finding.state),
-                choice_name(box.bench, finding.key).c_str(), options.c_str(),
-                is_new ? "  (the bench has a different option)" : "");
-  }
-  std::string text;
-  for (const auto& [state, name] : kRowStates)
-    text += (text.empty() ? "" : ", ") + std::to_string(counts[static_cast<std::size_t>(state)]) + " " + name;
-  std::ranges::replace(text, '_', ' ');
-  std::printf("%s, after %zu hypotheses\n", text.c_str(), found.tried);
 }
 
 /// Prints what the devices of a bench need, as parts of a bench file.
@@ -162,15 +143,20 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   for (const std::string& path : arguments.compare.captures) claims.add({path, "an input capture"});
   ResultFile output("--output", require_output(claims, "--output", arguments.output), ContentKind::evidence);
   const BoxBench box = read_box_bench(models, "calibrate", arguments.compare);
+  const std::vector<box::Capture> captures = read_captures(models, box, arguments.compare.captures);
   // Settings that the model refuses are reported before any other option is tried.
-  box::compare(box.bench, box.captures.front(), box.settings, box::Extent::to_difference);
+  box::compare(box.bench, captures.front(), box.settings, box::Extent::to_difference);
   const box::Calibration found =
-      box::calibrate(box.bench, box.captures, {.compare = box.settings, .threads = 0}, {});
-  if (output.is_wanted()) output.write(evidence_of(box, arguments, found).dump(1) + "\n");
-  if (arguments.choices && found.explains) {
+      box::calibrate(box.bench, captures, {.compare = box.settings, .threads = 0}, {});
+  const box::EvidenceFile evidence = evidence_of(box, captures, arguments, found);
+  if (output.is_wanted()) output.write(box::evidence_text(evidence));
+  if (!found.explains) {
+    print_unexplained_calibration(box, captures, found);
+  } else if (arguments.choices) {
     print_measured_choices(box, found);
   } else {
-    found.explains ? print_calibration(box, found) : print_unexplained_calibration(box, found);
+    std::fputs(box::evidence_table(evidence, "the bench has a different option").c_str(), stdout);
+    std::printf("%zu hypotheses were tried\n", found.tried);
   }
   return found.explains ? kExitWell : kExitFailed;
 }

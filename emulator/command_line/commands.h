@@ -114,7 +114,7 @@ struct RunArguments {
   HostArguments host{};                // a command that runs beside each scenario, if it has words
   OnArguments on{};
   std::string timeout;  // a duration: for the command
-  std::string version;  // the version of this program
+  std::string version;    // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
 
@@ -122,6 +122,7 @@ struct ProbeArguments {
   std::string port;
   std::string model;
   std::string output;  // the evidence
+  std::string box;     // a name for the controller, for the evidence
   std::string proofs;  // a folder; empty: the one that comes with the program
   std::optional<int> station{};
   OnArguments on{};  // its `on` is not used
@@ -303,6 +304,9 @@ struct CompareArguments {
   std::string inputs;           // a file: what the inputs did
   double sample_rate = 0;       // for a log that counts samples; 0: not given
   std::string format = "text";  // text, json, sarif or github
+  std::string report;           // a file: a page; empty: none
+  bool follow = false;          // a capture that grows
+  std::string version;          // the version of this program
 };
 /// Plays captures of a real controller against a bench, and judges each reply.
 int compare_captures(ModelList models, const CompareArguments& arguments);

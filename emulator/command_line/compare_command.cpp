@@ -1,192 +1,166 @@
 // Implements `compare`: plays captures against a bench, and judges each reply.
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "base/simulated_time.h"
+#include "base/choices.h"
+#include "base/files/content_kind.h"
+#include "base/files/file_claims.h"
 #include "base/text/one_line.h"
 #include "emulator/box/calibrate/calibration.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/comparison.h"
 #include "emulator/box/compare/judge.h"
+#include "emulator/box/compare/replay_bench.h"
 #include "emulator/command_line/box_bench.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/compare_report.h"
 #include "emulator/command_line/findings.h"
+#include "emulator/command_line/interruption.h"
+#include "emulator/command_line/output_paths.h"
+#include "emulator/command_line/result_file.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
 
 namespace understudy::emulator::command_line {
 
 namespace {
 
-using box::Verdict;
 using Report = nlohmann::ordered_json;
 
-using VerdictCounts = std::array<std::size_t, box::kVerdictNames.size()>;
+/// The exchanges that are held to look for drift and for options, from the beginning of a capture.
+constexpr std::size_t kHeld = 100'000;
+/// Judges of a capture that grows tell soon what is late.
+constexpr std::size_t kFollowedSamples = 20;
 
-VerdictCounts verdict_counts(const box::Comparison& comparison) {
-  VerdictCounts counts{};
-  for (const box::Judgement& judgement : comparison.judgements)
-    ++counts[static_cast<std::size_t>(judgement.verdict)];
-  return counts;
-}
+/// Judges exchanges as they are read. It holds one of them, since a reply is awaited until the next request.
+class StreamedComparison {
+ public:
+  StreamedComparison(const BoxBench& box, const box::CompareSettings& settings, std::size_t delay_samples,
+                     box::ReplyTimes::Sink sink)
+      : bench_(box.bench), settings_(settings), times_(settings.tolerance, delay_samples, std::move(sink)) {}
 
-std::string delay_text(SimTime time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f ms", std::chrono::duration<double, std::milli>(time).count());
-  return text;
-}
-
-/// Returns "118 same, 1 different".
-std::string verdicts_text(const VerdictCounts& counts) {
-  std::string text;
-  for (const auto& [verdict, name] : box::kVerdictNames) {
-    const std::size_t count = counts[static_cast<std::size_t>(verdict)];
-    if (count == 0) continue;
-    std::string words(name);
-    std::ranges::replace(words, '_', ' ');
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + words;
+  void add(box::Exchange exchange, const box::CaptureNotes& notes,
+           const std::vector<box::InputChange>& inputs) {
+    if (!comparer_) comparer_.emplace(bench_, settings_, notes, inputs, exchange.at, box::Extent::whole);
+    if (waiting_) judge(exchange.at, false);
+    waiting_ = std::move(exchange);
   }
-  return text;
-}
+  void finish() {
+    if (waiting_) judge(std::nullopt, true);
+    times_.finish();
+  }
+  SimTime usual_delay() const { return times_.usual_delay(); }
 
-/// Returns a request in words without the values that it writes: the same for all similar requests.
-std::string request_kind(const std::string& request) { return request.substr(0, request.find(" = ")); }
+ private:
+  void judge(std::optional<SimTime> next, bool is_last) {
+    box::Judgement judgement = comparer_->judge(*waiting_, next, is_last);
+    times_.add(*std::exchange(waiting_, std::nullopt), std::move(judgement));
+  }
 
-struct Compared {
-  box::Comparison comparison;
-  double drift_ppm = 0;
-  std::vector<std::string> remedies{};  // "feeder.exceptions: no_answer"
+  const world::Bench& bench_;
+  const box::CompareSettings& settings_;
+  box::ReplyTimes times_;
+  std::optional<box::Comparer> comparer_;
+  std::optional<box::Exchange> waiting_;
 };
 
-Compared compare_one(const BoxBench& box, const box::Capture& capture) {
+/// Returns the section of the manual for the first register that a request asks for.
+std::string section_of(const BoxBench& box, const box::Exchange& exchange) {
+  const auto asked = box::addressed_by(exchange.request);
+  const box::ReplayBench replay(box.bench, box.settings.line);
+  const RegisterBank* const bank = asked ? replay.bank_of(exchange.request) : nullptr;
+  if (bank == nullptr) return "";
+  const Place place = bank->at(asked->table, asked->first);
+  return place ? std::string(place.row->section) : "";
+}
+
+Remedy remedy_of(const BoxBench& box, const box::Hypothesis& hypothesis) {
+  const auto& [key, option] = *hypothesis.begin();
+  Remedy remedy{.text = choice_text(box.bench, key.device, box::choice_id(box.bench, key)) + ": " +
+                        box::option_name(box.bench, key, option),
+                .section = {},
+                .question = {}};
+  if (key.row == box::ChoiceKey::kFirmware) return remedy;
+  const ChoiceRow& row = box.bench.devices[key.device].model->choices[key.row];
+  remedy.section = std::string(row.section);
+  remedy.question = std::string(row.question);
+  return remedy;
+}
+
+/// Reads the capture once, and once more if the controller's clock turns out to be off.
+CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::string& path) {
   box::CompareSettings settings = box.settings;
-  Compared compared{.comparison = box::compare(box.bench, capture, settings, box::Extent::whole)};
-  if (!compared.comparison.first_difference) return compared;
-  settings.drift_ppm = compared.drift_ppm = box::fit_drift(box.bench, capture, settings);
-  if (compared.drift_ppm != 0)
-    compared.comparison = box::compare(box.bench, capture, settings, box::Extent::whole);
-  if (!compared.comparison.first_difference) return compared;
-  const auto remedies =
-      box::remedies(box.bench, capture, *compared.comparison.first_difference, {.compare = settings});
-  for (const box::Hypothesis& remedy : remedies) {
-    const auto& [key, option] = *remedy.begin();
-    compared.remedies.push_back(choice_text(box.bench, key.device, box::choice_id(box.bench, key)) + ": " +
-                                box::option_name(box.bench, key, option));
-  }
+  box::Capture head{.path = path, .line = {}, .exchanges = {}};
+  const auto read = [&] {
+    CaptureComparison compared(path);
+    StreamedComparison streamed(box, settings, box::kDelaySamples,
+                                [&](const box::Exchange& exchange, const box::Judgement& judgement) {
+                                  compared.add(exchange, judgement);
+                                });
+    const bool is_first = head.exchanges.empty();
+    compared.notes = take_exchanges(models, box, path,
+                                    [&](box::Exchange exchange, const box::CaptureNotes& notes,
+                                        const std::vector<box::InputChange>& inputs) {
+                                      if (is_first && head.exchanges.empty()) head.inputs = inputs;
+                                      if (is_first && head.exchanges.size() < kHeld)
+                                        head.exchanges.push_back(exchange);
+                                      head.is_cut = head.is_cut || head.exchanges.size() == kHeld;
+                                      streamed.add(std::move(exchange), notes, inputs);
+                                    });
+    streamed.finish();
+    compared.usual_delay = streamed.usual_delay();
+    compared.drift_ppm = settings.drift_ppm;
+    return compared;
+  };
+  CaptureComparison compared = read();
+  if (!compared.is_different()) return compared;
+  head.notes = compared.notes;
+  settings.drift_ppm = box::fit_drift(box.bench, head, settings);
+  if (settings.drift_ppm != 0) compared = read();
+  if (!compared.is_different()) return compared;
+  compared.has_searched = compared.first_number() < head.exchanges.size();
+  if (!compared.has_searched) return compared;
+  compared.first_section = section_of(box, head.exchanges[compared.first_number()]);
+  for (const box::Hypothesis& one :
+       box::remedies(box.bench, head, compared.first_number(), {.compare = settings}))
+    compared.remedies.push_back(remedy_of(box, one));
   return compared;
 }
 
-/// Counts verdicts by what was asked: function and registers.
-std::map<std::string, VerdictCounts> counts_by_kind(const box::Comparison& comparison) {
-  std::map<std::string, VerdictCounts> by_kind;
-  for (const box::Judgement& judgement : comparison.judgements)
-    ++by_kind[request_kind(judgement.request)][static_cast<std::size_t>(judgement.verdict)];
-  return by_kind;
-}
-
-void print_difference(const box::Capture& capture, const Compared& compared) {
-  const std::size_t number = *compared.comparison.first_difference;
-  const box::Exchange& exchange = capture.exchanges[number];
-  const box::Judgement& judgement = compared.comparison.judgements[number];
-  std::printf("  first difference: %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
-              format_duration(exchange.at).c_str());
-  std::size_t agreed = number;
-  while (agreed > 0 && compared.comparison.judgements[agreed - 1].verdict == Verdict::undecidable) --agreed;
-  if (agreed > 0)
-    std::printf("    last agreement: %s\n",
-                one_line(compared.comparison.judgements[agreed - 1].request).c_str());
-  std::printf("    request:        %s\n", one_line(judgement.request).c_str());
-  std::printf("    controller:     %s\n", one_line(judgement.box).c_str());
-  std::printf("    bench:          %s\n", one_line(judgement.bench).c_str());
-  for (const std::string& remedy : compared.remedies) std::printf("    it agrees with  %s\n", remedy.c_str());
-  if (compared.remedies.empty()) std::printf("    no other option of a single choice agrees with it\n");
-}
-
-void print_comparison(const box::Capture& capture, const Compared& compared) {
-  const box::Comparison& comparison = compared.comparison;
-  std::printf("%s: %zu exchanges: %s\n", capture.path.c_str(), capture.exchanges.size(),
-              verdicts_text(verdict_counts(comparison)).c_str());
-  for (const std::string& note : notes_text(capture.notes)) std::printf("  %s\n", note.c_str());
-  if (compared.drift_ppm != 0)
-    std::printf("  the controller's clock is %.0f ppm %s\n", std::abs(compared.drift_ppm),
-                compared.drift_ppm > 0 ? "faster than the capture's" : "slower than the capture's");
-  if (comparison.usual_delay.count() != 0)
-    std::printf("  replies usually come %s after the bench's\n", delay_text(comparison.usual_delay).c_str());
-  if (!comparison.first_difference) return;
-  print_difference(capture, compared);
-  for (const auto& [kind, counts] : counts_by_kind(comparison)) {
-    const std::size_t different = counts[static_cast<std::size_t>(Verdict::different)];
-    const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    if (different > 0) std::printf("  %zu of %zu differ: %s\n", different, all, one_line(kind).c_str());
-  }
-}
-
-Report report_of(const box::Capture& capture, const Compared& compared) {
-  const box::Comparison& comparison = compared.comparison;
-  Report report{{"capture", capture.path}, {"line", capture.line}, {"exchanges", capture.exchanges.size()}};
-  const VerdictCounts counts = verdict_counts(comparison);
-  for (const auto& [verdict, name] : box::kVerdictNames)
-    report[std::string(name)] = counts[static_cast<std::size_t>(verdict)];
-  report["format"] = capture.notes.format;
-  report["notes"] = notes_text(capture.notes);
-  report["drift_ppm"] = compared.drift_ppm;
-  report["usual_delay_ns"] = comparison.usual_delay.count();
-  report["first_difference"] = nullptr;
-  if (comparison.first_difference) {
-    report["first_difference"] = capture.exchanges[*comparison.first_difference].place;
-    report["agrees_with"] = compared.remedies;
-  }
-  report["by_request"] = Report::array();
-  for (const auto& [kind, of_kind] : counts_by_kind(comparison)) {
-    Report row{{"request", one_line(kind)}};
-    for (const auto& [verdict, name] : box::kVerdictNames)
-      if (const std::size_t count = of_kind[static_cast<std::size_t>(verdict)]; count != 0)
-        row[std::string(name)] = count;
-    report["by_request"].push_back(std::move(row));
-  }
-  report["not_same"] = Report::array();
-  for (std::size_t i = 0; i < comparison.judgements.size(); ++i) {
-    const box::Judgement& judgement = comparison.judgements[i];
-    if (judgement.verdict == Verdict::same) continue;
-    report["not_same"].push_back({{"place", capture.exchanges[i].place},
-                                  {"at_ns", capture.exchanges[i].at.count()},
-                                  {"verdict", box::name_of(judgement.verdict)},
-                                  {"request", one_line(judgement.request)},
-                                  {"controller", one_line(judgement.box)},
-                                  {"bench", one_line(judgement.bench)},
-                                  {"later_ns", judgement.later.count()}});
-  }
-  return report;
-}
-
-/// Differences as findings in the capture, for editors and CI services.
-CheckedFile findings_in(const box::Capture& capture, const Compared& compared) {
-  CheckedFile checked{.file = capture.path, .kind = "capture"};
-  const auto& judgements = compared.comparison.judgements;
-  for (std::size_t i = 0; i < judgements.size(); ++i) {
-    const box::Judgement& judgement = judgements[i];
-    const bool is_different = judgement.verdict == Verdict::different;
-    if (!is_different && judgement.verdict != Verdict::late && judgement.verdict != Verdict::early) continue;
-    std::string text = one_line(judgement.request) + ": controller: " + one_line(judgement.box) +
-                       "; bench: " + one_line(judgement.bench);
-    if (!is_different)
-      text = one_line(judgement.request) + ": the reply is " + std::string(box::name_of(judgement.verdict));
-    checked.findings.push_back({.place = {capture.path, static_cast<int>(capture.exchanges[i].place), 0},
-                                .text = std::move(text),
-                                .is_warning = !is_different});
-  }
-  if (!compared.comparison.first_difference) checked.is = "a capture that agrees";
-  return checked;
+/// Reports each reply that is neither the same nor undecidable, as soon as the next request comes.
+int follow_capture(const BoxBench& box, const CompareArguments& arguments) {
+  if (arguments.captures.size() != 1)
+    throw UsageError("compare: --follow follows one capture; expected one CAPTURE");
+  watch_for_interruption();
+  const std::string& path = arguments.captures.front();
+  CaptureComparison compared(path);
+  StreamedComparison streamed(
+      box, box.settings, kFollowedSamples,
+      [&](const box::Exchange& exchange, const box::Judgement& judgement) {
+        compared.add(exchange, judgement);
+        using enum box::Verdict;
+        if (judgement.verdict == same || judgement.verdict == within || judgement.verdict == undecidable)
+          return;
+        std::printf("%s\n", CaptureComparison::line_of(
+                                path, {.place = exchange.place, .at = exchange.at, .judgement = judgement})
+                                .c_str());
+        std::fflush(stdout);
+      });
+  compared.notes = follow_exchanges(
+      box, path,
+      [&](box::Exchange exchange, const box::CaptureNotes& notes,
+          const std::vector<box::InputChange>& inputs) { streamed.add(std::move(exchange), notes, inputs); });
+  streamed.finish();
+  compared.usual_delay = streamed.usual_delay();
+  compared.has_searched = false;
+  std::fputs(compared.text().c_str(), stdout);
+  return compared.is_different() ? kExitFailed : kExitWell;
 }
 
 }  // namespace
@@ -197,24 +171,28 @@ int compare_captures(ModelList models, const CompareArguments& arguments) {
     throw UsageError("--format: " + quoted(arguments.format) +
                      " is not a format; expected text, json, sarif or github");
   const BoxBench box = read_box_bench(models, "compare", arguments);
+  if (arguments.follow) return follow_capture(box, arguments);
+  FileClaims claims;
+  claims.add({arguments.bench, "the bench itself"});
+  for (const std::string& path : arguments.captures) claims.add({path, "an input capture"});
+  ResultFile page("--report", require_output(claims, "--report", arguments.report), ContentKind::page);
+  std::vector<CaptureComparison> all;
   bool is_different = false;
-  Report all = Report::array();
-  std::vector<CheckedFile> findings;
-  for (const box::Capture& capture : box.captures) {
-    const Compared compared = compare_one(box, capture);
-    is_different = is_different || compared.comparison.first_difference.has_value();
-    switch (*format) {
-      case FindingFormat::text: print_comparison(capture, compared); break;
-      case FindingFormat::json: all.push_back(report_of(capture, compared)); break;
-      case FindingFormat::sarif:
-      case FindingFormat::github: findings.push_back(findings_in(capture, compared)); break;
-    }
+  for (const std::string& path : arguments.captures) {
+    all.push_back(compare_one(models, box, path));
+    is_different = is_different || all.back().is_different();
+    if (*format == FindingFormat::text) std::fputs(all.back().text().c_str(), stdout);
   }
   if (*format == FindingFormat::json) {
-    std::printf("%s\n", all.dump(1, ' ', false, Report::error_handler_t::replace).c_str());
+    Report report = Report::array();
+    for (const CaptureComparison& one : all) report.push_back(one.json());
+    std::printf("%s\n", report.dump(1, ' ', false, Report::error_handler_t::replace).c_str());
   } else if (*format != FindingFormat::text) {
+    std::vector<CheckedFile> findings;
+    for (const CaptureComparison& one : all) findings.push_back(one.findings());
     std::fputs(findings_as(*format, findings).c_str(), stdout);
   }
+  if (page.is_wanted()) page.write(compare_page(all, arguments.bench, arguments.version));
   return is_different ? kExitFailed : kExitWell;
 }
 

@@ -56,6 +56,7 @@ namespace {
 std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row) {
   std::string text = (file.box.empty() ? file.path : file.box) + " (" + row.firmware + ")";
   if (!row.capture.empty()) text += ", " + row.capture + ":" + std::to_string(row.place);
+  if (!row.proof.empty()) text += ", " + row.proof;
   return text;
 }
 

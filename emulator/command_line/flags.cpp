@@ -25,6 +25,7 @@
 #include "emulator/command_line/ctl_words.h"
 #include "emulator/command_line/import_flags.h"
 #include "emulator/command_line/looking_flags.h"
+#include "emulator/command_line/model_flags.h"
 #include "emulator/command_line/page_flags.h"
 #include "emulator/command_line/poll_flags.h"
 #include "emulator/command_line/replay_flags.h"
@@ -98,18 +99,7 @@ struct CommandLine {
   }
 
   void add_describe(CLI::App& command) {
-    command.add_option("MODEL", describe.model, "A name from `understudy models`, or a model file")
-        ->required();
-    command
-        .add_option("WHAT", describe.what,
-                    "registers, parameters, instructions, commands, choices, ports or blocks")
-        ->required();
-    command.add_option("--format", describe.format, "Output format: table, csv, json or markdown")
-        ->capture_default_str();
-    command
-        .add_option("--evidence", describe.evidence,
-                    "For choices: show what `calibrate -o` has measured in these files")
-        ->check(kNotEmpty);
+    add_describe_flags(command, describe);
     command.callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
 
@@ -260,9 +250,11 @@ struct CommandLine {
 
   void add_compare(CLI::App& command) {
     add_compare_flags(command, compare);
-    command.add_option("--format", compare.format, "Output format: text, json, sarif or github")
-        ->capture_default_str();
-    command.callback([this] { chosen = [this] { return compare_captures(models, compare); }; });
+    add_compare_looks(command, compare);
+    command.callback([this] {
+      compare.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return compare_captures(models, compare); };
+    });
   }
 
   void add_calibrate(CLI::App& command) {
@@ -286,12 +278,6 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return plot_trace(plot); }; });
   }
 
-  static void add_firmware_and_choices(CLI::App& command, ProgramTextArguments& text) {
-    command.add_option("--firmware", text.firmware, "Firmware version that runs the program [newest]")
-        ->check(kNotEmpty);
-    command.add_option("--choice", text.choices, "Choose another option: ID=OPTION")->check(kNotEmpty);
-  }
-
   void add_program_text(CLI::App& command, const char* file_help) {
     program.model = "simple2-r3";
     command.add_option("FILE", program.file, file_help)->required();
@@ -310,16 +296,7 @@ struct CommandLine {
   }
 
   void add_check(CLI::App& command) {
-    command
-        .add_option("FILE", check.files,
-                    "Bench, scenario and model files, or folders of them; with --model, programs")
-        ->required();
-    command.add_option("--model", check.programs.model, "Check the files as programs of this model")
-        ->check(kNotEmpty);
-    add_firmware_and_choices(command, check.programs);
-    add_save_below(command, check.save_below);
-    command.add_option("--format", check.format, "Output format: text, json, sarif or github")
-        ->capture_default_str();
+    add_check_flags(command, check);
     command.callback([this] { chosen = [this] { return check_files(models, check); }; });
   }
 

@@ -1,6 +1,5 @@
 // Implements `probe`: plays the proofs of choices with a real controller, and tells which options it has.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
@@ -8,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +16,7 @@
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
 #include "base/simulated_time.h"
-#include "base/text/one_line.h"
+#include "emulator/box/calibrate/evidence_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/command_line/model_option.h"
@@ -27,6 +25,7 @@
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
 #include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/run.h"
@@ -40,7 +39,6 @@ namespace understudy::emulator::command_line {
 namespace {
 
 namespace fs = std::filesystem;
-using Evidence = nlohmann::ordered_json;
 using Verdict = play::ScenarioResult::Verdict;
 
 /// The case of a proof for one option of a choice, and what a real controller made of it.
@@ -76,7 +74,6 @@ struct Probed {
   /// Proofs of many options tell most.
   std::size_t weight() const { return cases.size(); }
 };
-constexpr std::array<const char*, 4> kStates{"measured", "contradicted", "undecided", "not_exercised"};
 
 /// Returns the folder of the model's proofs: of the source tree, or as they are installed.
 std::string folder_of_proofs(const Model& model, const std::string& given) {
@@ -198,42 +195,24 @@ void play_all(Probed& probed, OnStage& stage, int times) {
   }
 }
 
-Evidence evidence_of(const Model& model, const ProbeArguments& arguments, const std::vector<Probed>& proofs) {
-  Evidence evidence{{"understudy", 1},
-                    {"kind", "evidence"},
-                    {"model", model.name},
-                    {"port", arguments.port},
-                    {"choices", Evidence::array()}};
+/// The proofs are of the newest firmware.
+box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& arguments,
+                              const std::vector<Probed>& proofs) {
+  const std::string device = "box";
+  box::EvidenceFile evidence{.box = arguments.box, .port = arguments.port};
+  evidence.devices = {{device, std::string(model.name), version_text(model.firmwares.back())}};
   for (const Probed& probed : proofs) {
-    Evidence row{{"choice", probed.choice->id},
-                 {"state", probed.state()},
-                 {"options", probed.is_told() ? probed.agreeing() : std::vector<std::string>()},
-                 {"proof", probed.cases.front().scenario->file}};
+    box::EvidenceRow row{.device = device,
+                         .choice = std::string(probed.choice->id),
+                         .state = probed.state(),
+                         .options = probed.is_told() ? probed.agreeing() : std::vector<std::string>(),
+                         .expected = std::string(options_of(*probed.choice).front()),
+                         .proof = probed.cases.front().scenario->file};
     for (const OptionCase& one : probed.cases)
-      if (!one.why.empty()) row["seen"][one.option] = one_line(one.why);
-    evidence["choices"].push_back(row);
+      if (!one.why.empty()) row.seen[one.option] = one.why;
+    evidence.rows.push_back(std::move(row));
   }
   return evidence;
-}
-
-void print_table(const std::vector<Probed>& proofs) {
-  std::map<std::string, std::size_t> counts;
-  for (const Probed& probed : proofs) {
-    const std::string state = probed.state();
-    ++counts[state];
-    if (state == "not_exercised") continue;
-    std::string options;
-    for (const std::string& option : probed.agreeing()) options += (options.empty() ? "" : " or ") + option;
-    const bool is_new = state == "measured" && options != options_of(*probed.choice).front();
-    std::printf("  %-12s %s: %s%s\n", state.c_str(), std::string(probed.choice->id).c_str(),
-                options.empty() ? "none of its options" : options.c_str(),
-                is_new ? "  (the model's default is another)" : "");
-  }
-  std::string text;
-  for (const char* const state : kStates)
-    text += (text.empty() ? "" : ", ") + std::to_string(counts[state]) + " " + state;
-  std::ranges::replace(text, '_', ' ');
-  std::printf("%s\n", text.c_str());
 }
 
 }  // namespace
@@ -256,8 +235,9 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
     is_over = true;
   }
   if (on.plan) return kExitWell;
-  print_table(proofs);
-  if (output.is_wanted()) output.write(evidence_of(model, arguments, proofs).dump(1) + "\n");
+  const box::EvidenceFile evidence = evidence_of(model, arguments, proofs);
+  std::fputs(box::evidence_table(evidence, "the model's default is another").c_str(), stdout);
+  if (output.is_wanted()) output.write(box::evidence_text(evidence));
   return is_over ? kExitFailed : kExitWell;
 }
 

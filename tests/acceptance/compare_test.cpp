@@ -146,6 +146,62 @@ TEST_F(Compare, ReportsDifferencesAsSarif) {
             std::string::npos);
 }
 
+TEST_F(Compare, WritesAReportOfAllCaptures) {
+  const std::string other = capture_of("version_encoding: bcd", 338);
+  const std::string page = folder_ / "report.html";
+  const Finished finished = understudy({"compare", other, "--bench", plain_, "--power-up", "--report", page});
+  EXPECT_EQ(finished.exit_code, 1) << finished.errors;
+  const std::string text = run({"cat", page}).output;
+  EXPECT_NE(text.find("<h1>1 of 1 captures differ</h1>"), std::string::npos) << text;
+  EXPECT_NE(text.find("<td>box.Version = 338</td>"), std::string::npos) << text;
+  EXPECT_NE(text.find("<td>box.Version = 152</td>"), std::string::npos) << text;
+  EXPECT_NE(text.find("box.version_encoding: bcd ("), std::string::npos) << "its section: " << text;
+  EXPECT_EQ(text.find("<script"), std::string::npos);
+  const Finished refused = understudy({"compare", other, "--bench", plain_, "--power-up", "--report", other});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("is an input capture"), std::string::npos) << refused.errors;
+}
+
+/// Records a scenario in which an input changes, and that writes a register past the line at its end.
+TEST_F(Compare, TakesARecordingAsACapture) {
+  folder_.write("box.yaml", bench_with("version_encoding: bcd"));
+  const std::string scenario =
+      folder_.write("scenario.yaml",
+                    "understudy: 1\nname: talk\nbench: box.yaml\nsteps:\n  - expect: { box.HW_Code: 49153 }\n"
+                    "  - input: { box.DIN_10: on }\n  - advance: 100ms\n  - expect: { box.DIN_10: 1 }\n"
+                    "  - expect: { box.Version: 338 }\n");
+  const Finished run = understudy({"run", scenario, "--record", folder_ / "recordings"});
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  const std::string recording = folder_ / "recordings/talk.jsonl";
+  const Finished other = understudy({"compare", recording, "--bench", plain_, "--format", "json"});
+  EXPECT_EQ(other.exit_code, 1) << other.output << other.errors;
+  const json report = json::parse(other.output, nullptr, false)[0];
+  EXPECT_EQ(report["same"], 2) << "the input moved, too: " << other.output;
+  EXPECT_EQ(report["different"], 1) << other.output;
+  EXPECT_EQ(report["agrees_with"], json{"box.version_encoding: bcd"});
+  const std::string bcd = folder_.write("bcd.yaml", bench_with("version_encoding: bcd"));
+  EXPECT_EQ(understudy({"compare", recording, "--bench", bcd}).exit_code, 0);
+  const Finished options = understudy({"calibrate", recording, "--bench", plain_, "--choices"});
+  EXPECT_EQ(options.output, "choices:  # of box\n  version_encoding: bcd\n") << options.errors;
+}
+
+TEST_F(Compare, DoesNotJudgeAfterADeviceChangedOtherwise) {
+  folder_.write("box.yaml", bench_with(""));
+  const std::string scenario =
+      folder_.write("scenario.yaml",
+                    "understudy: 1\nname: talk\nbench: box.yaml\nsteps:\n  - expect: { box.HW_Code: 49153 }\n"
+                    "  - power: { box: cycle }\n  - advance: 5s\n  - expect: { box.Version: 152 }\n");
+  const Finished run = understudy({"run", scenario, "--record", folder_ / "recordings"});
+  ASSERT_EQ(run.exit_code, 0) << run.output << run.errors;
+  const std::string other = folder_.write("bcd.yaml", bench_with("version_encoding: bcd"));
+  const Finished judged =
+      understudy({"compare", folder_ / "recordings/talk.jsonl", "--bench", other, "--format", "json"});
+  EXPECT_EQ(judged.exit_code, 0) << judged.output << judged.errors;
+  const json report = json::parse(judged.output, nullptr, false)[0];
+  EXPECT_EQ(report["undecidable"], 1) << judged.output;
+  EXPECT_NE(report["notes"].dump().find("from power at "), std::string::npos) << judged.output;
+}
+
 TEST_F(Compare, MovesInputsAsAFileSays) {
   // A scenario with an input gives the capture; the file repeats what it did.
   const std::string bench = folder_.write("box.yaml", bench_with(""));
@@ -205,6 +261,7 @@ TEST_F(Compare, RefusesWhatItCannotReadInOneLine) {
       {{"compare", text, "--bench", plain_, "--every", "soon"}, "is not a time between requests"},
       {{"compare", text, "--bench", plain_, "--format", "xml"}, "is not a format"},
       {{"compare", plain_, "--bench", plain_}, "capture: is a bench; expected a capture"},
+      {{"compare", text, text, "--bench", plain_, "--follow"}, "--follow follows one capture"},
       {{"compare", folder_ / "none", "--bench", plain_}, "expected a capture"},
       {{"compare", text, "--bench", folder_ / "none"}, "none"},
       {{"compare", text, "--bench", plain_, "--line", "other"}, "the bench has no line called 'other'"},

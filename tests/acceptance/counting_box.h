@@ -1,5 +1,5 @@
 // A controller on a pseudo-terminal that a test makes itself. It agrees with every request, and counts the
-// functions that it is asked for, and the writes to each address.
+// functions that it is asked for, and the writes to each address. A test may decide what it tells.
 #pragma once
 
 #include <fcntl.h>
@@ -10,10 +10,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/files/descriptor.h"
@@ -25,7 +27,10 @@ class CountingBox {
  public:
   using Frame = std::vector<std::uint8_t>;
 
-  CountingBox() : master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+  /// Returns what a register holds when it is read again after `times` reads.
+  using Tell = std::function<int(int address, int times)>;
+
+  explicit CountingBox(Tell tell = {}) : tell_(std::move(tell)), master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
     ::grantpt(master_.get());
     ::unlockpt(master_.get());
     path_ = ::ptsname(master_.get());
@@ -81,7 +86,7 @@ class CountingBox {
     const int words = request[4] << 8 | request[5];
     Frame reply{request[0], request[1], static_cast<std::uint8_t>(2 * words)};
     for (int i = 0; i < words; ++i) {
-      const int value = values_[first + i];
+      const int value = tell_ ? tell_(first + i, times_read_[first + i]++) : values_[first + i];
       reply.push_back(static_cast<std::uint8_t>(value >> 8));
       reply.push_back(static_cast<std::uint8_t>(value));
     }
@@ -108,6 +113,8 @@ class CountingBox {
     }
   }
 
+  Tell tell_;
+  std::map<int, int> times_read_;
   Descriptor master_;
   Descriptor slave_;
   std::string path_;

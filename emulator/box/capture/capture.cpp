@@ -25,9 +25,8 @@ std::string head_of(std::istream& file) {
   return head;
 }
 
-std::string read_pieces(std::istream& file, const std::string& path, const CaptureSettings& settings,
-                        const PieceSink& sink) {
-  const std::string head = head_of(file);
+std::string read_pieces(std::istream& file, const std::string& head, const std::string& path,
+                        const CaptureSettings& settings, const PieceSink& sink) {
   if (is_packet_file(head)) return read_packet_pieces(file, path, sink);
   if (settings.pattern.empty() && is_our_text(head)) {
     read_text_pieces(file, path, sink);
@@ -43,15 +42,22 @@ std::string capture_format(const std::string& head) {
   return is_our_text(head) ? "a capture" : log_format(head);
 }
 
-CaptureNotes read_exchanges(std::istream& file, const std::string& path, const CaptureSettings& settings,
-                            const ExchangeSink& sink) {
-  CaptureNotes notes{.line = settings.line};
+void read_exchanges(std::istream& file, const std::string& head, const std::string& path,
+                    const CaptureSettings& settings, CaptureNotes& notes, const ExchangeSink& sink) {
+  notes.line = settings.line;
   ExchangeBuilder builder(path, settings, notes, sink);
-  notes.format = read_pieces(file, path, settings, [&](CapturedPiece piece) {
+  notes.format = read_pieces(file, head, path, settings, [&](CapturedPiece piece) {
     if (piece.counts_from_power_up) notes.begins_at_power_up = true;
     builder.add(std::move(piece));
   });
   builder.finish();
+}
+
+CaptureNotes read_exchanges(std::istream& file, const std::string& path, const CaptureSettings& settings,
+                            const ExchangeSink& sink) {
+  CaptureNotes notes;
+  const std::string head = head_of(file);
+  read_exchanges(file, head, path, settings, notes, sink);
   return notes;
 }
 

@@ -57,6 +57,16 @@ struct CaptureNotes {
   bool is_side_inferred = false;
   bool is_modbus_tcp = false;
   bool begins_at_power_up = false;  // its time 0 is the controller's power-up, if anybody says so
+  bool knows_beginning = false;     // it is a recording, which says so
+  std::string beyond_the_line{};    // what else has changed a recorded device, and when
+};
+
+/// What an input did.
+struct InputChange {
+  SimTime at{0};
+  std::size_t device = 0;  // of the bench
+  int terminal = 0;
+  std::int32_t level = 0;
 };
 
 struct Capture {
@@ -64,7 +74,8 @@ struct Capture {
   std::string line;  // the chosen line
   std::vector<Exchange> exchanges;
   CaptureNotes notes{};
-  bool is_cut = false;  // there were more exchanges
+  std::vector<InputChange> inputs{};  // of a recording
+  bool is_cut = false;                // there were more exchanges
 };
 
 /// Thrown for a bad capture. The message begins with the path and the place, and says what was expected.
@@ -89,6 +100,10 @@ using ExchangeSink = std::function<void(Exchange exchange)>;
 /// read. Throws CaptureReadError.
 CaptureNotes read_exchanges(std::istream& file, const std::string& path, const CaptureSettings& settings,
                             const ExchangeSink& sink);
+/// Like the above, for a file that cannot go back to its beginning. `head` is the beginning, or as much of it
+/// as tells the format; `notes` are updated as the file is read.
+void read_exchanges(std::istream& file, const std::string& head, const std::string& path,
+                    const CaptureSettings& settings, CaptureNotes& notes, const ExchangeSink& sink);
 /// Reads a whole capture into memory.
 Capture read_capture(std::istream& file, const std::string& path, const CaptureSettings& settings);
 

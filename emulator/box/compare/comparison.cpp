@@ -25,92 +25,107 @@ constexpr SimTime kStarted = std::chrono::seconds(5);
 /// A reply later than this belongs to no request.
 constexpr SimTime kLongestWait = std::chrono::seconds(2);
 
-class Fingerprint {
- public:
-  void add(const Frame& bytes) {
-    for (const std::uint8_t byte : bytes) mix(byte);
-    mix(0x100);
-  }
-  std::uint64_t value() const { return value_; }
+constexpr std::uint64_t kFingerprintBasis = 0xCBF2'9CE4'8422'2325U;
 
- private:
-  void mix(std::uint64_t number) { value_ = (value_ ^ number) * 0x100'0000'01B3U; }  // FNV-1a
-  std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
-};
-
-/// Adapters and drivers delay all replies alike. Replies that differ from this usual delay are late or early.
-void judge_times(Comparison& comparison, const std::vector<bool>& has_time, SimTime tolerance) {
-  std::vector<SimTime> all;
-  for (std::size_t i = 0; i < comparison.judgements.size(); ++i)
-    if (has_time[i]) all.push_back(comparison.judgements[i].later);
-  if (all.empty()) return;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  comparison.usual_delay = *middle;
-  for (std::size_t i = 0; i < comparison.judgements.size(); ++i) {
-    Judgement& judgement = comparison.judgements[i];
-    if (!has_time[i] || judgement.verdict != Verdict::same) continue;
-    const SimTime off = judgement.later - comparison.usual_delay;
-    if (off > tolerance) judgement.verdict = Verdict::late;
-    if (-off > tolerance) judgement.verdict = Verdict::early;
-  }
+/// FNV-1a
+std::uint64_t mixed(std::uint64_t fingerprint, const Frame& bytes) {
+  const auto mix = [&](std::uint64_t number) { fingerprint = (fingerprint ^ number) * 0x100'0000'01B3U; };
+  for (const std::uint8_t byte : bytes) mix(byte);
+  mix(0x100);
+  return fingerprint;
 }
 
 }  // namespace
 
+Comparer::Comparer(const world::Bench& bench, const CompareSettings& settings, const CaptureNotes& notes,
+                   std::vector<InputChange> inputs, SimTime first_at, Extent extent)
+    : settings_(settings),
+      extent_(extent),
+      knows_beginning_(settings.from_power_up || notes.knows_beginning),
+      shift_(knows_beginning_ && notes.begins_at_power_up ? SimTime{0}
+                                                          : kStarted - std::min(kStarted, first_at)),
+      replay_(bench, settings.line),
+      judge_(knows_beginning_),
+      fingerprint_(kFingerprintBasis) {
+  inputs.insert(inputs.end(), settings_.inputs.begin(), settings_.inputs.end());
+  std::ranges::stable_sort(inputs, {}, &InputChange::at);
+  for (InputChange& change : inputs) change.at = std::max(SimTime{0}, on_bench(change.at - notes.first_at));
+  replay_.set_inputs(std::move(inputs));
+}
+
+SimTime Comparer::on_bench(SimTime time) const {
+  const double drift = static_cast<double>(time.count()) * settings_.drift_ppm * 1e-6;
+  return time + SimTime{static_cast<std::int64_t>(drift)} + shift_;
+}
+
+Judgement Comparer::judge(const Exchange& exchange, std::optional<SimTime> next, bool is_last) {
+  const SimTime at = on_bench(exchange.at);
+  const SimTime end = next ? std::min(on_bench(*next), at + kLongestWait) : at + kLongestWait;
+  const BenchReply reply = replay_.ask(exchange.request, at, end, settings_.tolerance);
+  Judgement judgement{.verdict = judge_.judge(exchange, reply, replay_.bank_of(exchange.request), is_last),
+                      .has_times = exchange.replied_at.has_value() && reply.at.has_value()};
+  fingerprint_ = mixed(fingerprint_, reply.bytes);
+  if (judgement.has_times) judgement.later = on_bench(*exchange.replied_at) - *reply.at;
+  const auto differs = std::ranges::mismatch(exchange.reply, reply.bytes);
+  const bool is_text = judgement.verdict == Verdict::different && !pty::rtu_crc_ok(exchange.request);
+  agreeing_bytes_ = is_text ? static_cast<std::size_t>(differs.in1 - exchange.reply.begin()) : 0;
+  if (extent_ == Extent::to_difference) return judgement;
+  const world::WorldLine& line = replay_.line();
+  const auto told = [&](const Frame& bytes) {
+    return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
+  };
+  judgement.request = line.request_text(exchange.request);
+  if (judgement.verdict == Verdict::same) return judgement;
+  judgement.box = told(exchange.reply);
+  judgement.bench = told(reply.bytes);
+  return judgement;
+}
+
+void ReplyTimes::add(Exchange exchange, Judgement judgement) {
+  if (usual_) {
+    judge(exchange, judgement);
+    return;
+  }
+  if (judgement.has_times) delays_.push_back(judgement.later);
+  waiting_.emplace_back(std::move(exchange), std::move(judgement));
+  if (delays_.size() >= samples_) finish();
+}
+
+void ReplyTimes::finish() {
+  if (!usual_ && !delays_.empty()) {
+    const auto middle = delays_.begin() + static_cast<std::ptrdiff_t>(delays_.size() / 2);
+    std::nth_element(delays_.begin(), middle, delays_.end());
+    usual_ = *middle;
+  }
+  for (auto& [exchange, judgement] : std::exchange(waiting_, {})) judge(exchange, judgement);
+}
+
+void ReplyTimes::judge(const Exchange& exchange, Judgement& judgement) {
+  if (judgement.has_times && judgement.verdict == Verdict::same) {
+    const SimTime off = judgement.later - usual_delay();
+    if (off > tolerance_) judgement.verdict = Verdict::late;
+    if (-off > tolerance_) judgement.verdict = Verdict::early;
+  }
+  sink_(exchange, judgement);
+}
+
 Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
                    Extent extent) {
-  ReplayBench replay(bench, settings.line);
-  Judge judge(settings.from_power_up);
+  const std::vector<Exchange>& exchanges = capture.exchanges;
+  Comparer comparer(bench, settings, capture.notes, capture.inputs, exchanges.front().at, extent);
   Comparison comparison;
-  Fingerprint fingerprint;
-  std::vector<bool> has_time;
-  const SimTime shift = settings.from_power_up && capture.notes.begins_at_power_up
-                            ? SimTime{0}
-                            : kStarted - std::min(kStarted, capture.exchanges.front().at);
-  const auto on_bench = [&](SimTime time) {
-    const double drift = static_cast<double>(time.count()) * settings.drift_ppm * 1e-6;
-    return time + SimTime{static_cast<std::int64_t>(drift)} + shift;
-  };
-  std::vector<InputChange> inputs = settings.inputs;
-  for (InputChange& change : inputs)
-    change.at = std::max(SimTime{0}, on_bench(change.at - capture.notes.first_at));
-  replay.set_inputs(std::move(inputs));
-  for (std::size_t i = 0; i < capture.exchanges.size(); ++i) {
-    const Exchange& exchange = capture.exchanges[i];
-    const bool is_end = i + 1 == capture.exchanges.size();
-    const bool is_last = is_end && !capture.is_cut;
-    const SimTime at = on_bench(exchange.at);
-    const SimTime next = is_end ? at + kLongestWait : on_bench(capture.exchanges[i + 1].at);
-    const BenchReply reply =
-        replay.ask(exchange.request, at, std::min(next, at + kLongestWait), settings.tolerance);
-    Judgement judgement{.verdict = judge.judge(exchange, reply, replay.bank_of(exchange.request), is_last)};
-    fingerprint.add(reply.bytes);
-    has_time.push_back(exchange.replied_at.has_value() && reply.at.has_value());
-    if (has_time.back()) judgement.later = on_bench(*exchange.replied_at) - *reply.at;
-    const bool is_different = judgement.verdict == Verdict::different;
+  for (std::size_t i = 0; i < exchanges.size(); ++i) {
+    const bool is_end = i + 1 == exchanges.size();
+    const std::optional<SimTime> next = is_end ? std::nullopt : std::optional(exchanges[i + 1].at);
+    comparison.judgements.push_back(comparer.judge(exchanges[i], next, is_end && !capture.is_cut));
+    const bool is_different = comparison.judgements.back().verdict == Verdict::different;
     if (is_different && !comparison.first_difference) {
       comparison.first_difference = i;
-      const auto differs = std::ranges::mismatch(exchange.reply, reply.bytes);
-      const bool is_text = !pty::rtu_crc_ok(exchange.request);
-      if (is_text) comparison.agreeing_bytes = static_cast<std::size_t>(differs.in1 - exchange.reply.begin());
+      comparison.agreeing_bytes = comparer.agreeing_bytes();
     }
-    if (extent == Extent::whole) {
-      const world::WorldLine& line = replay.line();
-      const auto told = [&](const Frame& bytes) {
-        return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
-      };
-      judgement.request = line.request_text(exchange.request);
-      if (judgement.verdict != Verdict::same) {
-        judgement.box = told(exchange.reply);
-        judgement.bench = told(reply.bytes);
-      }
-    }
-    comparison.judgements.push_back(std::move(judgement));
     if (is_different && extent == Extent::to_difference) break;
   }
-  comparison.fingerprint = fingerprint.value();
-  if (extent == Extent::whole) judge_times(comparison, has_time, settings.tolerance);
+  comparison.fingerprint = comparer.fingerprint();
   return comparison;
 }
 

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -26,8 +28,9 @@ struct CompareSettings {
 
 struct Judgement {
   Verdict verdict = Verdict::same;
-  SimTime later{0};       // how much later the reply was than the bench's
-  std::string request{};  // in words; only for Extent::whole
+  bool has_times = false;  // of both replies
+  SimTime later{0};        // how much later the reply was than the bench's
+  std::string request{};   // in words; only for Extent::whole
   std::string box{};
   std::string bench{};
 };
@@ -38,7 +41,6 @@ struct Comparison {
   /// Of lines of text: how many characters at the beginning of the reply that differs agree. Such a reply may
   /// differ for several reasons at once.
   std::size_t agreeing_bytes = 0;
-  SimTime usual_delay{0};         // of a reply, compared to the bench's
   std::uint64_t fingerprint = 0;  // of all that the bench has replied
 };
 
@@ -49,5 +51,59 @@ enum class Extent : std::uint8_t {
 /// Throws what World throws for settings that a model refuses.
 Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
                    Extent extent);
+
+/// Judges exchanges one by one, in their order. It holds none of them.
+class Comparer {
+ public:
+  /// `notes` and `inputs` are those of the capture, and `first_at` is the time of its first exchange. Throws
+  /// what World throws for settings that a model refuses.
+  Comparer(const world::Bench& bench, const CompareSettings& settings, const CaptureNotes& notes,
+           std::vector<InputChange> inputs, SimTime first_at, Extent extent);
+
+  /// `next` is the time of the next exchange. `is_last`: the capture may end before the reply.
+  Judgement judge(const Exchange& exchange, std::optional<SimTime> next, bool is_last);
+
+  std::uint64_t fingerprint() const { return fingerprint_; }
+  /// Of the exchange that was judged last.
+  std::size_t agreeing_bytes() const { return agreeing_bytes_; }
+
+ private:
+  SimTime on_bench(SimTime time) const;
+
+  CompareSettings settings_;
+  Extent extent_;
+  bool knows_beginning_;
+  SimTime shift_{0};  // from the capture's time to the bench's
+  ReplayBench replay_;
+  Judge judge_;
+  std::uint64_t fingerprint_;
+  std::size_t agreeing_bytes_ = 0;
+};
+
+/// Tells which replies are late or early. Adapters and drivers delay all replies alike: the usual delay is
+/// the median of the first replies. Judgements wait until it is known.
+class ReplyTimes {
+ public:
+  using Sink = std::function<void(const Exchange& exchange, const Judgement& judgement)>;
+  /// `samples` is the number of replies of which the usual delay is taken.
+  ReplyTimes(SimTime tolerance, std::size_t samples, Sink sink)
+      : tolerance_(tolerance), samples_(samples), sink_(std::move(sink)) {}
+
+  void add(Exchange exchange, Judgement judgement);
+  void finish();
+  SimTime usual_delay() const { return usual_.value_or(SimTime{0}); }
+
+ private:
+  void judge(const Exchange& exchange, Judgement& judgement);
+
+  SimTime tolerance_;
+  std::size_t samples_;
+  Sink sink_;
+  std::vector<std::pair<Exchange, Judgement>> waiting_;
+  std::vector<SimTime> delays_;
+  std::optional<SimTime> usual_;
+};
+/// Enough for a whole capture of an evening's line, and few enough to hold.
+inline constexpr std::size_t kDelaySamples = 1000;
 
 }  // namespace understudy::emulator::box

@@ -5,24 +5,15 @@
 //   1.5 feeder.AIN_1 2500
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/files/file_error.h"
-#include "base/simulated_time.h"
+#include "emulator/box/capture/capture.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::box {
-
-struct InputChange {
-  SimTime at{0};
-  std::size_t device = 0;
-  int terminal = 0;
-  std::int32_t level = 0;
-};
 
 /// The message begins with the path and the line.
 struct InputLogError : FileError {

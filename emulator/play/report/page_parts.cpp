@@ -1,6 +1,11 @@
 #include "emulator/play/report/page_parts.h"
 
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include "emulator/play/results/junit.h"
 
 namespace understudy::emulator::play {
 
@@ -152,5 +157,29 @@ for (const picture of document.querySelectorAll("svg.picture")) {
   });
 }
 )";
+
+std::string plain_page(std::string_view title, std::string_view subtitle, std::string_view main,
+                       std::string_view version) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Understudy: " +
+         xml_escaped(title) + "</title>\n<style>" + std::string(kPageStyle) +
+         "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(title) + "</h1>\n<p>" +
+         xml_escaped(subtitle) + "</p>\n</header>\n<main>\n" + std::string(main) +
+         "</main>\n<footer>understudy " + xml_escaped(version) + "</footer>\n</body>\n</html>\n";
+}
+
+std::string table_section(std::string_view heading, std::span<const std::string_view> columns,
+                          const std::vector<std::vector<std::string>>& rows) {
+  if (rows.empty()) return "";
+  std::string text = "<section>\n<h2>" + xml_escaped(heading) + "</h2>\n<div class=\"scroll\"><table>\n<tr>";
+  for (const std::string_view column : columns) text += "<th scope=\"col\">" + xml_escaped(column) + "</th>";
+  text += "</tr>\n";
+  for (const std::vector<std::string>& row : rows) {
+    text += "<tr>";
+    for (const std::string& cell : row) text += "<td>" + xml_escaped(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n</section>\n";
+}
 
 }  // namespace understudy::emulator::play
