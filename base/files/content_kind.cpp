@@ -44,6 +44,7 @@ constexpr std::array kKinds{
     KindRow{ContentKind::picture, "a picture", {"<?xml", "<svg"}, "<svg"},
     KindRow{ContentKind::photograph, "a photograph", {"{"}, "\"kind\":\"photograph\"", true},
     KindRow{ContentKind::evidence, "evidence", {"{"}, "\"kind\":\"evidence\"", true},
+    KindRow{ContentKind::certificate, "a certificate", {"{"}, "\"kind\":\"certificate\"", true},
 };
 
 struct NamedKind {

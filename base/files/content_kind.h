@@ -24,6 +24,7 @@ enum class ContentKind : std::uint8_t {
   picture,
   photograph,  // of a real controller
   evidence,    // what real controllers have shown
+  certificate,
   // Kinds from here on are files that people write.
   bench,
   scenario,

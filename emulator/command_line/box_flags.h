@@ -128,4 +128,25 @@ inline void add_calibrate_flags(CLI::App& command, CalibrateArguments& calibrate
   command.add_flag("--choices", calibrate.choices, "Print only the choices that the bench needs");
 }
 
+inline void add_certificate_flags(CLI::App& command, CertificateArguments& certificate) {
+  command
+      .add_option("FILE", certificate.evidence,
+                  "Evidence of `calibrate` and `probe`, about one controller; with --verify, a certificate")
+      ->required()
+      ->check(kNotEmpty);
+  CLI::Option* const verify =
+      command.add_flag("--verify", certificate.verify, "Verify the certificate FILE, signed in FILE.sig");
+  command
+      .add_option("--signers", certificate.signers,
+                  "Keys that you trust, a line for each: NAME ssh-ed25519 AAAA... (see ssh-keygen)")
+      ->check(kNotEmpty)
+      ->needs(verify);
+  command
+      .add_option("-o,--output", certificate.output,
+                  "Certificate to write, FILE.json; its page is FILE.html next to it")
+      ->check(kNotEmpty)
+      ->excludes(verify);
+  add_box_name(command, certificate.box);
+}
+
 }  // namespace understudy::emulator::command_line

@@ -320,6 +320,17 @@ struct CalibrateArguments {
 /// Finds the options of choices with which a bench replies as in captures.
 int calibrate_bench(ModelList models, const CalibrateArguments& arguments);
 
+struct CertificateArguments {
+  std::vector<std::string> evidence;  // files; with `verify`, one certificate
+  std::string output;                 // FILE.json; the page is FILE.html next to it
+  std::string box;                    // a name for the controller, if the evidence has none
+  bool verify = false;
+  std::string signers;  // a file of keys that are trusted, as ssh-keygen takes it
+  std::string version;  // the version of this program
+};
+/// Makes a certificate of evidence, or verifies one.
+int certify_evidence(ModelList models, const CertificateArguments& arguments);
+
 /// Names a program as text, and the settings to read it.
 struct ProgramTextArguments {
   std::string model;

@@ -57,6 +57,7 @@ struct CommandLine {
   ProbeArguments probe;
   CompareArguments compare;
   CalibrateArguments calibrate;
+  CertificateArguments certificate;
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
@@ -262,6 +263,14 @@ struct CommandLine {
     command.callback([this] { chosen = [this] { return calibrate_bench(models, calibrate); }; });
   }
 
+  void add_certificate(CLI::App& command) {
+    add_certificate_flags(command, certificate);
+    command.callback([this] {
+      certificate.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return certify_evidence(models, certificate); };
+    });
+  }
+
   void add_coverage_sum(CLI::App& command) {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
@@ -358,6 +367,8 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
     {"calibrate", "Find the choices with which a bench replies like a real controller",
      &CommandLine::add_calibrate},
+    {"certificate", "Say what was measured on a real controller, in a form to sign, or verify that",
+     &CommandLine::add_certificate},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
     {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},

@@ -339,7 +339,7 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
     if (!settings_.rig.empty() || settings_.asks) return std::nullopt;
   }
   if (!settings_.rig.empty()) {
-    const RigAnswer answer = run_rig(settings_.rig, words);
+    const CommandAnswer answer = run_command(settings_.rig, words);
     if (answer.exit_code == 0) return std::nullopt;
     if (answer.exit_code != kRigCannot)
       throw play::RigFailed("the rig failed at `" + deed_text(words) + "` with exit code " +
@@ -356,7 +356,7 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
 
 std::optional<std::string> BoxExecutor::tell(const std::string& name) {
   if (settings_.rig.empty() || is_rehearsal()) return std::nullopt;
-  const RigAnswer answer = run_rig(settings_.rig, {"value", name});
+  const CommandAnswer answer = run_command(settings_.rig, {"value", name});
   if (answer.exit_code != 0) return std::nullopt;
   return answer.said;
 }

@@ -30,7 +30,7 @@ std::string request_to_person(const std::vector<std::string>& words) {
 
 }  // namespace
 
-RigAnswer run_rig(const std::string& command, const std::vector<std::string>& words) {
+CommandAnswer run_command(const std::string& command, const std::vector<std::string>& words) {
   std::array<int, 2> pipe_ends{};
   if (pipe(pipe_ends.data()) != 0) return {.exit_code = 127, .said = {}};
   std::vector<std::string> all{"sh", "-c", command + " \"$@\"", "rig"};
@@ -44,7 +44,7 @@ RigAnswer run_rig(const std::string& command, const std::vector<std::string>& wo
     become_rig(raw.data(), pipe_ends[1]);
   }
   close(pipe_ends[1]);
-  RigAnswer answer;
+  CommandAnswer answer;
   std::array<char, 512> part{};
   while (child > 0) {
     const ssize_t size = read(pipe_ends[0], part.data(), part.size());

@@ -10,12 +10,12 @@ namespace understudy::emulator::box {
 /// The exit code by which a rig says that it cannot do something.
 inline constexpr int kRigCannot = 3;
 
-struct RigAnswer {
+struct CommandAnswer {
   int exit_code = 0;
   std::string said;  // on its standard output
 };
-/// Runs "COMMAND input feeder.DIN_2 on" in a shell.
-RigAnswer run_rig(const std::string& command, const std::vector<std::string>& words);
+/// Runs "COMMAND input feeder.DIN_2 on" in a shell. Exit code 127: it cannot be run.
+CommandAnswer run_command(const std::string& command, const std::vector<std::string>& words);
 
 /// Asks the person at the terminal to do it. Returns false if that person skips it.
 bool ask_person(const std::vector<std::string>& words);

@@ -37,6 +37,7 @@ const std::vector<Case> kCases = {
     {"<?xml version=\"1.0\"?>\n<svg width=\"1\">", Kind::picture},
     {"{\n \"understudy\": 1,\n \"kind\": \"photograph\",\n", Kind::photograph},
     {"{\n \"understudy\": 1,\n \"kind\": \"evidence\",\n", Kind::evidence},
+    {"{\n \"understudy\": 1,\n \"kind\": \"certificate\",\n", Kind::certificate},
     {"understudy: 1\nlines:\n", Kind::bench},
     {"# a scenario\nunderstudy: 1\nbench: a.yaml\nsteps: []\n", Kind::scenario},
     {"understudy: 1\nname: x\nlines: {}\nsteps: []\n", Kind::scenario},
