@@ -13,7 +13,14 @@
 
 namespace understudy::pty {
 
-enum class Direction : std::uint8_t { from_host, to_host };
+enum class Direction : std::uint8_t {
+  from_host,
+  to_host,
+  // Of a line that somebody only listens to, who does not know which side is the host:
+  from_one,    // what the first adapter hears
+  from_other,  // the second
+  unknown,     // one adapter hears both sides
+};
 
 enum class Remark : std::uint8_t {
   none,
@@ -63,6 +70,7 @@ constexpr bool has_comment(const CapturedPacket& packet) {
 struct CapturedLine {
   std::string name;
   int baud = 0;
+  bool is_tapped = false;  // packets are bytes as they were heard, with real times since 1970
 };
 
 }  // namespace understudy::pty

@@ -45,7 +45,7 @@ void CaptureFile::begin(std::vector<CapturedLine> lines) {
   if (is_pcapng_) {
     append_pcapng_head(piece_, lines_);
   } else {
-    append_text_head(piece_);
+    append_text_head(piece_, lines_);
   }
   try {
     file_.begin(piece_);

@@ -32,6 +32,7 @@ constexpr std::uint32_t kChecksumError = 1U << 24;
 constexpr std::uint32_t kTooShort = 1U << 26;
 
 // "Wireshark upper PDU": big-endian tags, then the bytes for the dissector that they name.
+constexpr std::uint16_t kUser0 = 147;  // of a line that is tapped: bare bytes
 constexpr std::uint16_t kUpperPdu = 252;
 constexpr std::uint16_t kEndOfTags = 0;
 constexpr std::uint16_t kDissector = 12;
@@ -120,7 +121,14 @@ void put_tags(std::string& to, const CapturedPacket& packet) {
 }
 
 std::uint32_t flags_of(const CapturedPacket& packet) {
-  std::uint32_t flags = packet.direction == Direction::from_host ? kInbound : kOutbound;
+  std::uint32_t flags = 0;
+  switch (packet.direction) {
+    case Direction::from_host:
+    case Direction::from_one: flags = kInbound; break;
+    case Direction::to_host:
+    case Direction::from_other: flags = kOutbound; break;
+    case Direction::unknown: break;
+  }
   if (packet.remark == Remark::wrong_checksum) flags |= kChecksumError;
   if (packet.remark == Remark::incomplete) flags |= kTooShort;
   return flags;
@@ -135,14 +143,15 @@ void append_pcapng_head(std::string& file, std::span<const CapturedLine> lines) 
     put(file, std::uint16_t{1});  // version 1.0
     put(file, std::uint16_t{0});
     put(file, ~std::uint64_t{0});  // the section's length is not known
-    put_option(file, kComment,
-               "Times are simulated, since power-up. To tell requests from replies: -o mbrtu.tcp.port:" +
-                   std::to_string(kPcapngStationPort));
+    if (lines.empty() || !lines.front().is_tapped)
+      put_option(file, kComment,
+                 "Times are simulated, since power-up. To tell requests from replies: -o mbrtu.tcp.port:" +
+                     std::to_string(kPcapngStationPort));
     put_option(file, kApplication, "understudy");
   }
   for (const CapturedLine& line : lines) {
     const Block block(file, kInterfaceDescription);
-    put(file, kUpperPdu);
+    put(file, line.is_tapped ? kUser0 : kUpperPdu);
     put(file, std::uint16_t{0});
     put(file, std::uint32_t{0});  // packets are never cut
     put_option(file, kName, line.name);
@@ -153,7 +162,8 @@ void append_pcapng_head(std::string& file, std::span<const CapturedLine> lines) 
 
 void append_pcapng_packet(std::string& file, const CapturedPacket& packet, std::uint64_t lost_before) {
   std::string data;
-  put_tags(data, packet);
+  const bool is_framed = packet.direction == Direction::from_host || packet.direction == Direction::to_host;
+  if (is_framed) put_tags(data, packet);
   data.append(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
 
   const Block block(file, kEnhancedPacket);

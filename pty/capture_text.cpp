@@ -9,8 +9,25 @@
 
 namespace understudy::pty {
 
-void append_text_head(std::string& file) {
-  file += "# simulated seconds, in (from the host) or out, line, bytes, # remark\n";
+namespace {
+
+std::string_view word_of(Direction direction) {
+  switch (direction) {
+    case Direction::from_host: return " in  ";
+    case Direction::to_host: return " out ";
+    case Direction::from_one: return " one ";
+    case Direction::from_other: return " other ";
+    case Direction::unknown: return " any ";
+  }
+  return " ";
+}
+
+}  // namespace
+
+void append_text_head(std::string& file, std::span<const CapturedLine> lines) {
+  const bool is_tapped = !lines.empty() && lines.front().is_tapped;
+  file += is_tapped ? "# seconds since 1970, one or other (side of the line) or any, line, bytes\n"
+                    : "# simulated seconds, in (from the host) or out, line, bytes, # remark\n";
 }
 
 void append_text_packet(std::string& file, std::span<const CapturedLine> lines, const CapturedPacket& packet,
@@ -20,7 +37,7 @@ void append_text_packet(std::string& file, std::span<const CapturedLine> lines, 
   file += std::to_string(packet.time.count() / kSecond);
   file += '.';
   file += std::to_string(packet.time.count() % kSecond + kSecond).substr(1);
-  file += packet.direction == Direction::from_host ? " in  " : " out ";
+  file += word_of(packet.direction);
   file += lines[packet.line].name;
   for (const std::uint8_t byte : packet.bytes) {
     file += ' ';

@@ -5,7 +5,7 @@
 //   0.105333333 out rs485  # fault 1 drop: not sent
 //
 // The columns are simulated seconds since power-up, `in` (from the host) or `out`, the line's name, and the
-// bytes. Pure.
+// bytes. If a line is tapped, they are real seconds since 1970, and `one`, `other` or `any` side. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace understudy::pty {
 
-void append_text_head(std::string& file);
+void append_text_head(std::string& file, std::span<const CapturedLine> lines);
 
 /// Appends a packet. `lost_before` is the number of packets of the same line that are missing before this
 /// one.

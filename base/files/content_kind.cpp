@@ -31,6 +31,7 @@ constexpr std::array kKinds{
     KindRow{ContentKind::capture,
             "a capture",
             {"\x0a\x0d\x0d\x0a", "# simulated seconds, in (from the host) or out, line"}},
+    KindRow{ContentKind::capture, "a capture", {"# seconds since 1970, one or other (side of the line)"}},
     // pcap, in either byte order, with microseconds and nanoseconds.
     KindRow{ContentKind::capture, "a capture", {"\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4"}},
     KindRow{ContentKind::capture, "a capture", {"\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d"}},

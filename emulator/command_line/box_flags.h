@@ -121,6 +121,22 @@ inline void add_compare_looks(CLI::App& command, CompareArguments& compare) {
       ->excludes(report);
 }
 
+inline void add_tap_flags(CLI::App& command, TapArguments& tap) {
+  command
+      .add_option("PORT", tap.ports,
+                  "One adapter that hears both directions, or two that hear one each: "
+                  "/dev/ttyUSB0[,SPEED[,8E1]], rtu://HOST:PORT [19200,8E1]")
+      ->required()
+      ->expected(1, 2)
+      ->check(kNotEmpty);
+  command.add_option("-o,--output", tap.output, "Capture to write: FILE.pcapng, or FILE.txt")
+      ->required()
+      ->check(kNotEmpty);
+  command.add_option("--line", tap.line, "The line's name in the capture")
+      ->capture_default_str()
+      ->check(kNotEmpty);
+}
+
 inline void add_calibrate_flags(CLI::App& command, CalibrateArguments& calibrate) {
   add_compare_flags(command, calibrate.compare);
   command.add_option("-o,--output", calibrate.output, "Evidence to write: FILE.json")->check(kNotEmpty);

@@ -331,6 +331,14 @@ struct CertificateArguments {
 /// Makes a certificate of evidence, or verifies one.
 int certify_evidence(ModelList models, const CertificateArguments& arguments);
 
+struct TapArguments {
+  std::vector<std::string> ports;  // one or two
+  std::string output;              // a capture
+  std::string line = "line";       // the name of the line in it
+};
+/// Listens on a line until Ctrl-C, and never sends anything.
+int tap_line(const TapArguments& arguments);
+
 /// Names a program as text, and the settings to read it.
 struct ProgramTextArguments {
   std::string model;

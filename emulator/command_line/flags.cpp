@@ -58,6 +58,7 @@ struct CommandLine {
   CompareArguments compare;
   CalibrateArguments calibrate;
   CertificateArguments certificate;
+  TapArguments tap;
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
@@ -271,6 +272,11 @@ struct CommandLine {
     });
   }
 
+  void add_tap(CLI::App& command) {
+    add_tap_flags(command, tap);
+    command.callback([this] { chosen = [this] { return tap_line(tap); }; });
+  }
+
   void add_coverage_sum(CLI::App& command) {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
@@ -369,6 +375,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
      &CommandLine::add_calibrate},
     {"certificate", "Say what was measured on a real controller, in a form to sign, or verify that",
      &CommandLine::add_certificate},
+    {"tap", "Listen on a line with one or two adapters, and write a capture", &CommandLine::add_tap},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
     {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},

@@ -25,6 +25,18 @@ TEST(CaptureText, HasTimeWayLineAndBytes) {
       "12.005333333 out rs232 01 03 02 C0 01 29 84\n");
 }
 
+TEST(CaptureText, HasTheSidesOfATappedLine) {
+  const std::vector<CapturedLine> tapped{{.name = "line", .baud = 19200, .is_tapped = true}};
+  std::string text;
+  append_text_head(text, tapped);
+  const Bytes bytes = hex("01 03");
+  for (const Direction side : {Direction::from_one, Direction::from_other, Direction::unknown})
+    append_text_packet(text, tapped, {.direction = side, .time = SimTime{5}, .bytes = bytes}, 0);
+  EXPECT_EQ(text,
+            "# seconds since 1970, one or other (side of the line) or any, line, bytes\n"
+            "0.000000005 one line 01 03\n0.000000005 other line 01 03\n0.000000005 any line 01 03\n");
+}
+
 TEST(CaptureText, HasRemarksAndGaps) {
   const Bytes noise = hex("FF 00");
   CapturedPacket packet{.line = 0, .direction = Direction::from_host, .time = SimTime{1}, .bytes = noise};

@@ -46,8 +46,10 @@ tcflag_t flags_of(const pty::LineSettings& settings) {
 
 }  // namespace
 
-SerialWire::SerialWire(std::string path)
-    : path_(std::move(path)), port_(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+SerialWire::SerialWire(std::string path, WireUse use)
+    : path_(std::move(path)),
+      port_(::open(path_.c_str(),
+                   (use == WireUse::listen ? O_RDONLY : O_RDWR) | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
   if (!port_)
     throw WireError(one_line(path_) + ": " + std::strerror(errno) + "; expected a serial port" +
                     (errno == EACCES ? " that you may open (group dialout)" : ""));

@@ -13,10 +13,11 @@ namespace understudy::emulator::box {
 
 class SerialWire final : public Wire {
  public:
-  explicit SerialWire(std::string path);
+  SerialWire(std::string path, WireUse use);
   void set_line(const pty::LineSettings& settings) override;
   void send(std::span<const std::uint8_t> bytes) override;
   bool receive(Bytes& bytes, WallTime until) override;
+  int descriptor() const override { return port_.get(); }
 
  private:
   std::string path_;

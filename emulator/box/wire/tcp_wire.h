@@ -19,6 +19,7 @@ class TcpWire final : public Wire {
   void set_line(const pty::LineSettings& settings) override;
   void send(std::span<const std::uint8_t> bytes) override;
   bool receive(Bytes& bytes, WallTime until) override;
+  int descriptor() const override { return socket_.get(); }
 
  private:
   void offer();

@@ -13,9 +13,9 @@ void Wire::discard() {
   while (receive(none, WallTime{0})) none.clear();
 }
 
-std::unique_ptr<Wire> open_wire(const PortName& name) {
+std::unique_ptr<Wire> open_wire(const PortName& name, WireUse use) {
   if (name.tcp) return std::make_unique<TcpWire>(*name.tcp);
-  return std::make_unique<SerialWire>(name.place);
+  return std::make_unique<SerialWire>(name.place, use);
 }
 
 }  // namespace understudy::emulator::box

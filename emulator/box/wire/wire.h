@@ -37,12 +37,18 @@ class Wire {
   /// Adds the bytes that have arrived, or arrive before `until`. Returns false if there are none. Throws
   /// WireError.
   virtual bool receive(Bytes& bytes, WallTime until) = 0;
+  /// Returns what becomes readable when bytes arrive.
+  virtual int descriptor() const = 0;
 
   /// Drops received bytes that nobody has read.
   void discard();
 };
 
+enum class WireUse : std::uint8_t {
+  talk,
+  listen,  // a serial port is opened for reading only, so nothing can be sent
+};
 /// Throws WireError.
-std::unique_ptr<Wire> open_wire(const PortName& name);
+std::unique_ptr<Wire> open_wire(const PortName& name, WireUse use = WireUse::talk);
 
 }  // namespace understudy::emulator::box

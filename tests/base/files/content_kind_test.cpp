@@ -38,6 +38,7 @@ const std::vector<Case> kCases = {
     {"{\n \"understudy\": 1,\n \"kind\": \"photograph\",\n", Kind::photograph},
     {"{\n \"understudy\": 1,\n \"kind\": \"evidence\",\n", Kind::evidence},
     {"{\n \"understudy\": 1,\n \"kind\": \"certificate\",\n", Kind::certificate},
+    {"# seconds since 1970, one or other (side of the line) or any, line, bytes\n", Kind::capture},
     {"understudy: 1\nlines:\n", Kind::bench},
     {"# a scenario\nunderstudy: 1\nbench: a.yaml\nsteps: []\n", Kind::scenario},
     {"understudy: 1\nname: x\nlines: {}\nsteps: []\n", Kind::scenario},

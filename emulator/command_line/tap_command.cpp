@@ -1,0 +1,163 @@
+// Implements `tap`: listens on a line with one or two adapters, and writes a capture. It sends nothing.
+#include <poll.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/files/file_claims.h"
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/box/capture/capture.h"
+#include "emulator/box/capture/rtu_frames.h"
+#include "emulator/box/wire/port_name.h"
+#include "emulator/box/wire/wire.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
+#include "emulator/command_line/log.h"
+#include "emulator/command_line/output_paths.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "pty/capture.h"
+#include "pty/capture_file.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+/// A signal ends a wait, too, unless it comes just before.
+constexpr int kTapWaitMs = 100;
+
+/// Real time that never runs back, even if the clock is set meanwhile.
+class RunningClock {
+ public:
+  SimTime now() const { return at_begin_ + SimTime{serve::wall_now() - begin_}; }
+
+ private:
+  SimTime at_begin_ =
+      std::chrono::duration_cast<SimTime>(std::chrono::system_clock::now().time_since_epoch());
+  box::WallTime begin_ = serve::wall_now();
+};
+
+/// One adapter.
+class Ear {
+ public:
+  Ear(const std::string& port, pty::Direction direction) : name_(parsed(port)), direction_(direction) {
+    settings_ = name_.framing.value_or(pty::LineSettings());
+    settings_.baud = name_.baud.value_or(settings_.baud);
+    wire_ = box::open_wire(name_, box::WireUse::listen);
+    if (name_.has_settings()) wire_->set_line(settings_);
+  }
+
+  int descriptor() const { return wire_->descriptor(); }
+  int baud() const { return settings_.baud; }
+  std::string place() const {
+    return one_line(name_.place) + (name_.has_settings() ? " at " + pty::to_string(settings_) : "");
+  }
+
+  /// Takes what has arrived. The first byte began when the line was silent before it.
+  void take(const RunningClock& clock, pty::CaptureFile& file) {
+    box::Bytes bytes;
+    if (!wire_->receive(bytes, box::WallTime{0})) return;
+    const SimTime now = clock.now();
+    const SimTime sending{settings_.duration_of(static_cast<std::int64_t>(bytes.size()))};
+    const SimTime began = std::max(last_, now - sending);
+    last_ = now;
+    file.add({.line = 0, .direction = direction_, .time = began, .bytes = bytes});
+    bytes_ += bytes.size();
+    frames_.add({.at = began, .line = {}, .bytes = std::move(bytes)});
+    count_frames();
+  }
+
+  std::string summary() const {
+    std::string text = one_line(name_.place) + ": " + std::to_string(bytes_) + " bytes, " +
+                       std::to_string(found_) + " frames of Modbus";
+    if (dropped_ != 0) text += ", " + std::to_string(dropped_) + " bytes of no frame";
+    if (found_ == 0 && bytes_ != 0)
+      text += "; if the line does not speak text, check the speed and framing (" + pty::to_string(settings_) +
+              ")";
+    return text;
+  }
+
+ private:
+  static box::PortName parsed(const std::string& port) {
+    try {
+      box::PortName name = box::parse_port_name(port);
+      if (name.is_modbus_tcp())
+        throw UsageError(
+            "tap: " + quoted(port) +
+            ": a gateway does not pass on what others ask; expected a serial port, or a capture of "
+            "tcpdump");
+      return name;
+    } catch (const box::PortNameError& error) {
+      throw UsageError("tap: " + std::string(error.what()));
+    }
+  }
+
+  void count_frames() {
+    while (true) {
+      const bool is_frame = frames_.next(nullptr, false).has_value();
+      const std::size_t dropped = frames_.take_dropped();
+      found_ += is_frame ? 1 : 0;
+      dropped_ += dropped;
+      if (!is_frame && dropped == 0) return;
+    }
+  }
+
+  box::PortName name_;
+  pty::Direction direction_;
+  pty::LineSettings settings_;
+  std::unique_ptr<box::Wire> wire_;
+  SimTime last_{0};
+  box::FrameFinder frames_{box::FrameRole::either};
+  std::size_t bytes_ = 0;
+  std::size_t found_ = 0;
+  std::size_t dropped_ = 0;
+};
+
+void hear_until_interrupted(std::vector<Ear>& ears, pty::CaptureFile& file) {
+  const RunningClock clock;
+  std::vector<pollfd> waited;
+  for (const Ear& ear : ears) waited.push_back({.fd = ear.descriptor(), .events = POLLIN, .revents = 0});
+  while (!is_interrupted()) {
+    if (::poll(waited.data(), waited.size(), kTapWaitMs) <= 0) continue;
+    for (std::size_t i = 0; i < ears.size(); ++i)
+      if (waited[i].revents != 0) ears[i].take(clock, file);
+  }
+}
+
+}  // namespace
+
+int tap_line(const TapArguments& arguments) {
+  if (arguments.output.ends_with(".pcap"))
+    throw UsageError(
+        "--output: " + arguments.output +
+        ": this old format is not supported; expected .pcapng, or another ending for a text log");
+  if (arguments.line.find_first_of(" \t\n") != std::string::npos)
+    throw UsageError("--line: " + quoted(arguments.line) + " is not a name; expected one word");
+  FileClaims claims;
+  pty::CaptureFile file(require_output(claims, "--output", arguments.output), log_line);
+  std::vector<Ear> ears;
+  const bool is_alone = arguments.ports.size() == 1;
+  for (const std::string& port : arguments.ports)
+    ears.emplace_back(port, is_alone       ? pty::Direction::unknown
+                            : ears.empty() ? pty::Direction::from_one
+                                           : pty::Direction::from_other);
+  watch_for_interruption();
+  file.begin({{.name = arguments.line, .baud = ears.front().baud(), .is_tapped = true}});
+  for (const Ear& ear : ears) std::printf("listening: %s\n", ear.place().c_str());
+  std::fflush(stdout);
+  hear_until_interrupted(ears, file);
+  file.finish();
+  for (const Ear& ear : ears) std::printf("%s\n", ear.summary().c_str());
+  std::printf("next: understudy compare %s --bench BENCH\n", arguments.output.c_str());
+  return file.failure().empty() ? kExitWell : kExitNoResource;
+}
+
+}  // namespace understudy::emulator::command_line
