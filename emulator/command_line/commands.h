@@ -113,7 +113,8 @@ struct RunArguments {
   std::string device_coverage;         // a file
   HostArguments host{};                // a command that runs beside each scenario, if it has words
   OnArguments on{};
-  std::string timeout;  // a duration: for the command
+  bool dialogue = false;  // take further steps from standard input
+  std::string timeout;    // a duration: for the command
   std::string version;    // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);

@@ -84,12 +84,14 @@ void require_flags_of_boxes(const RunArguments& arguments) {
   const bool has_stage_flags = on.allow_writes || on.allow_memory || on.allow_outputs || on.allow_motion ||
                                on.ask || on.plan || !on.envelope.empty() || !on.rig.empty();
   if (!is_on_box(arguments)) {
-    if (has_stage_flags)
+    if (has_stage_flags || arguments.dialogue)
       throw UsageError(
-          "run: --allow-..., --envelope, --rig, --ask and --plan are for real controllers; "
+          "run: --allow-..., --envelope, --rig, --ask, --plan and --dialogue are for real controllers; "
           "expected --on LINE=PORT as well");
     return;
   }
+  if (arguments.dialogue && (arguments.scenarios.size() != 1 || arguments.on.ask))
+    throw UsageError("--dialogue: reads standard input; expected one scenario, and no --ask");
   const std::pair<bool, const char*> others[] = {{arguments.real_time, "--real-time"},
                                                  {arguments.hash, "--hash"},
                                                  {arguments.lint, "--lint"},

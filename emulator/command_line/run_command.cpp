@@ -23,6 +23,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/device_coverage_file.h"
+#include "emulator/command_line/dialogue.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/host_case.h"
 #include "emulator/command_line/on_stage.h"
@@ -184,8 +185,8 @@ Recorded recorded_by(const RunArguments& arguments) {
 /// Runs a scenario with its observers.
 class CaseRunner {
  public:
-  CaseRunner(const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
-      : arguments_(arguments), files_(files), coverage_(coverage) {
+  CaseRunner(ModelList models, const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
+      : models_(models), arguments_(arguments), files_(files), coverage_(coverage) {
     // Rows of results contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
     if (arguments.lint) {
@@ -238,6 +239,8 @@ class CaseRunner {
       std::printf("%s: %s\n", one_line(scenario.file).c_str(), one_line(scenario.name).c_str());
     bool was_opened = false;
     play::RunOptions options = options_;
+    if (arguments_.dialogue)
+      options.more = [&](play::Performance& performance) { hold_dialogue(models_, scenario, performance); };
     options.make_executor = [&](const play::Scenario& of) {
       auto executor = options_.make_executor(of);
       was_opened = true;
@@ -294,6 +297,7 @@ class CaseRunner {
     return result;
   }
 
+  ModelList models_;
   const RunArguments& arguments_;
   RunFiles& files_;
   RunCoverage& coverage_;
@@ -389,7 +393,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   report.empty();
   coverage.empty();
   account.begin();
-  const CaseRunner runner(arguments, files, coverage);
+  const CaseRunner runner(models, arguments, files, coverage);
   play::CaseReader reader(case_list);  // one reader for each thread
   play::CaseReader next_reader(case_list);
   const std::uint64_t total = play::Selection::count(case_list, arguments.filter, shard);

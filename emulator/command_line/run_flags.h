@@ -72,6 +72,8 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
       ->allow_extra_args(false)
       ->check(kNotEmpty);
   add_stage_flags(command, run.on);
+  command.add_flag("--dialogue", run.dialogue,
+                   "With --on: after the scenario's steps, take more from standard input, as lines of JSON");
   command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
       ->check(kNotEmpty);
   command

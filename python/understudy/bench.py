@@ -1,21 +1,26 @@
 """A running bench: names, inputs, faults, power, time, programs, commands, snapshots."""
 import json
 import os
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Union, cast
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Union, cast
 
 from .connection import Connection
 from .daemon import Daemon
 from .errors import NotThere, Refused, WrongVersion
+from .on_box import BoxConnection, Ports, connect_box
 
 NEEDED = (1, 0)  # protocol of the control socket: exactly this major version, at least this minor one
 Value = Union[int, float]
 
 
 class Bench:
-    def __init__(self, control: str, daemon: Optional[Daemon] = None, timeout_s: Optional[float] = 60.0) -> None:
+    def __init__(self, control: str = "", daemon: Optional[Daemon] = None, timeout_s: Optional[float] = 60.0, *,
+                 on: Optional[Ports] = None, **setup: Any) -> None:
+        """Connects to a running bench by its control socket. With `on`, such as "line=/dev/ttyUSB0", real controllers
+        are asked instead; `setup` is their `bench` or `model`, and `allow`, `rig` and `envelope`."""
         self._daemon = daemon
         self.control = control
-        self._connection = Connection(control, timeout_s)
+        self._connection: Union[Connection, BoxConnection] = (
+            Connection(control, timeout_s) if on is None else connect_box(on, **setup))
         self.ask = self._connection.ask
         try:
             identity = self.ask("identify")["daemon"]
@@ -311,8 +316,13 @@ def _given(fields: Dict[str, Any]) -> Dict[str, Any]:
 
 def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None, firmware: Optional[str] = None,
           choices: Optional[Mapping[str, object]] = None, speed: str = "manual", record: Optional[str] = None,
-          program: Optional[str] = None) -> Bench:
-    """Starts a bench file, or one device of a model with its firmware and choices. Further flags go to `serve`."""
+          program: Optional[str] = None, on: Optional[Ports] = None, allow: Union[str, Sequence[str]] = (),
+          rig: Optional[str] = None, envelope: Optional[str] = None) -> Bench:
+    """Starts a bench file, or one device of a model with its firmware and choices. Further flags go to `serve`. With
+    `on`, real controllers at these ports are asked instead, with what `allow` allows."""
+    if on is not None:
+        return Bench(on=on, bench=bench, model=model, firmware=firmware, choices=choices, allow=allow, rig=rig,
+                     envelope=envelope, program=program)
     if (bench is None) == (model is None):
         raise ValueError("expected either a bench file or a model")
     if bench is not None and (firmware is not None or choices):

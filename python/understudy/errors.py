@@ -9,6 +9,10 @@ class Refused(UnderstudyError):
     """The program refused the message, which changed nothing."""
 
 
+class NotTellable(UnderstudyError):
+    """A real controller cannot do or show this over its line, or it is not allowed. The text has the reason."""
+
+
 class NotThere(UnderstudyError):
     """The program could not be started, or no longer answers."""
 

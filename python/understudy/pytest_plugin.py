@@ -15,6 +15,7 @@ import pytest
 
 from .bench import Bench, start
 from .daemon import program_path
+from .errors import NotTellable
 from .host import exec as exec_host
 
 REPLAYED_WITHIN_S = 60.0
@@ -31,6 +32,16 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.getgroup("understudy").addoption("--understudy-coverage", metavar="FILE",
                                             help="write the line coverage of the controllers' programs to this "
                                                  "file: FILE.info for lcov, FILE.xml for Cobertura, or FILE.html")
+    parser.getgroup("understudy").addoption("--understudy-on", metavar="LINE=PORT", action="append",
+                                            help="ask a real controller at this port instead of the bench's devices on "
+                                                 "that line; tests that need more than its line are skipped")
+    parser.getgroup("understudy").addoption("--understudy-allow", action="append", default=[],
+                                            choices=["writes", "memory", "outputs", "motion"],
+                                            help="what may be sent to a real controller [only reads]")
+    parser.getgroup("understudy").addoption("--understudy-rig", metavar="COMMAND",
+                                            help="command for what needs the machine, as `run --rig`")
+    parser.getgroup("understudy").addoption("--understudy-envelope", metavar="FILE",
+                                            help="limits for what is sent, as `run --envelope`")
     parser.addini("understudy_host_time", "whether run_host puts host programs into simulated time", type="bool", default=True)
 
 
@@ -76,9 +87,13 @@ def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> Non
 
 
 @pytest.hookimpl(hookwrapper=True)  # type: ignore[misc]
-def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
+def pytest_runtest_makereport(item: pytest.Item, call: "pytest.CallInfo[None]") -> Generator[None, Any, None]:
     outcome = yield
     report = outcome.get_result()
+    if call.excinfo is not None and isinstance(call.excinfo.value, NotTellable):
+        report.outcome = "skipped"
+        path, line, _ = item.location
+        report.longrepr = (path, (line or 0) + 1, f"Skipped: {call.excinfo.value}")
     FAILED[item] = FAILED.get(item, False) or report.failed
     # The benches are closed by now, so their recordings are complete. pytest shows a section of the teardown next to
     # the failure if its name contains "teardown".
@@ -119,9 +134,22 @@ def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[C
     """Starts benches like `understudy.start`, each with its own folder and recording."""
     benches: List[Bench] = []
     kept = KEPT.setdefault(request.node, [])
+    on = request.config.getoption("--understudy-on")
     speed = "real" if request.config.getoption("--understudy-real-time") else "manual"
 
+    def make_on_box(bench: Any, flags: Sequence[str], arguments: Dict[str, Any]) -> Bench:
+        if flags:
+            pytest.skip(f"{' '.join(map(str, flags))}: a real controller takes no flags of `serve`")
+        option = request.config.getoption
+        settings = {"on": on, "allow": option("--understudy-allow"), "rig": option("--understudy-rig"),
+                    "envelope": option("--understudy-envelope"), **arguments}
+        made = start(bench, **settings)
+        benches.append(made)
+        return made
+
     def make(bench: Any = None, *flags: str, **arguments: Any) -> Bench:
+        if on:
+            return make_on_box(bench, flags, arguments)
         folder = tmp_path / f"understudy-{len(kept) + 1}"
         folder.mkdir()
         if "record" not in arguments:
@@ -161,6 +189,8 @@ def run_host(request: pytest.FixtureRequest,
              tmp_path: Path) -> "Callable[..., subprocess.CompletedProcess[str]]":
     """Runs a host program like `understudy.exec`, in simulated time unless `host_time=False`, the setting
     `understudy_host_time` or --understudy-real-time says otherwise. A failed test keeps the recordings."""
+    if request.config.getoption("--understudy-on"):
+        pytest.skip("a host program runs with emulated controllers only")
     kept = KEPT.setdefault(request.node, [])
     is_real = request.config.getoption("--understudy-real-time") or not request.config.getini("understudy_host_time")
 

@@ -199,6 +199,32 @@ TEST(RunOn, AsksNothingWhileAProgramIsEntered) {
   EXPECT_FALSE(has(program, "?PE") || has(program, "TASTOP")) << program;
 }
 
+TEST(RunOn, TakesFurtherStepsInADialogue) {
+  const PrivateFolder folder;
+  const RunningUnderstudy served;
+  const std::string file = folder.write("case.yaml", scenario("  - say: begins\n"));
+  const std::string speed = served.ctl({"get", "Aaxis_Speed"}).output;
+  const std::string messages = folder.write("messages",
+                                            R"({"values": ["box.HW_Code"]}
+{"step": {"expect": {"box.HW_Code": 1}}}
+{"step": {"write": {"box.Aaxis_Speed": 60}}}
+{"step": {"jump": 1}}
+[]
+)");
+  const Finished on = run({"sh", "-c",
+                           std::string(UNDERSTUDY_BINARY) + " run " + file + " --on line=" + served.port() +
+                               " --dialogue < " + messages});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  const std::vector<std::string> lines = lines_of(on.output);
+  ASSERT_GE(lines.size(), 5U) << on.output << on.errors;
+  EXPECT_TRUE(has(lines[0], R"("values":{"box.HW_Code":49153})")) << on.output;
+  EXPECT_TRUE(has(lines[1], R"("kind":"failed","error":"box.HW_Code is 49153; expected 1)")) << on.output;
+  EXPECT_TRUE(has(lines[2], R"("kind":"skipped","error":)")) << on.output;
+  EXPECT_TRUE(has(lines[3], R"("kind":"refused","error":"standard input)")) << on.output;
+  EXPECT_TRUE(has(lines[4], R"("kind":"refused","error":"a message is wrong)")) << on.output;
+  EXPECT_EQ(served.ctl({"get", "Aaxis_Speed"}).output, speed);
+}
+
 TEST(RunOn, SaysWhatWasTriedIfNothingAnswers) {
   const PrivateFolder folder;
   const RunningUnderstudy served;

@@ -158,6 +158,10 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
 
 std::optional<Failure> Performance::begin_on_box() { return on_box_->begin(); }
 
+void Performance::begin_step_now() {
+  if (on_box_) on_box_->begin_step_now();
+}
+
 world::Number Performance::present_value(const std::string& expression) {
   if (on_box_) return on_box_->value_of(expression);
   world::Number value;

@@ -68,6 +68,10 @@ class Performance {
   /// Brings a real controller into the state in which the scenario begins, as far as it can be asked or
   /// written over the line. Called before the first step.
   std::optional<Failure> begin_on_box();
+  /// Lets the next step begin now. Otherwise an `advance` makes up for the time since the last step.
+  void begin_step_now();
+  /// Returns the value at this moment: of the world, or as a real controller tells it.
+  world::Number present_value(const std::string& expression);
 
   Checkpoint save();
   void restore(const Checkpoint& checkpoint);
@@ -147,8 +151,6 @@ class Performance {
   void perform(const RestoreStep&) {}
   void perform(const ForkStep&) {}
 
-  /// Returns the value at this moment: of the world, or as a real controller tells it.
-  world::Number present_value(const std::string& expression);
   void throw_if_broken();
   Failure explain_failure(const StepError& error);
 

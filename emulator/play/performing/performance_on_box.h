@@ -23,6 +23,7 @@ class Performance::OnBox {
 
   std::optional<Failure> begin();
   std::optional<Failure> play(const Step& step);
+  void begin_step_now() { due_ = performance_.executor_->now(); }
   world::Number value_of(const std::string& expression);
 
  private:

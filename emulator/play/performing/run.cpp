@@ -134,6 +134,8 @@ class Run {
       const bool is_kept = !begin && i + 1 == options_.keep_after && known.empty() && forks.empty();
       if (is_kept && !result.failure) options_.keep({.state = save(), .played = result});
     }
+    const bool has_more = options_.more && performance.is_on_box() && !begin && !result.failure;
+    if (has_more) options_.more(performance);
     if (performance.is_on_box() && !has_judged(steps, result))
       result.verdict = ScenarioResult::Verdict::not_tellable;
     if (result.failure) result.verdict = ScenarioResult::Verdict::failed;

@@ -14,6 +14,8 @@
 
 namespace understudy::emulator::play {
 
+class Performance;
+
 /// Makes an executor with the scenario's bench at its power-up. It may be called more than once, because each
 /// branch of a fork gets its own executor.
 using ExecutorMaker = std::function<std::unique_ptr<Executor>(const Scenario&)>;
@@ -36,6 +38,8 @@ struct RunOptions {
   /// Called after so many steps, if none of them failed, took a snapshot or was a fork.
   std::size_t keep_after = 0;  // 0: never
   std::function<void(Beginning)> keep{};
+  /// Plays further steps with real controllers, after those of the scenario.
+  std::function<void(Performance& performance)> more{};
 };
 
 /// Runs a scenario. Returns its own result, then those of its branches in the order of the file. A step that
