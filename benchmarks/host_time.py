@@ -83,7 +83,9 @@ def with_exec(understudy, folder, rounds):
 
 
 def with_serve(understudy, folder, rounds):
-    with subprocess.Popen([understudy, "serve", f"{folder}/instant.yaml"], stdout=subprocess.PIPE, text=True) as server:
+    # It records, because exec does.
+    with subprocess.Popen([understudy, "serve", f"{folder}/instant.yaml", "--record", f"{folder}/recording"],
+                          stdout=subprocess.PIPE, text=True) as server:
         try:
             if not server.stdout.readline().startswith("ready"):
                 sys.exit("serve did not start")
