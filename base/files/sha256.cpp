@@ -44,7 +44,7 @@ void Sha256::take_block(const std::uint8_t* block) {
                               ((s[4] & s[5]) ^ (~s[4] & s[6])) + kConstants[i] + words[i];
     const std::uint32_t other = (std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22)) +
                                 ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
-    std::ranges::rotate(s, s.end() - 1);
+    std::rotate(s.begin(), s.end() - 1, s.end());
     s[4] += sum;
     s[0] = sum + other;
   }

@@ -107,7 +107,9 @@ void HostWaitLog::finish(const Lines& lines) {
 
 std::vector<HostWait> HostWaitLog::under_way(const HostWaits& waits, const Lines& lines) const {
   std::vector<HostWait> all;
-  for (const auto& [order, open] : open_) {
+  for (const auto& entry : open_) {
+    const std::size_t order = entry.first;
+    const Open& open = entry.second;
     if (open.end <= open.begin) continue;
     // It is reported when time advances again; until then it may have ended.
     const bool still_waits = std::ranges::any_of(waits.threads(), [&](const auto& each) {
