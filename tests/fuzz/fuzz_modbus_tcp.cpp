@@ -57,9 +57,9 @@ void answer(ModbusTcp& gateway, const Bytes& frame, unsigned how) {
   Bytes reply{frame[0], static_cast<std::uint8_t>(frame[1] | 0x80), 2};
   pty::append_rtu_crc(reply);
   switch (how % 4) {
-    case 0: gateway.receive_line(reply); break;
-    case 1: gateway.receive_line(std::span(reply).first(3)); break;
-    case 2: gateway.receive_line(frame); break;
+    case 0: gateway.receive_from_line(reply); break;
+    case 1: gateway.receive_from_line(std::span(reply).first(3)); break;
+    case 2: gateway.receive_from_line(frame); break;
     default: break;
   }
   gateway.give_up();

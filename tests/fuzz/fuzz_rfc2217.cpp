@@ -49,9 +49,9 @@ void serve_line(Rfc2217& port, std::size_t room, Outcome& outcome) {
     const Bytes taken = port.take_for_line(room);
     require(taken.size() <= room, "no more is taken than there is room for");
     for (const std::uint8_t byte : taken) outcome.line.emplace_back(byte, settings_of(port));
-    const bool takes_back = port.takes_back();
-    const bool throws_away = port.throws_away();
-    continues = !taken.empty() || takes_back || throws_away;
+    const bool discards_input = port.discards_input();
+    const bool discards_output = port.discards_output();
+    continues = !taken.empty() || discards_input || discards_output;
   }
   const Bytes answers = port.take_for_client();
   require(answers.size() <= kMaxAnswers, "answers are bounded");
