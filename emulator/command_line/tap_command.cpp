@@ -46,9 +46,9 @@ class RunningClock {
 };
 
 /// One adapter.
-class Ear {
+class Adapter {
  public:
-  Ear(const std::string& port, pty::Direction direction) : name_(parsed(port)), direction_(direction) {
+  Adapter(const std::string& port, pty::Direction direction) : name_(parsed(port)), direction_(direction) {
     settings_ = name_.framing.value_or(pty::LineSettings());
     settings_.baud = name_.baud.value_or(settings_.baud);
     wire_ = box::open_wire(name_, box::WireUse::listen);
@@ -121,14 +121,15 @@ class Ear {
   std::size_t dropped_ = 0;
 };
 
-void hear_until_interrupted(std::vector<Ear>& ears, pty::CaptureFile& file) {
+void listen_until_interrupted(std::vector<Adapter>& adapters, pty::CaptureFile& file) {
   const RunningClock clock;
   std::vector<pollfd> waited;
-  for (const Ear& ear : ears) waited.push_back({.fd = ear.descriptor(), .events = POLLIN, .revents = 0});
+  for (const Adapter& adapter : adapters)
+    waited.push_back({.fd = adapter.descriptor(), .events = POLLIN, .revents = 0});
   while (!is_interrupted()) {
     if (::poll(waited.data(), waited.size(), kTapWaitMs) <= 0) continue;
-    for (std::size_t i = 0; i < ears.size(); ++i)
-      if (waited[i].revents != 0) ears[i].take(clock, file);
+    for (std::size_t i = 0; i < adapters.size(); ++i)
+      if (waited[i].revents != 0) adapters[i].take(clock, file);
   }
 }
 
@@ -143,19 +144,19 @@ int tap_line(const TapArguments& arguments) {
     throw UsageError("--line: " + quoted(arguments.line) + " is not a name; expected one word");
   FileClaims claims;
   pty::CaptureFile file(require_output(claims, "--output", arguments.output), log_line);
-  std::vector<Ear> ears;
+  std::vector<Adapter> adapters;
   const bool is_alone = arguments.ports.size() == 1;
   for (const std::string& port : arguments.ports)
-    ears.emplace_back(port, is_alone       ? pty::Direction::unknown
-                            : ears.empty() ? pty::Direction::from_one
-                                           : pty::Direction::from_other);
+    adapters.emplace_back(port, is_alone           ? pty::Direction::unknown
+                                : adapters.empty() ? pty::Direction::from_one
+                                                   : pty::Direction::from_other);
   watch_for_interruption();
-  file.begin({{.name = arguments.line, .baud = ears.front().baud(), .is_tapped = true}});
-  for (const Ear& ear : ears) std::printf("listening: %s\n", ear.place().c_str());
+  file.begin({{.name = arguments.line, .baud = adapters.front().baud(), .is_tapped = true}});
+  for (const Adapter& adapter : adapters) std::printf("listening: %s\n", adapter.place().c_str());
   std::fflush(stdout);
-  hear_until_interrupted(ears, file);
+  listen_until_interrupted(adapters, file);
   file.finish();
-  for (const Ear& ear : ears) std::printf("%s\n", ear.summary().c_str());
+  for (const Adapter& adapter : adapters) std::printf("%s\n", adapter.summary().c_str());
   std::printf("next: understudy compare %s --bench BENCH\n", arguments.output.c_str());
   return file.failure().empty() ? kExitWell : kExitNoResource;
 }
