@@ -60,11 +60,11 @@ int make_certificate(ModelList models, const CertificateArguments& arguments) {
       arguments.output.substr(0, arguments.output.size() - kEnding.size()) + ".html";
   FileClaims claims;
   for (const std::string& path : arguments.evidence) claims.add({path, "the evidence itself"});
-  ResultFile output("--output", require_output(claims, "--output", arguments.output),
-                    ContentKind::certificate);
-  ResultFile page_output("--output", require_output(claims, "--output", page_path), ContentKind::page);
+  const std::string output_path = require_output(claims, "--output", arguments.output);
   const box::Certificate certificate =
       box::certify(models, read_evidence_files(arguments.evidence), arguments.box);
+  ResultFile output("--output", output_path, ContentKind::certificate);
+  ResultFile page_output("--output", require_output(claims, "--output", page_path), ContentKind::page);
   const std::string name = fs::path(arguments.output).filename().string();
   const std::string page = box::certificate_page(certificate, name, arguments.version);
   page_output.write(page);

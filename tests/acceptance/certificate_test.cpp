@@ -152,7 +152,7 @@ TEST_F(Certificate, RefusesWhatItCannotCertifyInOneLine) {
       {{folder_ / "plain.yaml", "-o", to}, "evidence: is none"},
       {{one, "-o", folder_ / "to.txt"}, "does not end in .json"},
       {{"--verify", one}, "expected --signers FILE"},
-      {{"--verify", one, "--signers", one}, "certificate: is none"},
+      {{"--verify", one, "--signers", one}, "certificate: is not one"},
       {{one}, "expected -o FILE.json"},
   };
   for (const auto& row : cases) {
@@ -162,6 +162,7 @@ TEST_F(Certificate, RefusesWhatItCannotCertifyInOneLine) {
     EXPECT_EQ(refused.exit_code, 2) << row.what;
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
     EXPECT_TRUE(has(refused.errors, row.what)) << refused.errors;
+    EXPECT_FALSE(std::filesystem::exists(to)) << row.what;
   }
   ASSERT_EQ(certify().exit_code, 0);
   folder_.write("signers", "");

@@ -179,7 +179,7 @@ std::vector<CertifiedFile> certified_files(std::string_view certificate, const s
     }
     return files;
   } catch (const std::exception&) {
-    throw EvidenceError(path + ": certificate: is none; expected a file of `understudy certificate -o`");
+    throw EvidenceError(path + ": certificate: is not one; expected a file of `understudy certificate -o`");
   }
 }
 
