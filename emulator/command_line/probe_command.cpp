@@ -225,20 +225,20 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
   OnArguments on = arguments.on;
   on.on = {"*=" + arguments.port};
   OnStage stage(on, true);
-  bool is_over = false;
+  bool is_aborted = false;
   try {
     for (Probed& probed : proofs) {
       if (on.plan) std::printf("%s\n", std::string(probed.choice->id).c_str());
       play_all(probed, stage, on.plan ? 1 : 2);
     }
   } catch (const play::ExecutionAborted&) {
-    is_over = true;
+    is_aborted = true;
   }
   if (on.plan) return kExitWell;
   const box::EvidenceFile evidence = evidence_of(model, arguments, proofs);
   std::fputs(box::evidence_table(evidence, "the model's default is another").c_str(), stdout);
   if (output.is_wanted()) output.write(box::evidence_text(evidence));
-  return is_over ? kExitFailed : kExitWell;
+  return is_aborted ? kExitFailed : kExitWell;
 }
 
 }  // namespace understudy::emulator::command_line
