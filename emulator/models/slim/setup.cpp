@@ -20,9 +20,9 @@ namespace {
 
 /// Returns the chosen option of each row, from the device.
 ChainOptions options_of(const Device& device) {
-  ChainOptions options{.noted = {&device.decisions()}};
-  for (std::size_t row = 0; row < options.numbers.size(); ++row) options.numbers[row] = device.choice(row);
-  return options;
+  decltype(ChainOptions::numbers) numbers{};
+  for (std::size_t row = 0; row < numbers.size(); ++row) numbers[row] = device.choice(row);
+  return {.numbers = numbers, .noted = NotedDecisions(&device.decisions())};
 }
 
 lang::ProgramOptions program_options(const ChainOptions& chosen) {

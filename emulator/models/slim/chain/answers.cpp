@@ -17,7 +17,10 @@
 
 namespace understudy::emulator::models::slim {
 
-void Chain::set_options(const ChainOptions& options) { state_.options = options; }
+void Chain::set_options(const ChainOptions& options) {
+  state_.options = options;
+  state_.options.noted.decisions = options.noted.decisions;
+}
 
 // ---- Inputs
 

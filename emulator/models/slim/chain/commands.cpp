@@ -51,7 +51,7 @@ Error replace_jog(ChainState& chain, int module, int direction, std::int32_t for
 }  // namespace
 
 Chain::Chain(const ChainOptions& options) {
-  state_.options = options;
+  set_options(options);
   state_.modules[0].linked = true;
   for (motion::Axis& axis : state_.axes) axis.switch_servo(options.has_servo_at_power_up());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 
@@ -10,10 +11,30 @@
 
 namespace understudy::emulator::models::slim {
 
+/// A pointer to a device's decisions within its state, of which it is no part: all are equal. A copy of the
+/// state may outlive the device, or belong to another one, so a copy has no pointer and assignment keeps
+/// one's own.
+struct NotedDecisions {
+  Decisions* decisions = nullptr;
+
+  constexpr NotedDecisions() = default;
+  constexpr explicit NotedDecisions(Decisions* of_device) : decisions(of_device) {}
+  constexpr NotedDecisions(const NotedDecisions& /*other*/) {}
+  constexpr NotedDecisions& operator=(const NotedDecisions& /*other*/) { return *this; }
+
+  constexpr void ask(std::size_t choice) const {
+    if (decisions != nullptr) decisions->ask(choice);
+  }
+  constexpr void meet(std::size_t table, std::size_t state, std::size_t event) const {
+    if (decisions != nullptr) decisions->meet(table, state, event);
+  }
+  constexpr bool operator==(const NotedDecisions& /*other*/) const { return true; }
+};
+
 /// The chosen option of each row; by default our own choice, the first of the row.
 struct ChainOptions {
   std::array<std::uint8_t, std::size(kChoices)> numbers{};  // chosen option of each row
-  DecisionsBeside noted{};
+  NotedDecisions noted{};
 
   constexpr bool chose(const Option& option) const {
     noted.ask(option.choice);

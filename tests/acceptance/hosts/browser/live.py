@@ -26,7 +26,7 @@ import doing
 MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
 BROWSERS = 16
 # For a recording: only buttons that display something, or that belong to the browser.
-HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close|go to|zoom|earlier|later|whole|drags mark|list what')
+HARMLESS = re.compile('save|freeze|scale|remove|pause the list|read it again|next|previous|back|the choice|clear the path|pcapng|close|go to|zoom|earlier|later|whole|dragging marks|list what')
 
 BENCH = """understudy: 1
 lines:
