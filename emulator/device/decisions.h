@@ -54,17 +54,4 @@ struct AskedOptions {
   }
 };
 
-/// A pointer to decisions within a state, of which it is no part: all are equal.
-struct DecisionsBeside {
-  Decisions* decisions = nullptr;
-
-  constexpr void ask(std::size_t choice) const {
-    if (decisions != nullptr) decisions->ask(choice);
-  }
-  constexpr void meet(std::size_t table, std::size_t state, std::size_t event) const {
-    if (decisions != nullptr) decisions->meet(table, state, event);
-  }
-  constexpr bool operator==(const DecisionsBeside& /*other*/) const { return true; }
-};
-
 }  // namespace understudy::emulator
