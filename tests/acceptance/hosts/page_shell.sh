@@ -22,6 +22,7 @@ end_first() {
 }
 in_first_terminal() {
   end_first
+  : >"$home/first"  # here, not in the job: until it begins, the previous program's "ready" would stand there
   "$@" >"$home/first" 2>&1 &
   first=$!
   local i
