@@ -423,7 +423,7 @@ def test_a_program_is_debugged(bench):
     bench.program("again:  VAR_Inc VAR32\n        Delay_mSec 5\n        Jump again\n        END\n")
     number = bench.set_break(line=2, when="PROG_VAR0 == 3")["number"]
     bench.set({"PROG_MAIN_RunTime_START": 0})
-    stop = bench.go_on(within="1s")
+    stop = bench.continue_(within="1s")
     assert stop["breakpoint"] == number and stop["line"] == 2
     assert bench.stack()[0]["frames"][0]["line"] == 2
     assert bench.source().splitlines()[1].split() == ["Delay_mSec", "5"]

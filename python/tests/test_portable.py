@@ -22,7 +22,7 @@ PROJECT = pathlib.Path(__file__).parents[2]
 PROGRAM = pathlib.Path(os.environ.get("UNDERSTUDY_PROGRAM") or shutil.which("understudy") or "understudy").resolve()
 
 
-def said_by(*command, **options):
+def output_of(*command, **options):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300, **options)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout.strip()
@@ -44,7 +44,7 @@ def archive(tmp_path_factory):
         there = list((folder / "portable").glob("*.tar.gz"))
         # A system that is newer than the archive's own is good enough for a test.
         return there[0] if there else pathlib.Path(
-            said_by(PROJECT / "packaging/portable.sh", folder / "portable", PROGRAM.parent,
+            output_of(PROJECT / "packaging/portable.sh", folder / "portable", PROGRAM.parent,
                     env={**os.environ, "UNDERSTUDY_ANY_GLIBC": "1"}))
 
 
@@ -61,13 +61,13 @@ def tree(archive, tmp_path_factory):
 def test_the_archive_is_small_and_runs_where_it_lies(archive, tree):
     assert archive.stat().st_size <= 5_000_000
     program = tree / "bin/understudy"
-    loaded = dict(line.strip().split(" => ") for line in said_by("ldd", program).splitlines() if " => /" in line)
+    loaded = dict(line.strip().split(" => ") for line in output_of("ldd", program).splitlines() if " => /" in line)
     own = {name for name, place in loaded.items() if str(tree) in place}
     assert own == {path.name for path in (tree / "lib/understudy").iterdir()} - {"tty_shim.so", "host_time.so"}
     assert "libmodbus.so.5" in own or "libmodbus.so.5" not in loaded
-    assert said_by(program, "models") == said_by(PROGRAM, "models")
-    assert said_by(program, "tty-shim") == str(tree / "lib/understudy/tty_shim.so")
-    said_by(program, "run", tree / "share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
+    assert output_of(program, "models") == output_of(PROGRAM, "models")
+    assert output_of(program, "tty-shim") == str(tree / "lib/understudy/tty_shim.so")
+    output_of(program, "run", tree / "share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
 
 
 def test_the_archive_has_pages_schemas_and_licences(tree):
@@ -81,7 +81,7 @@ def test_the_archive_has_pages_schemas_and_licences(tree):
 def test_the_archive_lists_its_parts(tree):
     parts = json.loads((tree / "sbom.cdx.json").read_text())
     assert (parts["bomFormat"], parts["specVersion"]) == ("CycloneDX", "1.5")
-    assert parts["metadata"]["component"]["version"] == said_by(PROGRAM, "--version")
+    assert parts["metadata"]["component"]["version"] == output_of(PROGRAM, "--version")
     versions = {part["name"]: part["version"] for part in parts["components"]}
     assert all(version[0].isdigit() for version in versions.values()), versions
     assert {"glibc", "libmodbus5", "libyaml-cpp-dev", "libsqlite3-dev", "htm", "preact", "uplot"} <= versions.keys()
@@ -103,7 +103,7 @@ def wheel(archive, tmp_path_factory):
     for module in ("pip", "setuptools", "wheel"):
         if importlib.util.find_spec(module) is None:
             pytest.skip(f"python3-{module} is not installed")
-    return pathlib.Path(said_by(sys.executable, PROJECT / "packaging/program_wheel.py", archive,
+    return pathlib.Path(output_of(sys.executable, PROJECT / "packaging/program_wheel.py", archive,
                                 tmp_path_factory.mktemp("wheel")))
 
 
@@ -119,22 +119,22 @@ def test_the_wheel_says_what_it_needs(wheel, tree):
 
 def test_the_wheel_brings_program_client_and_plugin(wheel, tmp_path):
     venv.create(tmp_path / "v", system_site_packages=True)  # for pytest
-    said_by(sys.executable, "-m", "pip", "--disable-pip-version-check", f"--python={tmp_path}/v/bin/python", "install",
+    output_of(sys.executable, "-m", "pip", "--disable-pip-version-check", f"--python={tmp_path}/v/bin/python", "install",
             "-q", "--no-index", "--ignore-installed", wheel)
-    assert said_by(tmp_path / "v/bin/understudy", "models") == said_by(PROGRAM, "models")
+    assert output_of(tmp_path / "v/bin/understudy", "models") == output_of(PROGRAM, "models")
     (tmp_path / "test_it.py").write_text("import understudy, sys\n"
                                          "def test_it(bench):\n    assert bench.advance('1ms') == 1_000_000\n"
                                          "    assert understudy.__file__.startswith(sys.prefix)\n"
                                          "    from understudy.daemon import program_path\n"
                                          "    assert program_path() == sys.prefix + '/bin/understudy'\n")
     plain = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "UNDERSTUDY_PROGRAM")}
-    said_by(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
+    output_of(tmp_path / "v/bin/python", "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / "test_it.py", env=plain,
             cwd=tmp_path)
 
 
 @pytest.fixture(scope="module")
 def image(archive, tmp_path_factory):
-    return pathlib.Path(said_by(PROJECT / "packaging/oci_image.py", archive, tmp_path_factory.mktemp("image")))
+    return pathlib.Path(output_of(PROJECT / "packaging/oci_image.py", archive, tmp_path_factory.mktemp("image")))
 
 
 def blobs_of(image):
@@ -154,7 +154,7 @@ def test_the_image_holds_what_its_digests_name(image, archive, tmp_path):
     layers = [gzip.decompress(blobs[part["digest"]]) for part in manifest["layers"]]
     config = json.loads(blobs[manifest["config"]["digest"]])
     assert config["rootfs"]["diff_ids"] == [f"sha256:{hashlib.sha256(layer).hexdigest()}" for layer in layers]
-    again = said_by(PROJECT / "packaging/oci_image.py", archive, tmp_path)
+    again = output_of(PROJECT / "packaging/oci_image.py", archive, tmp_path)
     assert pathlib.Path(again).read_bytes() == image.read_bytes(), "equal archives make equal images"
 
 
@@ -168,8 +168,8 @@ def test_the_program_of_the_image_serves_from_its_own_root(image, tmp_path):
     config = json.loads(blobs[manifest["config"]["digest"]])["config"]
     root = tmp_path / "root"
     command = ["unshare", "--mount", f"--mount-proc={root}/proc", "chroot", root, *config["Entrypoint"]]
-    assert said_by(*command, "models") == said_by(PROGRAM, "models")
-    said_by(*command, "run", "/opt/understudy/share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
+    assert output_of(*command, "models") == output_of(PROGRAM, "models")
+    output_of(*command, "run", "/opt/understudy/share/understudy/scenarios/simple2-r3/absolute_positions.yaml")
     arguments = [word.replace("0.0.0.0:5020", "127.0.0.1:0") for word in config["Cmd"]]
     with subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, text=True) as served:
         try:
@@ -216,9 +216,9 @@ def test_run_takes_the_program_of_an_archive_beside_it(tmp_path):
     failed = subprocess.run([project / "run", "models"], env=quiet, capture_output=True, text=True, timeout=60)
     assert (failed.returncode, "cmake was called" in failed.stderr) == (4, True), "another version is not taken"
     pack("9.8.7", "first")
-    assert said_by(project / "run", "models", env=quiet) == "first models"
+    assert output_of(project / "run", "models", env=quiet) == "first models"
     pack("9.8.7", "second")
-    assert said_by(project / "run", "models", env=quiet) == "second models", "a newer archive is unpacked again"
+    assert output_of(project / "run", "models", env=quiet) == "second models", "a newer archive is unpacked again"
     built = project / "build/release/understudy"
     built.parent.mkdir(parents=True)
     built.write_text("")

@@ -125,11 +125,13 @@ class Bench:
         """Deletes a breakpoint; without a number all of them."""
         self.ask("break", delete="all" if number is None else number)
 
-    def go_on(self, within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
+    def continue_(self, within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
         """Lets time run; with `within` until the next stop, which it returns, or None if there was none. A
         recording also goes back."""
         asked = {"within": within, "back": back}
         return cast(Optional[Dict[str, Any]], self.ask("continue", **_given(asked)).get("stop"))
+
+    go_on = continue_  # its name until 0.3.0
 
     def step_program(self, what: str = "line", device: Optional[str] = None, program: Optional[str] = None,
                      within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:

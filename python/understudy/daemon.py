@@ -80,7 +80,7 @@ class Daemon:
             self.stop()
             raise
 
-    def said(self) -> str:
+    def messages(self) -> str:
         """Returns the program's output."""
         with open(os.path.join(self.folder, "log"), encoding="utf-8", errors="replace") as log:
             return log.read()
@@ -123,16 +123,16 @@ class Daemon:
         end = time.monotonic() + within_s
         while True:
             over = bool(select.select([self._from_program], [], [], 0.003)[0])
-            said = self.said()
+            messages = self.messages()
             if over:
                 # The bench was made from a model and choices, so the user does not know the file.
                 made_up = re.escape(self.folder) + r"/bench\.yaml:\d+:\d+: lines\.line\.stations\[0\]\.?"
-                why = re.sub(made_up, "", self.said()).strip() or f"{program} ended without a message"
+                why = re.sub(made_up, "", self.messages()).strip() or f"{program} ended without a message"
                 raise BadSetup(why) if self._end() == BAD_SETUP else NotThere(why)
-            if "ready " in said and os.path.exists(self.control):
+            if "ready " in messages and os.path.exists(self.control):
                 return
             if time.monotonic() > end:
-                raise NotThere(f"not ready within {within_s:g} s: {said.strip()}")
+                raise NotThere(f"not ready within {within_s:g} s: {messages.strip()}")
 
 
 def _folders() -> str:

@@ -70,11 +70,11 @@ class BoxConnection:
         if not self._end.alive:
             return
         self._end()
-        if self.said():
-            print(self.said(), file=sys.stderr)
+        if self.messages():
+            print(self.messages(), file=sys.stderr)
         self._errors.close()
 
-    def said(self) -> str:
+    def messages(self) -> str:
         """Returns the program's messages, such as that the stop has gone out."""
         self._errors.seek(0)
         return self._errors.read().decode(errors="replace").strip()
@@ -105,7 +105,7 @@ class BoxConnection:
             line = self._line()
         except OSError as error:
             code = self._process.wait()
-            why = self.said() or str(error)
+            why = self.messages() or str(error)
             raise BadSetup(why) if code == BAD_SETUP else NotThere(why)
         reply: Dict[str, Any] = json.loads(line)
         if not reply["ok"]:
