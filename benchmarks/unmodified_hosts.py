@@ -104,7 +104,7 @@ def build(folder):
     Path(folder, "collectd.sh").write_text(COLLECTD_SCRIPT.replace("{build}", folder), encoding="ascii")
 
 
-def is_there(need):
+def is_present(need):
     kind, _, name = need.partition(" ")
     if kind == "program":
         return subprocess.run(["which", name], capture_output=True, check=False).returncode == 0
@@ -152,7 +152,7 @@ def main():
             if arguments.names and name not in arguments.names:
                 continue
             words = [word.replace("{build}", folder) for word in words]
-            missing = [need for need in needs if not is_there(need.replace("{build}", folder))]
+            missing = [need for need in needs if not is_present(need.replace("{build}", folder))]
             if missing:
                 print(f"{name}: left out: {missing[0]} is not there", file=sys.stderr)
                 continue

@@ -39,7 +39,8 @@ std::string text(double value) {
 void require_near(double value, std::string_view law, std::string_view quantity) {
   require_finite(value, law, quantity);
   if (std::abs(value) > kFarthest_u) {
-    refuse(Refusal::out_of_range, law, std::string(quantity) + " must be within +-1e12, is " + text(value));
+    refuse(Refusal::out_of_range, law,
+           std::string(quantity) + " must be within +-1e12; it is " + text(value));
   }
 }
 
@@ -70,12 +71,12 @@ struct ArcDemand {
       : law(name), options(given), begin(from) {
     for (const int axis : {options.plane.first, options.plane.second}) {
       if (axis < 0 || axis >= kPathAxes) {
-        refuse(Refusal::out_of_range, law, "axis of the plane must be 0..3, is " + std::to_string(axis));
+        refuse(Refusal::out_of_range, law, "axis of the plane must be 0..3; it is " + std::to_string(axis));
       }
     }
     if (options.plane.first == options.plane.second) {
       refuse(Refusal::out_of_range, law,
-             "axes of the plane must be different, are both " + std::to_string(options.plane.first));
+             "axes of the plane must be different; both are " + std::to_string(options.plane.first));
     }
     require_not_negative(options.radius_tolerance_u, law, "radius tolerance");
     require_near(begin, law, "begin");
@@ -105,7 +106,8 @@ struct ArcDemand {
 Path finished(Path path, double growth_u, const ArcDemand& demand) {
   const double sweep = std::abs(path.sweep_rad);
   if (sweep > kFarthestAngle_rad) {
-    refuse(Refusal::out_of_range, demand.law, "sweep must be within +-1e6 rad, is " + text(path.sweep_rad));
+    refuse(Refusal::out_of_range, demand.law,
+           "sweep must be within +-1e6 rad; it is " + text(path.sweep_rad));
   }
   path.kind = Path::Kind::arc;
   path.measure = demand.options.measure;
@@ -120,7 +122,7 @@ Path finished(Path path, double growth_u, const ArcDemand& demand) {
   // A difference within the tolerance is blended in; a true spiral has no such length in closed form.
   if (std::abs(growth_u) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
     refuse(Refusal::out_of_range, demand.law,
-           "growth of the radius must be 0 if the longest axis is the measure, is " + text(growth_u));
+           "growth of the radius must be 0 if the longest axis is the measure; it is " + text(growth_u));
   }
   path.length_u = length_by_longest_axis(path);
   return path;
@@ -157,7 +159,7 @@ Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) 
   const double shorter = std::abs(x_is_shorter ? end.x : end.y);
   if (shorter > radius_u) {
     refuse(Refusal::no_such_arc, demand.law,
-           "shorter coordinate of the end must be within the radius " + text(radius_u) + ", is " +
+           "shorter coordinate of the end must be within the radius " + text(radius_u) + "; it is " +
                text(shorter));
   }
   const double longer = std::sqrt((radius_u - shorter) * (radius_u + shorter));
@@ -185,7 +187,7 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
   const double longest_square = std::max({middle.square(), end.square(), rest.square()});
   const double shortest_square = std::min({middle.square(), end.square(), rest.square()});
   if (shortest_square == 0)
-    refuse(Refusal::no_such_arc, law, "three points must be different, two are the same");
+    refuse(Refusal::no_such_arc, law, "three points must be different; two are the same");
   if (std::abs(doubled_area) <= kFlatTriangle * longest_square) {
     refuse(Refusal::no_such_arc, law,
            "three points must not be on one line, are within " +
@@ -211,21 +213,21 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   const Flat in_plane = demand.in_plane(rise);
   if (in_plane.x != 0 || in_plane.y != 0) {
     refuse(Refusal::out_of_range, demand.law,
-           "rise must be 0 in the plane, is " + text(in_plane.x != 0 ? in_plane.x : in_plane.y));
+           "rise must be 0 in the plane; it is " + text(in_plane.x != 0 ? in_plane.x : in_plane.y));
   }
   if (sweep_rad == 0) return line(demand.begin, demand.begin + rise, demand.options.measure);
 
   Path path = in_plane_of(demand, at_centre, sweep_rad, rise);
   const double radius = (demand.begin - at_centre).norm();
   if (radius == 0 && growth_u_turn <= 0) {
-    refuse(Refusal::no_such_arc, demand.law, "centre must differ from begin, is on it");
+    refuse(Refusal::no_such_arc, demand.law, "centre must differ from begin; it is on it");
   }
   double growth = growth_u_turn * (std::abs(sweep_rad) / (2 * kPi));
   if (radius + growth < 0) {
     // A spiral that is meant to end at its centre does so.
     if (radius + growth < -kSameDirection_rad * radius) {
       refuse(Refusal::no_such_arc, demand.law,
-             "radius must be 0 or above, is " + text(radius + growth) + " at the end");
+             "radius must be 0 or above; it is " + text(radius + growth) + " at the end");
     }
     growth = -radius;
   }
@@ -262,11 +264,12 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
   const Flat middle = demand.in_plane(centre);
   const Point at_centre = demand.centre_at(middle);
   if (more_turns < 0) {
-    refuse(Refusal::negative, demand.law, "more turns must be 0 or above, is " + std::to_string(more_turns));
+    refuse(Refusal::negative, demand.law,
+           "more turns must be 0 or above; it is " + std::to_string(more_turns));
   }
   if (static_cast<double>(more_turns) > kFarthestAngle_rad) {
     refuse(Refusal::out_of_range, demand.law,
-           "more turns must be within 1e6 rad, is " + std::to_string(more_turns));
+           "more turns must be within 1e6 rad; it is " + std::to_string(more_turns));
   }
 
   const Flat from = demand.in_plane(begin) - middle;
@@ -275,7 +278,7 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
   const double end_radius = to.norm();
   if (radius == 0 || end_radius == 0) {
     refuse(Refusal::no_such_arc, demand.law,
-           "centre must differ from begin and end, is on " + std::string(radius == 0 ? "begin" : "end"));
+           "centre must differ from begin and end; it is on " + std::string(radius == 0 ? "begin" : "end"));
   }
   Point met = end;
   double growth = end_radius - radius;
@@ -285,7 +288,7 @@ Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Tu
     growth = 0;
   } else if (options.off_circle == OffCircle::refuse && std::abs(growth) > options.radius_tolerance_u) {
     refuse(Refusal::no_such_arc, demand.law,
-           "end must be on the circle of radius " + text(radius) + ", is at " + text(end_radius));
+           "end must be on the circle of radius " + text(radius) + "; it is at " + text(end_radius));
   } else if (options.off_circle == OffCircle::quadrant) {
     growth = 0;
     to = end_in_quadrant(demand, radius, to);
@@ -318,12 +321,12 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
   const Flat chord = demand.in_plane(end) - from;
   const double half = chord.norm() / 2;
   const double radius = std::abs(radius_u);
-  if (radius == 0) refuse(Refusal::no_such_arc, demand.law, "radius must not be 0, is 0");
+  if (radius == 0) refuse(Refusal::no_such_arc, demand.law, "radius must not be 0; it is 0");
   if (half == 0)
-    refuse(Refusal::no_such_arc, demand.law, "end must differ from begin in the plane, is on it");
+    refuse(Refusal::no_such_arc, demand.law, "end must differ from begin in the plane; it is on it");
   if (2 * half > 2 * radius + options.radius_tolerance_u) {
     refuse(Refusal::no_such_arc, demand.law,
-           "chord must be at most " + text(2 * radius) + ", twice the radius, is " + text(2 * half));
+           "chord must be at most " + text(2 * radius) + ", twice the radius; it is " + text(2 * half));
   }
   // For the shorter arc counter-clockwise, the centre is `height` to the left of the chord.
   const double height = radius > half ? std::sqrt((radius - half) * (radius + half)) : 0;
@@ -360,7 +363,7 @@ Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   const Point to_middle = middle - begin;
   const Point to_end = end - begin;
   if (to_middle.isZero(0) || to_end.isZero(0) || middle == end) {
-    refuse(Refusal::no_such_arc, demand.law, "three points must be different, two are the same");
+    refuse(Refusal::no_such_arc, demand.law, "three points must be different; two are the same");
   }
   Path path;
   path.begin = begin;

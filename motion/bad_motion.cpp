@@ -12,7 +12,7 @@ namespace {
 std::string require(std::string_view quantity, std::string_view wanted, double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  return std::string(quantity) + " must be " + std::string(wanted) + ", is " + std::string(digits, end);
+  return std::string(quantity) + " must be " + std::string(wanted) + "; it is " + std::string(digits, end);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ enum class Refusal : std::uint8_t {
   no_room,       // a queue or a table of fixed size is full
 };
 
-/// Thrown for an impossible motion. what() is one line: "<law>: <quantity> must be ..., is <value>".
+/// Thrown for an impossible motion. what() is one line: "<law>: <quantity> must be ...; it is <value>".
 class BadMotion : public std::invalid_argument {
  public:
   BadMotion(Refusal refusal, std::string_view law, std::string_view require)

@@ -42,7 +42,7 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
     return steps ? std::optional(*steps + std::abs(stop - travel)) : std::nullopt;
   }
   const std::int64_t before = at(travel);
-  const auto is_there = [&](std::int64_t steps) {
+  const auto is_present = [&](std::int64_t steps) {
     return std::abs(at(travel + direction * steps) - before) >= count_steps;
   };
   // By the slope alone, the count is reached within a few pulses.
@@ -52,11 +52,11 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
   if (about > kFarthestCount || leeway > kFarthestCount) return std::nullopt;
   std::int64_t outside = std::max<std::int64_t>(about - leeway, 0);
   std::int64_t inside = about + leeway;
-  if (outside > 0 && is_there(outside)) outside = 0;
-  if (!is_there(inside)) return std::nullopt;  // the machine reaches a stop before that
+  if (outside > 0 && is_present(outside)) outside = 0;
+  if (!is_present(inside)) return std::nullopt;  // the machine reaches a stop before that
   while (inside - outside > 1) {
     const std::int64_t middle = outside + (inside - outside) / 2;
-    (is_there(middle) ? inside : outside) = middle;
+    (is_present(middle) ? inside : outside) = middle;
   }
   return inside;
 }

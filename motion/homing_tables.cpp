@@ -81,7 +81,7 @@ constexpr std::array<Mode, 13> kModes{{
 
 const Mode& mode_row(int mode) {
   if (mode < 0 || mode > 12) {
-    throw BadMotion(Refusal::out_of_range, "homing", "mode must be 0 to 12, is " + std::to_string(mode));
+    throw BadMotion(Refusal::out_of_range, "homing", "mode must be 0 to 12; it is " + std::to_string(mode));
   }
   return kModes[static_cast<std::size_t>(mode)];
 }

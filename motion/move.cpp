@@ -49,7 +49,7 @@ void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double targ
     if (left > rounding_of(target_u)) {
       if (start <= 0) {
         throw BadMotion(Refusal::not_positive, "move",
-                        "start speed must be above 0 so that the axis can creep to the end, is 0");
+                        "start speed must be above 0 so that the axis can creep to the end; it is 0");
       }
       profile.append(left / start, start, 0, 0);
     } else if (left < -rounding_of(target_u)) {

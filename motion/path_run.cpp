@@ -49,7 +49,7 @@ void require_plans(SpeedLaw law, double override_factor) {
   }
   if (may_creep && law.start_speed_u_s <= 0) {
     throw BadMotion(Refusal::not_positive, "path run",
-                    "start speed must be above 0 if slowing down may begin early, is 0");
+                    "start speed must be above 0 if slowing down may begin early; it is 0");
   }
   const Profile endless = plan_endless(law);
   constexpr double kLongest_u = 1e20;
@@ -347,12 +347,12 @@ double PathRun::along_at(const Stretch& gone, Instant at) const {
 }
 
 Instant PathRun::moment_at(const Stretch& gone, Tick tick, double along_u) const {
-  const auto is_there = [&](double after_s) {
+  const auto is_present = [&](double after_s) {
     return along_at(gone, {.tick = tick - 1, .after_s = after_s}) >= along_u;
   };
-  if (is_there(0)) return {.tick = tick - 1};
-  if (!is_there(kTick_s)) return {.tick = tick};
-  const double after_s = turnover(0, kTick_s, is_there).after;
+  if (is_present(0)) return {.tick = tick - 1};
+  if (!is_present(kTick_s)) return {.tick = tick};
+  const double after_s = turnover(0, kTick_s, is_present).after;
   if (after_s >= kTick_s) return {.tick = tick};
   return {.tick = tick - 1, .after_s = after_s};
 }

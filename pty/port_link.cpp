@@ -85,10 +85,10 @@ void require_directory(const std::string& path, const std::filesystem::path& abs
 }  // namespace
 
 std::string port_trouble(int error) {
-  const std::string said = std::generic_category().message(error);
+  const std::string printed = std::generic_category().message(error);
   rlimit files = {};
-  if (error != EMFILE || ::getrlimit(RLIMIT_NOFILE, &files) != 0) return said;
-  return said + "; `ulimit -n` is " + std::to_string(files.rlim_cur) + ", and each port needs 3";
+  if (error != EMFILE || ::getrlimit(RLIMIT_NOFILE, &files) != 0) return printed;
+  return printed + "; `ulimit -n` is " + std::to_string(files.rlim_cur) + ", and each port needs 3";
 }
 
 PortLink::PortLink(const std::string& path, std::string target) {

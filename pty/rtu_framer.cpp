@@ -332,8 +332,9 @@ std::size_t RtuFramer::quiet_characters() const {
       framing_.strict || patience() == SimTime{0} || !state_.ready.empty() || state_.resumed != 0;
   if (may_be_due || used() == kCapacity) return 0;
   // Only frames that search() finds are due at once.
-  const auto heard = static_cast<std::size_t>(used() - state_.candidate);
-  const std::size_t undecided_still = state_.search_again_at > heard ? state_.search_again_at - heard : 1;
+  const auto received = static_cast<std::size_t>(used() - state_.candidate);
+  const std::size_t undecided_still =
+      state_.search_again_at > received ? state_.search_again_at - received : 1;
   return std::min(undecided_still, kCapacity - used());
 }
 

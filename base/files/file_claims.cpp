@@ -37,7 +37,7 @@ std::string place_of(const std::string& path) {
 }
 
 struct Found {
-  bool is_there = false;
+  bool is_present = false;
   bool is_special = false;  // exists, but is not a regular file
   std::pair<dev_t, ino_t> file{};
 };
@@ -45,7 +45,7 @@ struct Found {
 Found find(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) return {};
-  return {.is_there = true, .is_special = !S_ISREG(status.st_mode), .file = {status.st_dev, status.st_ino}};
+  return {.is_present = true, .is_special = !S_ISREG(status.st_mode), .file = {status.st_dev, status.st_ino}};
 }
 
 std::string objection(const std::string& what) { return "is " + what + "; expected another path"; }
@@ -55,7 +55,7 @@ std::string objection(const std::string& what) { return "is " + what + "; expect
 void FileClaims::add(const FileClaim& claim) {
   const Found found = find(claim.path);
   if (claim.path.empty() || found.is_special) return;
-  if (found.is_there) of_files_.emplace(found.file, claim.what);
+  if (found.is_present) of_files_.emplace(found.file, claim.what);
   of_paths_.emplace(target_of(claim.path), claim.what);
 }
 
@@ -72,7 +72,7 @@ std::string FileClaims::objection_to(const std::string& path) const {
   if (const auto it = of_places_.find(place_of(path)); it != of_places_.end()) return objection(it->second);
   const Found found = find(path);
   if (found.is_special) return "";
-  if (found.is_there) {
+  if (found.is_present) {
     if (const auto it = of_files_.find(found.file); it != of_files_.end()) return objection(it->second);
   }
   const auto it = of_paths_.find(target_of(path));

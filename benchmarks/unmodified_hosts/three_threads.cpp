@@ -49,12 +49,13 @@ int main() {
   });
   std::thread teller([] {
     std::unique_lock lock(mutex);
-    int told = 0;
+    int reported = 0;
     while (!is_over) {
-      if (!changed.wait_for(lock, std::chrono::milliseconds(2300), [&] { return polled > told || is_over; }))
+      if (!changed.wait_for(lock, std::chrono::milliseconds(2300),
+                            [&] { return polled > reported || is_over; }))
         continue;
-      told = polled;
-      std::printf("%d\n", told);
+      reported = polled;
+      std::printf("%d\n", reported);
     }
   });
   for (int i = 0; i < 10; ++i) {

@@ -120,18 +120,18 @@ int verify_certificate(const CertificateArguments& arguments) {
   const box::CommandAnswer answer = box::run_command(kVerify, {arguments.signers, signature, path});
   if (answer.exit_code == kNoProgram)
     throw FileError("ssh-keygen: is not installed; expected the one of OpenSSH");
-  const std::string said = one_line(answer.said);
+  const std::string message = one_line(answer.output);
   if (answer.exit_code == kUnknownKey) {
     std::printf("%s: NOT VERIFIED: no key in %s has signed it (%s)\n", path.c_str(),
-                arguments.signers.c_str(), said.c_str());
+                arguments.signers.c_str(), message.c_str());
     return kExitFailed;
   }
   if (answer.exit_code != 0) {
-    std::printf("%s: NOT VERIFIED: the signature does not fit (%s)\n", path.c_str(), said.c_str());
+    std::printf("%s: NOT VERIFIED: the signature does not fit (%s)\n", path.c_str(), message.c_str());
     return kExitFailed;
   }
   const bool is_good = verify_files(files, path);
-  std::printf("%s: %s: %s\n", path.c_str(), is_good ? "verified" : "NOT VERIFIED", said.c_str());
+  std::printf("%s: %s: %s\n", path.c_str(), is_good ? "verified" : "NOT VERIFIED", message.c_str());
   return is_good ? kExitWell : kExitFailed;
 }
 

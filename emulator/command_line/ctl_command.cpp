@@ -305,9 +305,9 @@ void print_status(const Json& status) {
 namespace {
 
 /// Returns the position of a mistake in the listing that could not be loaded.
-ProgramMistake mistake_of(const Json& told, const std::string& before = "") {
-  return {told.at("line").get<int>(), told.at("column").get<int>(),
-          before + one_line(told.at("what").get<std::string>())};
+ProgramMistake mistake_of(const Json& reported, const std::string& before = "") {
+  return {reported.at("line").get<int>(), reported.at("column").get<int>(),
+          before + one_line(reported.at("what").get<std::string>())};
 }
 
 /// Returns why a request failed. For a refused program it begins with the file's name, where editors look for
@@ -315,7 +315,7 @@ ProgramMistake mistake_of(const Json& told, const std::string& before = "") {
 std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("mistakes") || arguments.operands.size() != 2) return reply.at("error");
   std::vector<ProgramMistake> mistakes;
-  for (const Json& told : reply.at("mistakes")) mistakes.push_back(mistake_of(told));
+  for (const Json& reported : reply.at("mistakes")) mistakes.push_back(mistake_of(reported));
   return in_file(mistakes.at(0), arguments.operands[1]) + and_more(mistakes);
 }
 

@@ -52,7 +52,7 @@ std::vector<std::string> with_socket(std::vector<std::string> words, const std::
 }  // namespace
 
 QuietProgram::QuietProgram(std::vector<std::string> words)
-    : said_(memfd_create("understudy-dap", MFD_CLOEXEC)) {
+    : messages_(memfd_create("understudy-dap", MFD_CLOEXEC)) {
   words.insert(words.begin(), "understudy");
   const pid_t parent = getpid();
   std::vector<char*> pointers;
@@ -66,7 +66,7 @@ QuietProgram::QuietProgram(std::vector<std::string> words)
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
-  dup2(said_.get(), STDERR_FILENO);
+  dup2(messages_.get(), STDERR_FILENO);
   execv("/proc/self/exe", pointers.data());
   _exit(kExitNoResource);
 }
@@ -88,10 +88,11 @@ std::optional<int> QuietProgram::ended() {
 std::string QuietProgram::news() {
   std::array<char, 4096> some{};
   std::string text;
-  for (ssize_t got = 0; (got = pread(said_.get(), some.data(), some.size(), told_)) > 0; told_ += got)
+  for (ssize_t got = 0; (got = pread(messages_.get(), some.data(), some.size(), returned_bytes_)) > 0;
+       returned_bytes_ += got)
     text.append(some.data(), static_cast<std::size_t>(got));
   const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is none
-  told_ -= static_cast<off_t>(text.size() - whole);
+  returned_bytes_ -= static_cast<off_t>(text.size() - whole);
   text.resize(whole);
   return text;
 }

@@ -26,8 +26,8 @@ class QuietProgram {
   std::string news();
 
  private:
-  Descriptor said_;
-  off_t told_ = 0;  // how many bytes news() has returned
+  Descriptor messages_;
+  off_t returned_bytes_ = 0;  // how many bytes news() has returned
   pid_t pid_ = -1;
 };
 

@@ -17,8 +17,8 @@
 #include "emulator/device/model.h"
 #include "emulator/hunt/course.h"
 #include "emulator/hunt/course_player.h"
+#include "emulator/hunt/course_players.h"
 #include "emulator/hunt/course_state.h"
-#include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/run.h"
 #include "emulator/play/results/result.h"
@@ -59,7 +59,7 @@ std::vector<play::ScenarioResult> HuntHosts::play_here(const play::Scenario& sce
 /// Makes what a process does. A question is a course, or the path of a scenario that is to be shown.
 Work HuntHosts::make_work() const {
   setpgid(0, 0);  // Ctrl-C ends the hunt, which ends this process; it must not break a course
-  auto stages = std::make_shared<hunt::Stages>(
+  auto stages = std::make_shared<hunt::CoursePlayers>(
       cases_, models_,
       hunt::Player{.here = [this](const play::Scenario& scenario,
                                   const play::RunOptions& options) { return play_here(scenario, options); },

@@ -22,7 +22,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-bool is_there(const std::string& path) {
+bool is_present(const std::string& path) {
   std::error_code error;
   return std::filesystem::symlink_status(path, error).type() != std::filesystem::file_type::not_found;
 }
@@ -51,7 +51,7 @@ void write_new(const NewFile& file) {
 
 void require_new(const std::vector<NewFile>& files) {
   for (const NewFile& file : files) {
-    if (is_there(file.path))
+    if (is_present(file.path))
       throw FileError(file.path + ": file: already exists; expected a folder without it");
   }
 }

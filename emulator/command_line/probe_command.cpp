@@ -20,7 +20,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
 #include "emulator/command_line/model_option.h"
-#include "emulator/command_line/on_stage.h"
+#include "emulator/command_line/on_box.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/yaml_files.h"
@@ -142,7 +142,7 @@ std::vector<Probed> proofs_of(ModelList models, const Model& model, const ProbeA
   return proofs;
 }
 
-void play_case(OptionCase& one, OnStage& stage) {
+void play_case(OptionCase& one, OnBox& stage) {
   play::RunOptions options;
   options.make_executor = [&](const play::Scenario& scenario) { return stage.make(scenario); };
   const std::vector<play::ScenarioResult> results = play::run_scenario(*one.scenario, options);
@@ -160,7 +160,7 @@ void play_case(OptionCase& one, OnStage& stage) {
 /// Returns true if the cases tell the options apart over a line: each passes with its own option, and fails
 /// with every other. Moments that only simulated time can hit do not, and neither do those that an adapter's
 /// delay would move.
-bool are_telling(const Probed& probed, OnStage& stage) {
+bool are_telling(const Probed& probed, OnBox& stage) {
   constexpr SimTime kDelayOfAdapter = std::chrono::milliseconds(16);
   play::RunOptions options;
   options.make_executor = [&](const play::Scenario& scenario) { return stage.rehearse(scenario); };
@@ -183,7 +183,7 @@ bool are_telling(const Probed& probed, OnStage& stage) {
 
 /// Plays each case, and then each once more, because a late reply or what an earlier case has left behind can
 /// change a verdict. If the result of a case is unknown, the others of its choice would not decide either.
-void play_all(Probed& probed, OnStage& stage, int times) {
+void play_all(Probed& probed, OnBox& stage, int times) {
   if (!are_telling(probed, stage)) return;
   for (int time = 0; time < times; ++time) {
     for (OptionCase& one : probed.cases) {
@@ -224,7 +224,7 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
   std::vector<Probed> proofs = proofs_of(models, model, arguments);
   OnArguments on = arguments.on;
   on.on = {"*=" + arguments.port};
-  OnStage stage(on, true);
+  OnBox stage(on, true);
   bool is_aborted = false;
   try {
     for (Probed& probed : proofs) {

@@ -26,7 +26,7 @@
 #include "emulator/command_line/dialogue.h"
 #include "emulator/command_line/findings.h"
 #include "emulator/command_line/host_case.h"
-#include "emulator/command_line/on_stage.h"
+#include "emulator/command_line/on_box.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_account.h"
@@ -195,8 +195,8 @@ class CaseRunner {
     if (arguments.real_time) options_.make_executor = play::make_real_executor;
     if (is_on_box(arguments)) {
       options_.with_hash = false;
-      on_stage_ = std::make_shared<OnStage>(arguments.on);
-      options_.make_executor = [stage = on_stage_](const play::Scenario& scenario) {
+      on_box_ = std::make_shared<OnBox>(arguments.on);
+      options_.make_executor = [stage = on_box_](const play::Scenario& scenario) {
         return stage->make(scenario);
       };
     }
@@ -301,7 +301,7 @@ class CaseRunner {
   const RunArguments& arguments_;
   RunFiles& files_;
   RunCoverage& coverage_;
-  std::shared_ptr<OnStage> on_stage_{};  // null: the controllers are simulated
+  std::shared_ptr<OnBox> on_box_{};  // null: the controllers are simulated
   play::RunOptions options_{};
 };
 

@@ -109,8 +109,8 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
   const bool names_line = equals != std::string::npos;
   const world::TcpAddress address = address_wished(wish, names_line ? equals + 1 : 0);
   for (const world::LineSetup& line : bench.lines) {
-    const auto is_there = [&](const world::TcpAddress& other) { return is_same_place(address, other); };
-    if (std::ranges::any_of(line.tcp, is_there))
+    const auto is_present = [&](const world::TcpAddress& other) { return is_same_place(address, other); };
+    if (std::ranges::any_of(line.tcp, is_present))
       throw UsageError("--listen: " + understudy::quoted(wish) + ": line " + line.name +
                        " already listens there; expected another port");
   }

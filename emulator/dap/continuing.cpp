@@ -142,10 +142,10 @@ void Session::receive_events(const Json& events) {
     event("output", std::move(body));
   }
   if (!may_have_moved || points_.empty()) return;
-  for (const Json& told : link_->ask_for("breakpoints", {{"do", "break"}})) {
+  for (const Json& reported : link_->ask_for("breakpoints", {{"do", "break"}})) {
     for (SetPoint& point : points_) {
-      const int line = told.value("line", 0);
-      if (told["number"] != point.number || point.line == line) continue;
+      const int line = reported.value("line", 0);
+      if (reported["number"] != point.number || point.line == line) continue;
       point.line = line;
       Json changed{{"id", point.id}, {"verified", line != 0}};
       if (line != 0) changed["line"] = line - line_offset_;

@@ -38,7 +38,7 @@ std::size_t assignment_in(const std::string& text) {
   return compares ? std::string::npos : at;
 }
 
-std::string told_value(const Json& reply) {
+std::string value_text(const Json& reply) {
   const Json& value = reply["value"];
   return (value.is_string() ? value.get<std::string>() : value.dump()) +
          (reply.contains("unit") ? " " + text_or(reply, "unit") : "");
@@ -68,9 +68,9 @@ std::string Session::whole_name(const std::string& name, std::size_t device) con
 /// Returns the names that a program spells in its own way: "VAR32" is the register PROG_VAR0.
 Json Session::words_of(std::size_t device) const {
   try {
-    const Json told =
+    const Json reported =
         link_->ask({{"do", "variables"}, {"device", devices_[device].name}, {"scope", "program"}});
-    return told["scopes"][0].value("words", Json::object());
+    return reported["scopes"][0].value("words", Json::object());
   } catch (const GoneError&) {
     throw;
   } catch (const RequestError&) {  // it has no program, or no power
@@ -112,10 +112,10 @@ Json Session::evaluate(const Json& arguments) {
     }
     if (const std::size_t sign = assignment_in(text); sign != std::string::npos) {
       const Json set = set_value(whole_name(trimmed(text.substr(0, sign)), device), text.substr(sign + 1));
-      return {{"result", told_value(set)}, {"variablesReference", 0}};
+      return {{"result", value_text(set)}, {"variablesReference", 0}};
     }
   }
-  return {{"result", told_value(value_of(text, device))}, {"variablesReference", 0}};
+  return {{"result", value_text(value_of(text, device))}, {"variablesReference", 0}};
 }
 
 /// Sets a register, a value or an input to the value of an expression. Returns its new value.
@@ -140,9 +140,9 @@ Json Session::set_value(const std::string& whole, const std::string& value) cons
     return {{"value", to}};  // the device reads it in the next tick
   }
   const Json now = link_->ask({{"do", "get"}, {"names", {whole}}});
-  Json told{{"value", now["values"][whole]}};
-  if (now.contains("units") && now["units"].contains(whole)) told["unit"] = now["units"][whole];
-  return told;
+  Json reported{{"value", now["values"][whole]}};
+  if (now.contains("units") && now["units"].contains(whole)) reported["unit"] = now["units"][whole];
+  return reported;
 }
 
 /// Writes the register of a bit with only that bit changed.
@@ -171,14 +171,14 @@ Json Session::set_variable(const Json& arguments) {
   const std::string value = require_text(arguments, "value");
   const std::size_t device = device_of_reference(reference);
   if (reference > kFirstBits)
-    return {{"value", told_value(set_bit(register_of_reference(reference), name, value))}};
-  return {{"value", told_value(set_value(whole_name(name, device), value))}};
+    return {{"value", value_text(set_bit(register_of_reference(reference), name, value))}};
+  return {{"value", value_text(set_value(whole_name(name, device), value))}};
 }
 
 Json Session::set_expression(const Json& arguments) {
   const std::string name = trimmed(require_text(arguments, "expression"));
   const std::size_t device = device_of_frame(arguments);
-  return {{"value", told_value(set_value(whole_name(name, device), require_text(arguments, "value")))}};
+  return {{"value", value_text(set_value(whole_name(name, device), require_text(arguments, "value")))}};
 }
 
 /// Returns names that contain the part: those that its program uses come first.

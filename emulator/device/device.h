@@ -30,7 +30,7 @@ struct StateOf;
 namespace understudy::emulator {
 
 class Axes;
-class KeptMemory;
+class PersistentMemory;
 class ClearTravel;
 class ModbusStation;
 class NamedValues;
@@ -74,9 +74,9 @@ class Device {
   /// Values without a register (named_values.h).
   virtual NamedValues* named_values() { return nullptr; }
   virtual const NamedValues* named_values() const { return nullptr; }
-  /// The memory that survives power-off (memory/kept_memory.h).
-  virtual KeptMemory* memory() { return nullptr; }
-  virtual const KeptMemory* memory() const { return nullptr; }
+  /// The memory that survives power-off (memory/persistent_memory.h).
+  virtual PersistentMemory* memory() { return nullptr; }
+  virtual const PersistentMemory* memory() const { return nullptr; }
   /// The user program that the device can run (user_program.h).
   virtual UserProgram* user_program() { return nullptr; }
   virtual const UserProgram* user_program() const { return nullptr; }

@@ -21,8 +21,8 @@ class DeviceOf : public Device {
   const TextProtocol* text_protocol() const override { return facet<const TextProtocol>(*this); }
   NamedValues* named_values() override { return facet<NamedValues>(*this); }
   const NamedValues* named_values() const override { return facet<const NamedValues>(*this); }
-  KeptMemory* memory() override { return facet<KeptMemory>(*this); }
-  const KeptMemory* memory() const override { return facet<const KeptMemory>(*this); }
+  PersistentMemory* memory() override { return facet<PersistentMemory>(*this); }
+  const PersistentMemory* memory() const override { return facet<const PersistentMemory>(*this); }
   UserProgram* user_program() override { return facet<UserProgram>(*this); }
   const UserProgram* user_program() const override { return facet<const UserProgram>(*this); }
   const Terminals* terminals() const override { return facet<const Terminals>(*this); }

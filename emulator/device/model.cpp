@@ -21,9 +21,9 @@
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/firmware_message.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
@@ -286,8 +286,8 @@ void load_memory(Device& device, const NvImage& image) {
 /// Checks that the device has the facets that its model's tables need.
 void require_facets(const Device& device) {
   const Model& model = whole(device.model());
-  const auto require = [&](bool is_there, std::string_view what) {
-    if (!is_there) throw std::logic_error(std::string(model.name) + ": lacks " + std::string(what));
+  const auto require = [&](bool is_present, std::string_view what) {
+    if (!is_present) throw std::logic_error(std::string(model.name) + ": lacks " + std::string(what));
   };
   const auto find = [&](std::string_view name) { return find_register(model, name, device.firmware()); };
   const auto& numbers = model.line.station_numbers;
@@ -364,7 +364,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   if (!settings.program.empty()) load_program(*device, settings.program);
   set_station_number(*device);
   set_registers(*device, settings);
-  if (KeptMemory* const memory = device->memory()) memory->settle_memory();
+  if (PersistentMemory* const memory = device->memory()) memory->settle_memory();
   return device;
 }
 

@@ -238,7 +238,8 @@ struct Model {
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that best show what the device is doing
-  std::span<const std::string_view> gaps;  // what is missing beyond single registers, one sentence each
+  std::span<const std::string_view>
+      known_limitations;  // what is missing beyond single registers, one sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};            // for a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none

@@ -14,9 +14,9 @@
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
 #include "emulator/hunt/course_player.h"
+#include "emulator/hunt/course_players.h"
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/play/performing/observer.h"
 #include "emulator/play/performing/suite.h"
@@ -30,17 +30,17 @@ Hunt::Hunt(const play::CaseList& cases, ModelList models, HuntOptions options,
            std::function<Player()> make_player)
     : cases_(cases), models_(models), options_(std::move(options)), make_player_(std::move(make_player)) {}
 
-std::unique_ptr<Stages> Hunt::take_stages() {
+std::unique_ptr<CoursePlayers> Hunt::take_course_players() {
   const std::lock_guard lock(stages_mutex_);
-  if (stages_.empty()) return std::make_unique<Stages>(cases_, models_, make_player_());
-  auto course_players = std::move(stages_.back());
-  stages_.pop_back();
+  if (course_players_.empty()) return std::make_unique<CoursePlayers>(cases_, models_, make_player_());
+  auto course_players = std::move(course_players_.back());
+  course_players_.pop_back();
   return course_players;
 }
 
-void Hunt::give_back(std::unique_ptr<Stages> course_players) {
+void Hunt::give_back(std::unique_ptr<CoursePlayers> course_players) {
   const std::lock_guard lock(stages_mutex_);
-  stages_.push_back(std::move(course_players));
+  course_players_.push_back(std::move(course_players));
 }
 
 /// Returns true if a course goes on from another one: half of them do, except for the first ones. A fault
@@ -52,7 +52,7 @@ bool Hunt::goes_on(std::uint64_t number) const {
 }
 
 /// Draws a course: a new one, or one that goes on from a course that reached something new.
-Course Hunt::draw(Stages& course_players, std::uint64_t number) const {
+Course Hunt::draw(CoursePlayers& course_players, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
   Course course;
@@ -78,7 +78,7 @@ Course Hunt::draw(Stages& course_players, std::uint64_t number) const {
   return course;
 }
 
-Hunt::Played Hunt::play(Stages& course_players, Course course) const {
+Hunt::Played Hunt::play(CoursePlayers& course_players, Course course) const {
   CoursePlayer& course_player = *course_players.of(course.case_number);
   Played played{.course = std::move(course), .outcome = course_player.undisturbed_outcome()};
   if (played.outcome.kind.empty())
@@ -105,7 +105,7 @@ void Hunt::judge(std::uint64_t number, const Played& played,
     tally_.reached = corpus_.counts();
   }
   if (!is_new) return;
-  auto course_players = take_stages();
+  auto course_players = take_course_players();
   Finding finding{.course = number, .disturbances = played.course.disturbances.size()};
   finding.course_player = course_players->of(played.course.case_number);
   finding.shrunk = Shrinker(*finding.course_player, outcome.kind).shrink(played.course, outcome);
@@ -129,10 +129,10 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
     return play::CaseId{.file = 0, .number = next++};
   };
   const auto make_play = [&]() -> play::Play {
-    const auto return_it = [this](Stages* course_players) {
-      give_back(std::unique_ptr<Stages>(course_players));
+    const auto return_it = [this](CoursePlayers* course_players) {
+      give_back(std::unique_ptr<CoursePlayers>(course_players));
     };
-    const std::shared_ptr<Stages> course_players(take_stages().release(), return_it);
+    const std::shared_ptr<CoursePlayers> course_players(take_course_players().release(), return_it);
     return [this, course_players, &all, first](const play::CaseId& course) {
       all[course.number - first] = play(*course_players, draw(*course_players, course.number));
       return std::vector<play::ScenarioResult>{};
@@ -149,7 +149,7 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
 
 /// Judges the only case without disturbances, if it fails: every course would fail in the same way.
 bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
-  auto course_players = take_stages();
+  auto course_players = take_course_players();
   const Played played{.course = {}, .outcome = course_players->of(0)->undisturbed_outcome()};
   give_back(std::move(course_players));
   if (played.outcome.kind.empty()) return false;
@@ -159,7 +159,7 @@ bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
 
 /// Plays the courses of earlier hunts, to learn what they have reached.
 void Hunt::play_earlier() {
-  auto course_players = take_stages();
+  auto course_players = take_course_players();
   options_.corpus.insert(options_.corpus.begin(), Course{});  // the scenario without disturbances
   for (Course& course : options_.corpus) {
     if (options_.is_over()) {
@@ -193,7 +193,7 @@ void Hunt::play_corpus(
     const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers,
     const std::function<void(const Course&, const play::HuntPlan&)>& over) {
   corpus_.renew();
-  auto course_players = take_stages();
+  auto course_players = take_course_players();
   for (const Seed& seed : corpus_.seeds()) {
     CoursePlayer& course_player = *course_players->of(seed.course.case_number);
     course_player.play(seed.course, observers(course_player.scenario()));

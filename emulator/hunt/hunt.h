@@ -16,9 +16,9 @@
 #include "emulator/hunt/corpus.h"
 #include "emulator/hunt/course.h"
 #include "emulator/hunt/course_player.h"
+#include "emulator/hunt/course_players.h"
 #include "emulator/hunt/reach.h"
 #include "emulator/hunt/shrinker.h"
-#include "emulator/hunt/stages.h"
 #include "emulator/play/performing/case_list.h"
 
 namespace understudy::emulator::hunt {
@@ -105,11 +105,11 @@ class Hunt {
     Reached reached{};
   };
 
-  std::unique_ptr<Stages> take_stages();
-  void give_back(std::unique_ptr<Stages> course_players);
+  std::unique_ptr<CoursePlayers> take_course_players();
+  void give_back(std::unique_ptr<CoursePlayers> course_players);
   bool goes_on(std::uint64_t number) const;
-  Course draw(Stages& course_players, std::uint64_t number) const;
-  Played play(Stages& course_players, Course course) const;
+  Course draw(CoursePlayers& course_players, std::uint64_t number) const;
+  Played play(CoursePlayers& course_players, Course course) const;
   void play_earlier();
   void note_curve();
   void judge(std::uint64_t number, const Played& played, const std::function<void(const Finding&)>& found);
@@ -122,7 +122,7 @@ class Hunt {
   HuntOptions options_;
   std::function<Player()> make_player_;
   std::mutex stages_mutex_;
-  std::vector<std::unique_ptr<Stages>> stages_;  // that no thread uses
+  std::vector<std::unique_ptr<CoursePlayers>> course_players_;  // that no thread uses
   std::map<std::string, std::uint64_t> kinds_;
   Corpus corpus_;
   std::vector<Course> unplayed_;

@@ -41,9 +41,9 @@ void add_column(ListReading& reading, const std::string& name, const std::string
         understudy::quoted(name) + " is not a column; " +
         (near ? "the nearest is " + understudy::quoted(*near) : "expected one of " + all));
   }
-  const bool is_there = std::any_of(reading.columns.begin(), reading.columns.end(),
-                                    [&](const auto& entry) { return entry.first == *column; });
-  if (is_there) throw std::invalid_argument(understudy::quoted(name) + " appears twice; expected it once");
+  const bool is_present = std::any_of(reading.columns.begin(), reading.columns.end(),
+                                      [&](const auto& entry) { return entry.first == *column; });
+  if (is_present) throw std::invalid_argument(understudy::quoted(name) + " appears twice; expected it once");
   reading.columns.emplace_back(*column, heading);
 }
 

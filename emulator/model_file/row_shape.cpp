@@ -118,30 +118,30 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
     shape.order = *order;
   }
   const bool is_pair = printed_words > 1;
-  const int said = is_pair ? printed_words : words_in_column(row);
+  const int stated_words = is_pair ? printed_words : words_in_column(row);
   if (is_table_of_bits(table)) {
-    shape.count = std::max(is_pair ? said : 1, 1);
+    shape.count = std::max(is_pair ? stated_words : 1, 1);
     return shape;
   }
   if (shape.words == 0) {  // text, and raw words
-    if (said == 0)
+    if (stated_words == 0)
       row.remark(
           "no length", Column::type,
           quoted(row.text(Column::type)) + " has no length; one word is assumed (a column `words` gives it)");
-    shape.words = std::max(said, 1);
+    shape.words = std::max(stated_words, 1);
     return shape;
   }
-  if (said <= 1 || said == shape.words) return shape;
-  if (may_be_wider(row, shape) && said == 2) {
+  if (stated_words <= 1 || stated_words == shape.words) return shape;
+  if (may_be_wider(row, shape) && stated_words == 2) {
     shape.type = shape.type == Type::s16 ? Type::s32 : Type::u32;
     shape.words = 2;
-  } else if (may_be_wider(row, shape) && said == 4) {
+  } else if (may_be_wider(row, shape) && stated_words == 4) {
     shape.kind = TypeKind::only_words;
     shape.words = 4;
-  } else if (is_pair && said % shape.words == 0) {
-    shape.count = said / shape.words;
+  } else if (is_pair && stated_words % shape.words == 0) {
+    shape.count = stated_words / shape.words;
   } else if (is_pair) {
-    row.fail(Column::address, quoted(row.text(Column::address)) + " are " + std::to_string(said) +
+    row.fail(Column::address, quoted(row.text(Column::address)) + " are " + std::to_string(stated_words) +
                                   " registers; expected " + std::to_string(shape.words) + " for the type " +
                                   quoted(row.text(Column::type)));
   } else {

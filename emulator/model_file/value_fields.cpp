@@ -47,9 +47,9 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
   for (const auto& [name, field] : fields.entries()) {
     diagnostics.attempt([&, &called = name, &where = field] {
       world::require_name(where, called);
-      const bool is_there = std::any_of(made.terminals.begin(), made.terminals.end(),
-                                        [&](const Terminal& other) { return other.name == called; });
-      if (is_there) where.fail(understudy::quoted(called) + " is an input as well; expected another name");
+      const bool is_present = std::any_of(made.terminals.begin(), made.terminals.end(),
+                                          [&](const Terminal& other) { return other.name == called; });
+      if (is_present) where.fail(understudy::quoted(called) + " is an input as well; expected another name");
       Terminal terminal{.name = called, .is_input = are_inputs};
       if (are_inputs && where.text() != kNowhere) {
         const Spot spot = binder.spot(where);

@@ -228,10 +228,10 @@ void Page::show_to(BrowserId browser, Browser& whose, std::size_t bench) {
 }
 
 void Page::send_state(std::size_t bench) {
-  const Json said{{"is", "bench"},
-                  {"bench", bench},
-                  {"state", word_for(benches_[bench]->state())},
-                  {"epoch", benches_[bench]->epoch()}};
+  const Json printed{{"is", "bench"},
+                     {"bench", bench},
+                     {"state", word_for(benches_[bench]->state())},
+                     {"epoch", benches_[bench]->epoch()}};
   for (auto& [id, browser] : browsers_) {
     if (!browser.is_known) continue;
     // If another daemon replies, all its data is new.
@@ -243,7 +243,7 @@ void Page::send_state(std::size_t bench) {
             0;
       }
     }
-    send(id, dumped(said));
+    send(id, dumped(printed));
   }
 }
 

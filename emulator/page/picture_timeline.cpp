@@ -183,8 +183,8 @@ std::vector<std::pair<std::string, std::string>> signals_of(const Asker& ask) {
   const Json bench = require_reply(ask, {{"do", "bench"}}).at("bench");
   for (const Json& device : bench.at("devices")) {
     const std::string name = device.at("name").get<std::string>();
-    const Json told = require_reply(ask, {{"do", "bench"}, {"device", name}}).at("device");
-    for (const Json& terminal : told.at("terminals")) {
+    const Json reported = require_reply(ask, {{"do", "bench"}, {"device", name}}).at("device");
+    for (const Json& terminal : reported.at("terminals")) {
       const std::string kind = terminal.value("kind", "");
       if (!kind.starts_with("digital") && kind != "pulse_out") continue;
       const Json functions = terminal.value("functions", Json::array());

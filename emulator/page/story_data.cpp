@@ -34,12 +34,12 @@ std::string text_of(const Json& object, const char* key) { return object.at(key)
 std::vector<std::string> names_of(const Json& devices) {
   std::vector<std::string> names;
   for (const std::string_view what : kOfAxes) {
-    for (const auto& [device, told] : devices.items())
-      for (const Json& axis : told.at("axes"))
+    for (const auto& [device, reported] : devices.items())
+      for (const Json& axis : reported.at("axes"))
         names.push_back(device + "." + text_of(axis, "name") + "." + std::string(what));
   }
-  for (const auto& [device, told] : devices.items())
-    for (const Json& terminal : told.at("terminals"))
+  for (const auto& [device, reported] : devices.items())
+    for (const Json& terminal : reported.at("terminals"))
       names.push_back(device + "." + text_of(terminal, "name"));
   return names;
 }

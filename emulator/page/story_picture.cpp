@@ -84,8 +84,8 @@ std::vector<StoryAxis> axes_of(const Asker& ask) {
   std::vector<StoryAxis> axes;
   const Json bench = require_reply(ask, {{"do", "bench"}}).at("bench");
   for (const Json& device : bench.at("devices")) {
-    const Json told = require_reply(ask, {{"do", "bench"}, {"device", device.at("name")}}).at("device");
-    for (const Json& axis : told.at("axes"))
+    const Json reported = require_reply(ask, {{"do", "bench"}, {"device", device.at("name")}}).at("device");
+    for (const Json& axis : reported.at("axes"))
       axes.push_back({.name = device.at("name").get<std::string>() + "." + axis.at("name").get<std::string>(),
                       .machine = axis.value("machine", Json::object())});
   }
@@ -140,12 +140,12 @@ double draw_axes(Drawing& drawing, double top, const Asker& ask) {
   const Json values = require_reply(ask, {{"do", "look"}, {"names", names}}).at("values");
   for (std::size_t i = 0; i < axes.size(); ++i, top += kHeight) {
     const Json& machine = axes[i].machine;
-    const Json& told = values[3 * i];
-    const double position = told.is_number() ? told.get<double>() : 0;
+    const Json& reported = values[3 * i];
+    const double position = reported.is_number() ? reported.get<double>() : 0;
     const auto place = [&](const char* key, const char* of) {
-      const bool is_there =
+      const bool is_present =
           machine.contains(key) && machine.at(key).contains(of) && machine.at(key).at(of).is_number();
-      return is_there ? machine.at(key).at(of).get<double>() : std::numeric_limits<double>::quiet_NaN();
+      return is_present ? machine.at(key).at(of).get<double>() : std::numeric_limits<double>::quiet_NaN();
     };
     double low = std::min(position, 0.0) - 500;
     double high = std::max(position, 0.0) + 500;

@@ -305,9 +305,9 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& 
     case Hold::axes: return machine.stand(run.awaited);
     case Hold::frnet: {
       const bool is_on = machine.frnet_input(run.awaited >> 8U & 0xFFU, run.awaited & 0xFFU);
-      const bool is_there = is_on == (run.awaited >> 16U != 0);
-      if (!is_there) run.saw_other_level = true;
-      if (is_there && (run.saw_other_level || !options.frnet_wait_needs_edge)) return true;
+      const bool is_present = is_on == (run.awaited >> 16U != 0);
+      if (!is_present) run.saw_other_level = true;
+      if (is_present && (run.saw_other_level || !options.frnet_wait_needs_edge)) return true;
       if (run.until_ms == kNever || now_ms < run.until_ms) return false;
       if (options.frnet_wait_timeout_is_error) {
         const Level& level = run.levels.back();  // it is already after the line

@@ -31,7 +31,7 @@ constexpr std::uint32_t value_cell(const CellLayout& layout, Operand value) {
   if (value.letter == Letter::t) return layout.t_value + number;
   return value.letter == Letter::c ? layout.c_value + number : layout.d + number;
 }
-constexpr bool is_kept(Operand operand) {
+constexpr bool is_retentive(Operand operand) {
   const Block* const block = block_of(operand);
   return block != nullptr && operand.number >= block->kept;
 }
@@ -55,11 +55,11 @@ class Access {
   // Each of the following returns true if anything has changed.
   bool switch_contact(Operand operand, bool on) {
     if (is_special(operand)) return machine_.set_special_contact(operand.number, on);
-    return put(contact_cell(layout_, operand), on ? 1 : 0, is_kept(operand));
+    return put(contact_cell(layout_, operand), on ? 1 : 0, is_retentive(operand));
   }
   bool write(Operand operand, std::int32_t value) {
     if (is_special(operand)) return machine_.set_special_register(operand.number, value);
-    return put(value_cell(layout_, operand), static_cast<std::uint32_t>(value), is_kept(operand));
+    return put(value_cell(layout_, operand), static_cast<std::uint32_t>(value), is_retentive(operand));
   }
   /// RST: switches off a contact; a timer or counter also loses its value.
   bool reset(Operand operand) {
@@ -72,7 +72,7 @@ class Access {
   bool put(std::uint32_t cell, std::uint32_t value, bool kept) {
     if (cells_[cell] == value) return false;
     cells_[cell] = value;
-    if (kept) machine_.kept_cell_written(cell);
+    if (kept) machine_.retentive_cell_written(cell);
     return true;
   }
 

@@ -145,7 +145,7 @@ class LadderMaker {
     if (is_counting || is_special(bit)) return;
     step.act = act;
     step.c = contact_cell(layout_, bit);
-    step.flags = is_kept(bit) ? kKept : 0;
+    step.flags = is_retentive(bit) ? kRetentive : 0;
   }
 
   /// Makes the step of a timer or counter: a is the contact, b the preset, c the value.
@@ -156,7 +156,7 @@ class LadderMaker {
     step.a = contact_cell(layout_, what);
     std::tie(step.bank_b, step.b) = value(line.fields[1]);
     step.c = value_cell(layout_, what);
-    step.flags = is_kept(what) ? kKept : 0;
+    step.flags = is_retentive(what) ? kRetentive : 0;
     step.memory = new_memory();
     if (is_timer) ladder_.timers_.push_back(static_cast<std::uint32_t>(ladder_.steps_.size()));
   }
@@ -170,7 +170,7 @@ class LadderMaker {
     std::tie(step.bank_a, step.a) = value(line.fields[0]);
     if (target == 2) std::tie(step.bank_b, step.b) = value(line.fields[1]);
     step.c = value_cell(layout_, line.fields[target]);
-    step.flags = is_kept(line.fields[target]) ? kKept : 0;
+    step.flags = is_retentive(line.fields[target]) ? kRetentive : 0;
   }
 
   void note(Operand first, std::int64_t count = 1) {

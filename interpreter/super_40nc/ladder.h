@@ -59,7 +59,7 @@ struct LadderStep {
 };
 inline constexpr std::uint8_t kInverted = 1;
 inline constexpr std::uint8_t kFalling = 2;
-inline constexpr std::uint8_t kKept = 4;         // the written cell is retentive
+inline constexpr std::uint8_t kRetentive = 4;    // the written cell is retentive
 inline constexpr std::uint8_t kValueIsRead = 8;  // for timers: another instruction depends on the value
 
 class Ladder {

@@ -47,7 +47,7 @@ class Machine : public Watched {
   /// The cells stay at the same place as long as the machine exists.
   virtual std::span<std::uint32_t> cells() = 0;
   /// Called when a retentive plain cell (kBlocks) has changed.
-  virtual void kept_cell_written(std::uint32_t cell) = 0;
+  virtual void retentive_cell_written(std::uint32_t cell) = 0;
   /// Returns M8000 to M8699, as a read from outside would show it now.
   virtual bool special_contact(int number) const = 0;
   /// Writes like a host. Returns true if anything has changed, or will change because of it.

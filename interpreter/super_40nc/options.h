@@ -81,9 +81,9 @@ struct Options {
   bool modes_stay_at_run = false;  // ABSC or INCC, and RPM, survive RUN
   /// True: at RUN, PLS, ALT and the like fire once if their condition is ON; false: they see no edge.
   bool outputs_fire_at_run = true;
-  bool contacts_rise_at_run = false;  // at RUN, edge contacts whose bit is ON see an edge
-  bool timers_count_at_once = false;  // timers count in the scan that turns them ON
-  bool kept_timers_hold = false;      // latched timers keep their value while OFF; false: it becomes 0
+  bool contacts_rise_at_run = false;   // at RUN, edge contacts whose bit is ON see an edge
+  bool timers_count_at_once = false;   // timers count in the scan that turns them ON
+  bool retentive_timers_hold = false;  // latched timers keep their value while OFF; false: it becomes 0
   bool all_timers_hold = false;
   bool timers_count_on = false;     // timers count beyond the preset
   bool empty_presets_close = true;  // a preset of 0 or less closes the contact at once

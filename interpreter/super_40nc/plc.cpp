@@ -160,7 +160,7 @@ class Scan {
     if (cells_[cell] == value) return;
     cells_[cell] = value;
     has_changed_ = true;
-    if ((flags & kKept) != 0) machine_.kept_cell_written(cell);
+    if ((flags & kRetentive) != 0) machine_.retentive_cell_written(cell);
   }
 
   /// Runs a timer. Its value is 0 in the scan that turns it ON, and grows in each later one.
@@ -168,7 +168,7 @@ class Scan {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
     const bool holds_value =
-        options_.all_timers_hold || (options_.kept_timers_hold && (step.flags & kKept) != 0);
+        options_.all_timers_hold || (options_.retentive_timers_hold && (step.flags & kRetentive) != 0);
     if (!is_on && holds_value) return;
     if ((!is_on || !was_on) && !holds_value) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
@@ -316,11 +316,11 @@ void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::in
     const std::int64_t preset = access.value(ladder.line(timer.line).fields[1]);
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
-    const bool is_kept = (timer.flags & kKept) != 0;
+    const bool is_retentive = (timer.flags & kRetentive) != 0;
     // A retentive value is saved once for each scan, so it is counted scan by scan.
-    for (std::int64_t scan = is_kept ? 1 : scans; scan <= scans; ++scan) {
+    for (std::int64_t scan = is_retentive ? 1 : scans; scan <= scans; ++scan) {
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
-      if (is_kept) machine.kept_cell_written(timer.c);
+      if (is_retentive) machine.retentive_cell_written(timer.c);
     }
     if (options.timers_ignore_writes && timer.memory < plc.timed.size())
       plc.timed[timer.memory] = static_cast<std::int32_t>(cells[timer.c]);

@@ -21,8 +21,8 @@ class StepCode {
   /// Returns the line that begins at a step, counted from the beginning of the area, or -1 if none begins
   /// there.
   int line_at(int step) const {
-    const bool is_there = step >= 0 && step < static_cast<int>(lines_.size());
-    return is_there ? lines_[static_cast<std::size_t>(step)] : -1;
+    const bool is_present = step >= 0 && step < static_cast<int>(lines_.size());
+    return is_present ? lines_[static_cast<std::size_t>(step)] : -1;
   }
   /// Returns the step of the first line after a step inside a line, or -1 if there is none.
   int next_step(int step) const;

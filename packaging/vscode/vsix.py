@@ -20,7 +20,7 @@ PARTS = ("README.md", "language-configuration.json", "snippets", "syntaxes")
 TYPES = {"json": "application/json", "md": "text/markdown", "txt": "text/plain", "vsixmanifest": "text/xml"}
 
 
-def said_by(program, *arguments):
+def output_of(program, *arguments):
     try:
         return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
     except OSError as error:
@@ -80,7 +80,7 @@ def text_of(path):
 def contents(program):
     """Returns the text of each file of the package by its path, in the order of the archive."""
     package = json.loads(text_of(os.path.join(HERE, "package.json")))
-    package["version"] = said_by(program, "--version").strip()
+    package["version"] = output_of(program, "--version").strip()
     if not re.fullmatch(r"\d+\.\d+\.\d+", package["version"]):
         sys.exit(f"vsix.py: {program}: does not print a version such as 1.2.3; expected the program `understudy`")
     del package["scripts"]
@@ -93,7 +93,7 @@ def contents(program):
             path = os.path.join(part, name) if name else part
             made[f"extension/{path}"] = text_of(os.path.join(HERE, path))
     for what in ("bench", "scenario", "model"):
-        made[f"extension/schemas/{what}.schema.json"] = said_by(program, "schema", what)
+        made[f"extension/schemas/{what}.schema.json"] = output_of(program, "schema", what)
     return made
 
 

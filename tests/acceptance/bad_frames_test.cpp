@@ -55,9 +55,9 @@ std::vector<Case> cases_of(const Subject& subject) {
   const std::array<std::string, 4> beyond{"07 D1", "07 D1", "00 7E", "00 7E"};
   for (std::size_t i = 0; i < beyond.size(); ++i) {
     const std::string function = "0" + std::to_string(i + 1);
-    const bool is_there = function != "04" || subject.has_input_registers;
+    const bool is_present = function != "04" || subject.has_input_registers;
     const auto add = [&](const char* what, const std::string& address, const std::string& rest, int wanted) {
-      cases.push_back({what, joined(function, address, rest), is_there ? wanted : 1});
+      cases.push_back({what, joined(function, address, rest), is_present ? wanted : 1});
     };
     add("no count", at, "00 00", 3);
     add("one more than a reply holds", at, beyond[i], 3);
@@ -166,17 +166,17 @@ TEST_P(BadFrames, GetTheirExceptionAndTheNextIsServed) {
   ASSERT_EQ(before.size(), 32U);
   ASSERT_EQ(before[1], 0x03) << "valid frames are served";
   for (const Case& c : cases_of(GetParam())) {
-    const std::string told = c.what + ": " + c.request.substr(0, 40);
+    const std::string reported = c.what + ": " + c.request.substr(0, 40);
     send(c.request);
     if (c.exception == kSilence) {
-      EXPECT_TRUE(is_silent_now()) << told;
+      EXPECT_TRUE(is_silent_now()) << reported;
     } else {
       const auto function = static_cast<std::uint8_t>(hex(c.request)[0] | 0x80);
       Bytes wanted{0x01, function, static_cast<std::uint8_t>(c.exception)};
       pty::append_rtu_crc(wanted);
-      EXPECT_EQ(receive(5), wanted) << told;
+      EXPECT_EQ(receive(5), wanted) << reported;
     }
-    EXPECT_EQ(asked(), before) << "after " << told;
+    EXPECT_EQ(asked(), before) << "after " << reported;
   }
 }
 

@@ -14,7 +14,7 @@ namespace command_line_test {
 struct BadUsage {
   const char* name;
   Words words;
-  const char* told;  // part of the printed line: the error, or what was expected
+  const char* reported;  // part of the printed line: the error, or what was expected
   int exit_code = 2;
 
   friend void PrintTo(const BadUsage& usage, std::ostream* out) { *out << usage.name; }
@@ -147,7 +147,7 @@ TEST_P(BadUsageOf, GetsOneClearLine) {
   EXPECT_EQ(exit_code, GetParam().exit_code) << process.errors();
   EXPECT_EQ(lines_of(process.errors()).size(), 1U) << process.errors();
   EXPECT_TRUE(process.errors().ends_with('\n'));
-  EXPECT_NE(process.errors().find(GetParam().told), std::string::npos) << process.errors();
+  EXPECT_NE(process.errors().find(GetParam().reported), std::string::npos) << process.errors();
   EXPECT_EQ(process.output(), "");
 }
 

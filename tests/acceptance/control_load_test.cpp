@@ -68,7 +68,7 @@ class Askers {
   }
   Askers(const Askers&) = delete;
   Askers& operator=(const Askers&) = delete;
-  std::size_t heard() const { return heard_; }
+  std::size_t received() const { return heard_; }
 
  private:
   std::vector<std::unique_ptr<Client>> clients_;
@@ -98,9 +98,9 @@ TEST(ControlLoad, TwoHundredClientsCostNoHostAReply) {
   ModbusHost host(daemon->port(), {.baud = 115200});
   ASSERT_EQ(lost(host, 20), 0) << "without load";
   const Askers askers(daemon->control(), 200);
-  ASSERT_TRUE(eventually([&] { return askers.heard() > 1'000'000; }));
+  ASSERT_TRUE(eventually([&] { return askers.received() > 1'000'000; }));
   EXPECT_EQ(lost(host, 200), 0);
-  EXPECT_GT(askers.heard(), 2'000'000U) << "they were served as well";
+  EXPECT_GT(askers.received(), 2'000'000U) << "they were served as well";
 }
 
 TEST(ControlLoad, ASignalIsObeyedAtOnce) {
@@ -108,7 +108,7 @@ TEST(ControlLoad, ASignalIsObeyedAtOnce) {
     const auto daemon = feeder();
     std::optional<Askers> askers;
     if (is_loaded) askers.emplace(daemon->control(), 200);
-    EXPECT_TRUE(eventually([&] { return !is_loaded || askers->heard() > 1'000'000; }));
+    EXPECT_TRUE(eventually([&] { return !is_loaded || askers->received() > 1'000'000; }));
     const auto begin = Clock::now();
     EXPECT_EQ(daemon->stop(SIGTERM), 0);
     return Clock::now() - begin;

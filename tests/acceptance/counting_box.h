@@ -95,20 +95,20 @@ class CountingBox {
   }
 
   void run() {
-    Frame heard;
+    Frame received;
     while (!is_over_) {
       pollfd ready{.fd = master_.get(), .events = POLLIN, .revents = 0};
       if (::poll(&ready, 1, 20) <= 0) continue;
       std::uint8_t byte = 0;
       if (::read(master_.get(), &byte, 1) != 1) return;
-      heard.push_back(byte);
-      if (heard.size() < size_of(heard)) continue;
-      const Frame reply = answer(heard);
+      received.push_back(byte);
+      if (received.size() < size_of(received)) continue;
+      const Frame reply = answer(received);
       {
         const std::lock_guard lock(mutex_);
-        heard_.push_back(heard);
+        heard_.push_back(received);
       }
-      heard.clear();
+      received.clear();
       if (::write(master_.get(), reply.data(), reply.size()) < 0) return;
     }
   }

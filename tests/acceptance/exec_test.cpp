@@ -163,10 +163,10 @@ TEST_F(Exec, SaysWhyItCouldNotStart) {
 TEST_F(Exec, KeepsARecordingOfARunThatFailed) {
   const Finished finished = script("$U poll $UNDERSTUDY_PORT --model simple2-r3 HW_Code; exit 3");
   EXPECT_EQ(finished.exit_code, 3);
-  const std::string told = "understudy replay ";
-  const auto at = finished.errors.find(told);
+  const std::string reported = "understudy replay ";
+  const auto at = finished.errors.find(reported);
   ASSERT_NE(at, std::string::npos) << finished.errors;
-  const std::string path = lines_of(finished.errors.substr(at + told.size())).at(0);
+  const std::string path = lines_of(finished.errors.substr(at + reported.size())).at(0);
   const Finished again = understudy({"replay", path});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_NE(again.output.find(": the same: "), std::string::npos) << again.output;
@@ -186,10 +186,11 @@ TEST_F(Exec, SaysHowToRunAFailureAgainWhereverItIsRecorded) {
 TEST_F(Exec, EndsACommandThatTakesTooLong) {
   const Finished finished = script("sleep 60", {"--timeout", "200ms", "--record", folder() / "recording"});
   EXPECT_EQ(finished.exit_code, 124);
-  const auto told = lines_of(finished.errors);
-  ASSERT_EQ(told.size(), 2U) << finished.errors;
-  EXPECT_NE(told[0].find("longer than 200ms"), std::string::npos) << told[0];
-  EXPECT_EQ(told[1], "understudy: exec: to run this again: understudy replay " + (folder() / "recording"));
+  const auto reported = lines_of(finished.errors);
+  ASSERT_EQ(reported.size(), 2U) << finished.errors;
+  EXPECT_NE(reported[0].find("longer than 200ms"), std::string::npos) << reported[0];
+  EXPECT_EQ(reported[1],
+            "understudy: exec: to run this again: understudy replay " + (folder() / "recording"));
 }
 
 TEST_F(Exec, PassesSignalsOn) {
@@ -204,14 +205,14 @@ TEST_F(Exec, PassesSignalsOn) {
   }
 }
 
-bool is_there(const std::string& pid) { return fs::exists("/proc/" + pid); }
+bool is_present(const std::string& pid) { return fs::exists("/proc/" + pid); }
 
 TEST_F(Exec, LeavesNothingBehindThatTheCommandStarted) {
   const Finished finished = script("sleep 600 & echo $!; (sleep 600 & echo $!); echo $$");
   EXPECT_EQ(finished.exit_code, 0);
   const auto pids = lines_of(finished.output);
   ASSERT_EQ(pids.size(), 3U);
-  for (const std::string& pid : pids) EXPECT_FALSE(is_there(pid)) << pid;
+  for (const std::string& pid : pids) EXPECT_FALSE(is_present(pid)) << pid;
 }
 
 TEST_F(Exec, KillsWhatDoesNotWantToEnd) {
@@ -220,7 +221,7 @@ TEST_F(Exec, KillsWhatDoesNotWantToEnd) {
       script("trap '' TERM; echo $$; while :; do sleep 0.1; done", {"--timeout", "100ms"});
   const auto took = std::chrono::steady_clock::now() - began;
   EXPECT_EQ(finished.exit_code, 124);
-  EXPECT_FALSE(is_there(lines_of(finished.output).at(0)));
+  EXPECT_FALSE(is_present(lines_of(finished.output).at(0)));
   EXPECT_GE(took, std::chrono::milliseconds(5'000));  // its grace period
 }
 
@@ -248,7 +249,7 @@ TEST_F(Exec, RefusesBadUsageBeforeAnythingRuns) {
   const std::string broken = folder().write("broken.yaml", "understudy: 1\nlines: 5\n");
   struct Case {
     Words words;
-    const char* told;
+    const char* reported;
   };
   for (const Case& bad :
        {Case{{"exec", bench()}, "--"}, Case{{"exec", bench(), "touch", mark}, "--"},
@@ -261,7 +262,7 @@ TEST_F(Exec, RefusesBadUsageBeforeAnythingRuns) {
     const Finished finished = understudy(bad.words);
     EXPECT_EQ(finished.exit_code, 2) << finished.errors;
     EXPECT_EQ(lines_of(finished.errors).size(), 1U) << finished.errors;
-    EXPECT_NE(finished.errors.find(bad.told), std::string::npos) << finished.errors;
+    EXPECT_NE(finished.errors.find(bad.reported), std::string::npos) << finished.errors;
   }
   EXPECT_FALSE(fs::exists(mark));
 }

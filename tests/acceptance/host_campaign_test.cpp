@@ -171,7 +171,7 @@ TEST_F(HostCampaign, JudgesTheEndOfTheCommand) {
   struct Row {
     const char* steps;
     Words command;
-    const char* said;  // empty: it passes
+    const char* message;  // empty: it passes
   };
   const std::string forever = "while :; do sleep 1; done";
   const std::vector<Row> rows{
@@ -195,12 +195,12 @@ TEST_F(HostCampaign, JudgesTheEndOfTheCommand) {
        "the command was stopped because it took longer than 2s"},
   };
   for (const Row& row : rows) {
-    const bool is_late = std::string(row.said).ends_with("longer than 2s");
+    const bool is_late = std::string(row.message).ends_with("longer than 2s");
     const Finished finished = exec("steps:\n  " + std::string(row.steps) + "\n", row.command,
                                    {"--host-time", "--timeout", is_late ? "2s" : "60s"});
-    EXPECT_EQ(finished.exit_code, *row.said == '\0' ? 0 : 1)
+    EXPECT_EQ(finished.exit_code, *row.message == '\0' ? 0 : 1)
         << row.steps << finished.output << finished.errors;
-    EXPECT_TRUE(has(finished.output, row.said)) << row.steps << finished.output;
+    EXPECT_TRUE(has(finished.output, row.message)) << row.steps << finished.output;
   }
 }
 
@@ -219,7 +219,7 @@ TEST_F(HostCampaign, RefusesWhatDoesNotFit) {
     Words command;
     Words flags;
     int exit_code;
-    const char* said;
+    const char* message;
   };
   const std::vector<Row> rows{
       {"steps:\n  - write: { feeder.Aaxis_SVON: 1 }\n",
@@ -236,8 +236,8 @@ TEST_F(HostCampaign, RefusesWhatDoesNotFit) {
   };
   for (const Row& row : rows) {
     const Finished finished = exec(row.rest, row.command, row.flags);
-    EXPECT_EQ(finished.exit_code, row.exit_code) << row.said << finished.errors;
-    EXPECT_TRUE(has(finished.errors, row.said)) << row.said << finished.errors;
+    EXPECT_EQ(finished.exit_code, row.exit_code) << row.message << finished.errors;
+    EXPECT_TRUE(has(finished.errors, row.message)) << row.message << finished.errors;
   }
   const std::string bench = folder().write(
       "bench.yaml",

@@ -198,10 +198,10 @@ TEST(ImportCommand, UsesTheGivenSettings) {
   EXPECT_EQ(unclear.exit_code, 2);
   EXPECT_NE(unclear.errors.find("expected --addresses modicon, or --addresses wire"), std::string::npos)
       << unclear.errors;
-  const Finished told =
+  const Finished reported =
       understudy({"import", list, "--columns", "address=Where,name=B", "--addresses", "modicon"});
-  EXPECT_EQ(told.exit_code, 0) << told.errors;
-  EXPECT_NE(told.errors.find(":1:12: columns: ignored: Role; "), std::string::npos) << told.errors;
+  EXPECT_EQ(reported.exit_code, 0) << reported.errors;
+  EXPECT_NE(reported.errors.find(":1:12: columns: ignored: Role; "), std::string::npos) << reported.errors;
   const Finished checked = understudy({"check", folder / "p.yaml"});
   EXPECT_EQ(checked.exit_code, 0) << checked.errors;
   EXPECT_NE((checked.output + checked.errors).find("warning: columns: ignored: Role"), std::string::npos)

@@ -316,10 +316,10 @@ TEST_F(Mistakes, OfAddressesAsModiconCountsAreRemarked) {
     folder_.write(name + ".csv", list.text);
     const Finished finished = understudy({"import", at(name + ".csv")});
     EXPECT_EQ(finished.exit_code, 0) << finished.errors;
-    const std::string said = finished.errors + finished.output;
-    EXPECT_EQ(said.find("read as Modicon numbers: '40001' is 0 on the wire") != std::string::npos,
+    const std::string message = finished.errors + finished.output;
+    EXPECT_EQ(message.find("read as Modicon numbers: '40001' is 0 on the wire") != std::string::npos,
               list.is_remarked)
-        << list.text << said;
+        << list.text << message;
   }
 }
 
@@ -338,8 +338,8 @@ TEST_F(Mistakes, OfAScopeAreReportedInWords) {
   EXPECT_EQ(daemon.ctl({"set", "Aaxis_SVON=1", "Aaxis_Speed=200", "Aaxis_Pulse=3200"}).exit_code, 0);
   EXPECT_EQ(daemon.ctl({"set", "Aaxis_Move_INC=1"}).exit_code, 0);
   EXPECT_EQ(daemon.ctl({"advance", "1s"}).exit_code, 0);
-  const Finished told = daemon.ctl({"scope"});
-  EXPECT_TRUE(told.output.starts_with("done: A.pulses, Cord_A; 5 ticks kept, from ")) << told.output;
+  const Finished reported = daemon.ctl({"scope"});
+  EXPECT_TRUE(reported.output.starts_with("done: A.pulses, Cord_A; 5 ticks kept, from ")) << reported.output;
   const Finished written = daemon.ctl({"scope", "--trace", at("shot.csv")});
   EXPECT_EQ(written.output, at("shot.csv") + ": 5 ticks\n") << written.errors;
   std::ifstream shot(at("shot.csv"));

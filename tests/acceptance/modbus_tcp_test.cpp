@@ -99,12 +99,12 @@ TEST(ModbusTcpLine, OutlivesLengthsThatNoRequestHas) {
   const RunningUnderstudy served({"--listen", "modbus-tcp://:0"});
   for (const char* header : {"00 00 00 00 00 00", "00 00 00 00 00 01", "00 00 00 00 01 2C"}) {
     for (const Bytes& before : {Bytes{}, kRequest, pty::hex("00 01 00 07 00 03 01 02 03")}) {
-      Bytes said = before;
+      Bytes sent = before;
       const Bytes wrong = pty::hex(header);
-      said.insert(said.end(), wrong.begin(), wrong.end());
-      said.resize(said.size() + 300);
-      for (std::size_t size : {before.size() + 6, before.size() + 7, said.size()}) {
-        TcpClient(listened_port(served)).write(Bytes(said.begin(), said.begin() + std::ptrdiff_t(size)));
+      sent.insert(sent.end(), wrong.begin(), wrong.end());
+      sent.resize(sent.size() + 300);
+      for (std::size_t size : {before.size() + 6, before.size() + 7, sent.size()}) {
+        TcpClient(listened_port(served)).write(Bytes(sent.begin(), sent.begin() + std::ptrdiff_t(size)));
       }
     }
   }
@@ -193,9 +193,10 @@ TEST(ModbusTcpLine, ReportsAnAbsentStationAsSoonAsRequested) {
   std::uint16_t value = 0;
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), -1);
   EXPECT_EQ(errno, EMBXGTAR);
-  const std::string told =
+  const std::string reported =
       "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
-  EXPECT_TRUE(eventually([&] { return served.errors().find(told) != std::string::npos; })) << served.errors();
+  EXPECT_TRUE(eventually([&] { return served.errors().find(reported) != std::string::npos; }))
+      << served.errors();
   EXPECT_EQ(served.errors().find("unit 9"), std::string::npos) << "it is reported once: " << served.errors();
 }
 

@@ -369,8 +369,9 @@ TEST_F(RunScript, PrintsLinesThatCanBePastedWhereThePathHasASpace) {
     if (line.find("  mbpoll ") != 0) continue;
     ++pasted;
     const Finished words = run({"bash", "-c", "mbpoll() { printf '%s\n' \"$@\"; }; " + line});
-    const Words said = lines_of(words.output);
-    EXPECT_NE(std::find(said.begin(), said.end(), project() + "/scenarios/quickstart.port"), said.end())
+    const Words message = lines_of(words.output);
+    EXPECT_NE(std::find(message.begin(), message.end(), project() + "/scenarios/quickstart.port"),
+              message.end())
         << line << "\n"
         << words.output;
   }

@@ -132,7 +132,7 @@ TEST_F(PageOfAFailure, GoesToAndFro) {
 }
 
 TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
-  const auto told = [&](const char* what) {
+  const auto reported = [&](const char* what) {
     const TestJson list = ask({{"do", what}})[what];
     std::vector<std::string> texts;
     for (const TestJson& one : list) {
@@ -144,18 +144,18 @@ TEST_F(PageOfAFailure, TellsWhatLedToEachMoment) {
   const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
   ASSERT_GT(end, 2'500'000'000);  // farther from its requests than keyframes are apart
   position_at(end);
-  const std::vector<std::string> frames = told("frames");
+  const std::vector<std::string> frames = reported("frames");
   ASSERT_GE(frames.size(), 6U);
   EXPECT_EQ(frames.front(), "write 0x1014 feeder.Aaxis_SVON = 1");
-  const std::vector<std::string> events = told("events");
+  const std::vector<std::string> events = reported("events");
   ASSERT_GE(events.size(), 6U);
   EXPECT_EQ(events.front(), "write feeder.Aaxis_SVON");
   position_at(0);
-  EXPECT_EQ(told("frames"), std::vector<std::string>{});
-  EXPECT_EQ(told("events"), std::vector<std::string>{});
+  EXPECT_EQ(reported("frames"), std::vector<std::string>{});
+  EXPECT_EQ(reported("events"), std::vector<std::string>{});
   position_at(end);
-  EXPECT_EQ(told("frames"), frames);
-  EXPECT_EQ(told("events"), events);
+  EXPECT_EQ(reported("frames"), frames);
+  EXPECT_EQ(reported("events"), events);
 }
 
 /// The page shows what happened; if someone could change that, everyone would see something else.
@@ -222,12 +222,12 @@ TEST_F(PageOfAFailure, OpensAtTheFailureWithItsStory) {
   EXPECT_EQ(timeline["scenario"], "ends elsewhere");
   EXPECT_NE(story.value("text", "").find("(failing.yaml:11: expect"), std::string::npos) << story.dump();
   EXPECT_EQ(story["names"], TestJson({"feeder.Cord_A"}));
-  std::vector<std::string> told;
-  for (const TestJson& moment : story["moments"]) told.push_back(moment.value("text", ""));
-  ASSERT_EQ(told.size(), 2U) << story.dump();
-  EXPECT_EQ(told[0], "host writes feeder.Aaxis_SVON = 1");
-  EXPECT_NE(told[1].find("feeder.Aaxis_Move_INC = 1"), std::string::npos);
-  for (const std::string& moment : told)
+  std::vector<std::string> reported;
+  for (const TestJson& moment : story["moments"]) reported.push_back(moment.value("text", ""));
+  ASSERT_EQ(reported.size(), 2U) << story.dump();
+  EXPECT_EQ(reported[0], "host writes feeder.Aaxis_SVON = 1");
+  EXPECT_NE(reported[1].find("feeder.Aaxis_Move_INC = 1"), std::string::npos);
+  for (const std::string& moment : reported)
     EXPECT_NE(run_.find("  " + moment + "\n"), std::string::npos) << run_;
   EXPECT_NE(run_.find("understudy replay " + recording_ + " --page\n"), std::string::npos) << run_;
 }
@@ -343,12 +343,12 @@ TEST_F(PageOfAFailure, IsOneFileThatAnswersAsItsServer) {
   const std::string begin = "id=\"told\">";
   const std::size_t at = file.find(begin) + begin.size();
   const std::string data = file.substr(at, file.find("</script>", at) - at);
-  const TestJson told = TestJson::parse(data);
+  const TestJson reported = TestJson::parse(data);
   const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
-  EXPECT_EQ(told["timeline"], timeline);
-  EXPECT_EQ(told["frames"].size(), ask({{"do", "frames"}})["frames"].size());
-  EXPECT_EQ(told["events"].size(), ask({{"do", "events"}})["events"].size());
-  EXPECT_EQ(told["values"]["feeder.A.position"], 3200);
+  EXPECT_EQ(reported["timeline"], timeline);
+  EXPECT_EQ(reported["frames"].size(), ask({{"do", "frames"}})["frames"].size());
+  EXPECT_EQ(reported["events"].size(), ask({{"do", "events"}})["events"].size());
+  EXPECT_EQ(reported["values"]["feeder.A.position"], 3200);
 
   const std::int64_t moment = 1'234'000'000;
   for (const std::int64_t from : {0, 500'000'000}) {

@@ -61,16 +61,16 @@ class FakeBox {
 
  private:
   void run() {
-    Bytes heard;
+    Bytes received;
     while (!is_over_) {
       pollfd ready{.fd = master_.get(), .events = POLLIN, .revents = 0};
       if (::poll(&ready, 1, 20) <= 0) continue;
       std::uint8_t byte = 0;
       if (::read(master_.get(), &byte, 1) != 1) return;
-      heard.push_back(byte);
-      if (heard.size() < 8) continue;
-      const Bytes reply = answer_(heard);
-      heard.clear();
+      received.push_back(byte);
+      if (received.size() < 8) continue;
+      const Bytes reply = answer_(received);
+      received.clear();
       if (::write(master_.get(), reply.data(), reply.size()) < 0) return;
     }
   }
@@ -202,9 +202,9 @@ TEST(Photograph, RemovesTheEchoOfAnAdapter) {
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_NE(finished.output.find("the adapter echoes"), std::string::npos) << finished.output;
   const FakeBox only_echo([](const Bytes& request) { return request; });
-  const std::string told =
+  const std::string reported =
       diagnostic(photograph(only_echo.path(), "simple2-r3", folder / "none.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("the adapter echoes the request"), std::string::npos) << told;
+  EXPECT_NE(reported.find("the adapter echoes the request"), std::string::npos) << reported;
 }
 
 Bytes with_checksum(Bytes frame) {
@@ -223,23 +223,26 @@ Bytes zeros_for(const Bytes& request, std::uint8_t station) {
 TEST(Photograph, NamesAnotherStationThatAnswers) {
   const PrivateFolder folder;
   const FakeBox other([](const Bytes& request) { return zeros_for(request, 5); });
-  const std::string told = diagnostic(photograph(other.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("station 5 answered a request to station 1"), std::string::npos) << told;
+  const std::string reported =
+      diagnostic(photograph(other.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
+  EXPECT_NE(reported.find("station 5 answered a request to station 1"), std::string::npos) << reported;
 }
 
 TEST(Photograph, SaysThatBytesAreNoAnswer) {
   const PrivateFolder folder;
   const FakeBox noise([](const Bytes&) { return Bytes{0xFC, 0x00, 0x7F}; });
-  const std::string told = diagnostic(photograph(noise.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("bytes arrived that are not a reply"), std::string::npos) << told;
+  const std::string reported =
+      diagnostic(photograph(noise.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
+  EXPECT_NE(reported.find("bytes arrived that are not a reply"), std::string::npos) << reported;
 }
 
 TEST(Photograph, SaysWhenABoxStopsAnswering) {
   const PrivateFolder folder;
   int asked = 0;
   const FakeBox dying([&](const Bytes& request) { return ++asked > 6 ? Bytes() : zeros_for(request, 1); });
-  const std::string told = diagnostic(photograph(dying.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
-  EXPECT_NE(told.find("stopped answering after "), std::string::npos) << told;
+  const std::string reported =
+      diagnostic(photograph(dying.path(), "simple2-r3", folder / "b.nv.json", kSoon), 1);
+  EXPECT_NE(reported.find("stopped answering after "), std::string::npos) << reported;
 }
 
 TEST(Photograph, AsksOneByOneWhereABlockIsRefused) {
@@ -306,8 +309,9 @@ TEST(Photograph, RefusesWhatItCannotDoInOneLine) {
       {"/dev/none", "slim", good, {"--timeout", "soon"}, 2, "is not a duration"},
   };
   for (const auto& row : cases) {
-    const std::string told = diagnostic(photograph(row.port, row.model, row.output, row.more), row.exit_code);
-    EXPECT_NE(told.find(row.what), std::string::npos) << told;
+    const std::string reported =
+        diagnostic(photograph(row.port, row.model, row.output, row.more), row.exit_code);
+    EXPECT_NE(reported.find(row.what), std::string::npos) << reported;
   }
 }
 

@@ -201,7 +201,7 @@ TEST(Rfc2217Line, DoesNotHearAPseudoTerminalBesideAClient) {
 TEST(Rfc2217Line, SaysWhatFitsNoLine) {
   struct Case {
     Words flags;
-    const char* said;
+    const char* message;
   };
   for (const Case& c :
        {Case{{"--no-pty"}, "no line listens on TCP"},
@@ -210,8 +210,8 @@ TEST(Rfc2217Line, SaysWhatFitsNoLine) {
     Words words{"serve", "--model", "simple2-r3"};
     words.insert(words.end(), c.flags.begin(), c.flags.end());
     const Finished refused = understudy(words);
-    EXPECT_EQ(refused.exit_code, 2) << c.said;
-    EXPECT_NE(refused.errors.find(c.said), std::string::npos) << refused.errors;
+    EXPECT_EQ(refused.exit_code, 2) << c.message;
+    EXPECT_NE(refused.errors.find(c.message), std::string::npos) << refused.errors;
   }
 }
 

@@ -26,7 +26,7 @@ const Registers kClose = {0x0CCA};
 /// SET_VAR VAR1: the frame of the manual's 7.5, with a 16-bit number.
 Registers set_var1(std::uint16_t number) { return {0x0CD2, 0x7FFF, 1, 0, number}; }
 
-class RsM8194hKept : public testing::Test {
+class RsM8194hMemory : public testing::Test {
  protected:
   std::unique_ptr<RunningUnderstudy> serve() const {
     return RunningUnderstudy::of_bench(
@@ -54,7 +54,7 @@ class RsM8194hKept : public testing::Test {
   PrivateFolder memory_;
 };
 
-TEST_F(RsM8194hKept, WhatCameThroughTheWindowOutlivesTheDaemon) {
+TEST_F(RsM8194hMemory, WhatCameThroughTheWindowOutlivesTheDaemon) {
   {
     const auto daemon = serve();
     ModbusHost host(daemon->port(), kAsItComes);
@@ -81,7 +81,7 @@ TEST_F(RsM8194hKept, WhatCameThroughTheWindowOutlivesTheDaemon) {
   EXPECT_EQ(daemon->errors(), "");
 }
 
-TEST_F(RsM8194hKept, AKillInADownloadLeavesTheMacroThatWas) {
+TEST_F(RsM8194hMemory, AKillInADownloadLeavesTheMacroThatWas) {
   // After OPEN, after a line, and after CLOSE, when the new macro is present as soon as it is in the file.
   struct Case {
     const char* when;
@@ -120,7 +120,7 @@ TEST_F(RsM8194hKept, AKillInADownloadLeavesTheMacroThatWas) {
   }
 }
 
-TEST_F(RsM8194hKept, APowerCutInADownloadLeavesTheMacroThatWas) {
+TEST_F(RsM8194hMemory, APowerCutInADownloadLeavesTheMacroThatWas) {
   const auto daemon = serve();
   ModbusHost host(daemon->port(), kAsItComes);
   download(host, 42);

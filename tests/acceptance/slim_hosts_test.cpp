@@ -101,23 +101,23 @@ TEST(SlimCommandLine, ShowsItsStateAndTakesValues) {
   EXPECT_EQ(daemon->ctl({"get", "N3", "T2VM"}).output, "N3 -7\nT2VM 12.5\n");
   struct Refused {
     const char* value;
-    const char* told;
+    const char* reported;
   };
-  for (const auto& [value, told] : {Refused{"N3=1.5", "whole number"},
-                                    {"N3=40000", "N3: is out of range"},
-                                    {"N3=1e300", "N3: is out of range"},
-                                    {"PE=1", "not a parameter or variable"}}) {
+  for (const auto& [value, reported] : {Refused{"N3=1.5", "whole number"},
+                                        {"N3=40000", "N3: is out of range"},
+                                        {"N3=1e300", "N3: is out of range"},
+                                        {"PE=1", "not a parameter or variable"}}) {
     const Finished refused = daemon->ctl({"set", value});
     EXPECT_EQ(refused.exit_code, 2) << value;
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
-    EXPECT_NE(refused.errors.find(told), std::string::npos) << refused.errors;
+    EXPECT_NE(refused.errors.find(reported), std::string::npos) << refused.errors;
   }
 }
 
 TEST(SlimCommandLine, RefusesWhatIsNoChain) {
   struct Case {
     Words words;
-    const char* told;
+    const char* reported;
   };
   for (const Case& each : {Case{{"serve", "--model", "slim", "--modules", "9"}, "expected 1 to 8"},
                            Case{{"serve", "--model", "slim", "--modules", "0"}, "expected 1 or more"},
@@ -125,10 +125,10 @@ TEST(SlimCommandLine, RefusesWhatIsNoChain) {
                            Case{{"serve", "--model", "slim", "--station", "1"}, "no station number"},
                            Case{{"poll", "/dev/null", "--model", "slim", "PE"}, "speaks text"}}) {
     const Finished refused = understudy(each.words);
-    EXPECT_EQ(refused.exit_code, 2) << each.told;
+    EXPECT_EQ(refused.exit_code, 2) << each.reported;
     EXPECT_EQ(refused.output, "");
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
-    EXPECT_NE(refused.errors.find(each.told), std::string::npos) << refused.errors;
+    EXPECT_NE(refused.errors.find(each.reported), std::string::npos) << refused.errors;
   }
 }
 

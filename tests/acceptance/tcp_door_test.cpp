@@ -90,7 +90,7 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
   struct Case {
     const char* wish;
     int exit_code;
-    const char* said;
+    const char* message;
   };
   for (const Case& c :
        {Case{taken.c_str(), 3, "Address already in use"}, Case{"tcp://:1", 2, "expected rtu://"},
@@ -110,7 +110,7 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
     const Finished refused = understudy({"serve", "--model", "simple2-r3", "--listen", c.wish});
     EXPECT_EQ(refused.exit_code, c.exit_code) << c.wish;
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
-    EXPECT_NE(refused.errors.find(c.said), std::string::npos) << refused.errors;
+    EXPECT_NE(refused.errors.find(c.message), std::string::npos) << refused.errors;
   }
 }
 

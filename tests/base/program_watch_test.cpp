@@ -35,10 +35,10 @@ TEST(ProgramWatches, NotifyEachOfThemOfEverythingInOrder) {
   ProgramWatches watches;
   watches.add(first);
   watches.add(second);
-  ProgramWatch* const told = watches.watch();
-  told->program_loaded(7);
-  told->runs(1, 2, 3);
-  told->decides(4, 5, true, 6);
+  ProgramWatch* const reported = watches.watch();
+  reported->program_loaded(7);
+  reported->runs(1, 2, 3);
+  reported->decides(4, 5, true, 6);
   EXPECT_EQ(
       text,
       "a: look 7\nb: look 7\na: runs 1 2 3\nb: runs 1 2 3\na: decides 4 5 yes 6\nb: decides 4 5 yes 6\n");

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/models/models.h"
 #include "tests/fuzz/fuzzing.h"
 

@@ -214,8 +214,8 @@ void check_answers_again(Listener& listener, const Options& options) {
   const std::size_t before = listener.sent().size();
   listener.type("?PE\r");
   std::string answer = listener.sent().substr(before);
-  const auto take_away = [&](std::string_view beginning, bool is_there) {
-    if (!is_there) return;
+  const auto take_away = [&](std::string_view beginning, bool is_present) {
+    if (!is_present) return;
     require(answer.starts_with(beginning), "an answer has what was chosen");
     answer.erase(0, beginning.size());
   };

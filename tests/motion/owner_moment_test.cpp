@@ -15,7 +15,7 @@ constexpr double kTick_s = 1 / kTicksPerSecond;
 struct Watcher final : EdgeOwner {
   std::int64_t apart = 0;
   int asked = 0;
-  int told = 0;
+  int reported = 0;
 
   static Instant instant(SharedTick& now, double at_s) {
     return at_s >= kTick_s ? Instant{.tick = now.tick()} : Instant{.tick = now.tick() - 1, .after_s = at_s};
@@ -28,12 +28,12 @@ struct Watcher final : EdgeOwner {
       const Instant at = instant(now, at_s);
       return now.place_ahead(0, at).travel_pulses - now.place_ahead(1, at).travel_pulses >= apart;
     };
-    if (told != 0 || !are_apart(seconds(until))) return std::nullopt;
+    if (reported != 0 || !are_apart(seconds(until))) return std::nullopt;
     if (are_apart(seconds(now.now()))) return now.now();
     return instant(now, turnover(seconds(now.now()), seconds(until), are_apart).after);
   }
   void at_moment(SharedTick& now) override {
-    ++told;
+    ++reported;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       now.bring(axis);
       now.axes()[axis].stop(Cause::comparator, now.now());
@@ -61,7 +61,7 @@ struct WatchedBench {
     ASSERT_EQ(axis.run(direction, law, 0), Cause::none);
   }
   void step(Tick ticks, std::uint32_t watched) {
-    for (const Tick last = tick + ticks; tick < last && watcher.told == 0;) {
+    for (const Tick last = tick + ticks; tick < last && watcher.reported == 0;) {
       std::array<std::int64_t, 2> pulses{};
       step_together(
           {.tick = ++tick, .axes = axes, .environment = environment, .pulses = pulses, .watched = watched},
@@ -89,7 +89,7 @@ TEST(OwnerMoment, IsThePulseAtWhichTwoAxesAreSoFarApart) {
     const std::string what = "x " + std::to_string(x_pps) + " y " + std::to_string(y_pps) + " apart " +
                              std::to_string(bench.watcher.apart) +
                              " UNDERSTUDY_SEED=" + std::to_string(seed());
-    ASSERT_EQ(bench.watcher.told, 1) << what;
+    ASSERT_EQ(bench.watcher.reported, 1) << what;
     ASSERT_EQ(bench.axes[0].travel_pulses, x) << what;
     ASSERT_EQ(bench.axes[1].travel_pulses, -y) << what;
     for (const Axis& axis : bench.axes) {
@@ -106,7 +106,7 @@ TEST(OwnerMoment, IsNotLookedForInTicksThatAreNotWatched) {
   EXPECT_EQ(bench.watcher.asked, 0);
   EXPECT_GT(bench.axes[0].travel_pulses, bench.watcher.apart);
   bench.step(1, 0b11);
-  EXPECT_EQ(bench.watcher.told, 1);
+  EXPECT_EQ(bench.watcher.reported, 1);
 }
 
 }  // namespace owner_moment_test

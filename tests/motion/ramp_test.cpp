@@ -233,12 +233,12 @@ TEST(Ramp, WhatIsOutsideALawsDomainIsRefusedByName) {
     std::string ending;
   };
   for (const Row& row : rows) {
-    for (const Bad& bad : std::vector<Bad>{{kNan, Refusal::not_finite, "a finite number, is nan"},
-                                           {kInfinite, Refusal::not_finite, "a finite number, is inf"},
-                                           {-kInfinite, Refusal::not_finite, "a finite number, is -inf"},
-                                           {-1.5, Refusal::not_positive, "above 0, is -1.5"},
-                                           {0, Refusal::not_positive, "above 0, is 0"},
-                                           {-1e-320, Refusal::not_positive, "above 0, is -1e-320"}}) {
+    for (const Bad& bad : std::vector<Bad>{{kNan, Refusal::not_finite, "a finite number; it is nan"},
+                                           {kInfinite, Refusal::not_finite, "a finite number; it is inf"},
+                                           {-kInfinite, Refusal::not_finite, "a finite number; it is -inf"},
+                                           {-1.5, Refusal::not_positive, "above 0; it is -1.5"},
+                                           {0, Refusal::not_positive, "above 0; it is 0"},
+                                           {-1e-320, Refusal::not_positive, "above 0; it is -1e-320"}}) {
       if (row.zero_allowed && bad.value == 0) {
         EXPECT_NO_THROW(row.make(0));
         continue;

@@ -57,9 +57,10 @@ TEST(CaptureText, HasWhatFaultsDid) {
             "0.000000001 out rs485 01 03 02  # discarded: no host has the line open; fault 1 truncate: cut; "
             "3 packets are missing before this one\n");
   const std::vector<Strike> strikes{{1, "drop", "not sent"}, {12, "delay", "sent late"}};
-  const std::string told = text_of(strikes);
+  const std::string reported = text_of(strikes);
   EXPECT_EQ(
-      line_of({.line = 0, .direction = Direction::to_host, .time = SimTime{1}, .bytes = {}, .faults = told}),
+      line_of(
+          {.line = 0, .direction = Direction::to_host, .time = SimTime{1}, .bytes = {}, .faults = reported}),
       "0.000000001 out rs485  # fault 1 drop: not sent; fault 12 delay: sent late\n");
 }
 

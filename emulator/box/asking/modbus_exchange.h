@@ -1,5 +1,5 @@
 // Sends a request to a real controller on Modbus and takes its reply, with the checksum of RTU or in the
-// frame of Modbus TCP. It does not know what is asked.
+// frame of Modbus TCP. It does not interpret the request.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class ModbusExchange {
 
   /// Both the request and the reply have a checksum.
   Asked ask(const Bytes& request);
-  /// Returns when the silence before a request is over.
+  /// Waits for the silence that must come before a request.
   void keep_silence();
 
  private:

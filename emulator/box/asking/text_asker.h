@@ -1,4 +1,4 @@
-// Asks a real controller in lines of text. It can only ask: a line must be a query.
+// Sends queries to a real controller that speaks lines of text. It refuses lines that are not queries.
 #pragma once
 
 #include <string>

@@ -1,8 +1,9 @@
-// Finds the options of choices with which a bench replies as a real controller did.
+// Finds the options with which a bench replies as a real controller did.
 //
-// A hypothesis gives some choices another option. At the first difference, every other option of every choice
-// is tried; all that get further are kept and tried again with more. So several explanations can remain. A
-// choice is called measured only if all of them agree, and every other option contradicts a reply.
+// A hypothesis changes the options of some choices. At the first difference, the search tries every other
+// option of every choice. It keeps all hypotheses that get further and extends them, so several explanations
+// can remain. A choice is called measured only if all of them agree and every other option contradicts a
+// reply.
 #pragma once
 
 #include <compare>
@@ -23,14 +24,14 @@
 
 namespace understudy::emulator::box {
 
-/// A choice of a device of the bench, or its firmware: the versions are options, too.
+/// A choice of a device, or its firmware, whose options are the versions.
 struct ChoiceKey {
   static constexpr std::size_t kFirmware = std::numeric_limits<std::size_t>::max();
   std::size_t device = 0;
   std::size_t row = 0;
   auto operator<=>(const ChoiceKey&) const = default;
 };
-/// The options that differ from the bench's, by their numbers.
+/// The numbers of the options that differ from the bench's.
 using Hypothesis = std::map<ChoiceKey, std::uint8_t>;
 
 struct RowFinding {
@@ -42,7 +43,7 @@ struct RowFinding {
   ChoiceKey key;
   std::set<std::uint8_t> remaining{};  // options
   std::uint8_t before = 0;             // the bench's option
-  /// The place of a contradiction, for one of the other options.
+  /// Where one of the other options contradicts a reply.
   std::optional<std::size_t> capture{};
   std::size_t place = 0;
 };
@@ -53,11 +54,11 @@ struct Calibration {
   std::vector<RowFinding> findings;      // of all choices with several options, in the order of the tables
   std::size_t tried = 0;                 // hypotheses
   double drift_ppm = 0;                  // by which the controller's clock runs faster than the captures'
-  // If nothing explains everything: the end of the best one.
+  // If no hypothesis explains everything: where the best one ends.
   std::size_t capture = 0;
   std::size_t exchange = 0;
-  /// Two captures that can be explained one by one, but not together: they are of different controllers, or
-  /// of one that was changed.
+  /// Two captures that can be explained separately but not together. They come from different controllers, or
+  /// someone changed the controller in between.
   std::optional<std::pair<std::size_t, std::size_t>> contradictory{};
 };
 
@@ -72,11 +73,11 @@ using CalibrateProgress = std::function<void(std::size_t tried, const std::strin
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
                       const CalibrateSettings& settings, const CalibrateProgress& progress);
 
-/// Returns by how many millionths the controller's clock is faster than that of the capture, as far as its
-/// motions show: with this, the bench agrees for longest. 0 if that does not help.
+/// Estimates from the motions how much faster the controller's clock is than the capture's, in parts per
+/// million: the value with which the bench agrees for longest. Returns 0 if no value helps.
 double fit_drift(const world::Bench& bench, const Capture& capture, const CompareSettings& settings);
 
-/// Returns the single options that make the first difference of a capture an agreement.
+/// Returns the options that, changed alone, remove the first difference of a capture.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,
                                  std::size_t first_difference, const CalibrateSettings& settings);
 

@@ -1,6 +1,6 @@
-// A certificate says what was measured on which controller, by which capture or proof. It is a file of JSON,
-// which its owner signs with `ssh-keygen -Y sign`, and a page for people. The JSON has the digests of the
-// page, of the evidence and of the captures, so its signature covers them all.
+// A certificate lists what was measured on a controller, with the capture or proof of each row. It is a JSON
+// file, which its owner signs with `ssh-keygen -Y sign`, and a page for people. The JSON has the digests of
+// the page, of the evidence and of the captures, so its signature covers them all.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What `calibrate` and `probe` write: which options a real controller was found to have, and by what.
+// The file that `calibrate` and `probe` write: the options that a real controller has, and the evidence.
 #pragma once
 
 #include <array>
@@ -68,8 +68,8 @@ struct EvidenceError : FileError {
 EvidenceFile parse_evidence(std::string_view text, const std::string& path);
 /// Returns the text of the file.
 std::string evidence_text(const EvidenceFile& evidence);
-/// Returns a line for each row that was exercised, and one with the counts. `remark` is that of a measured
-/// option that was not expected.
+/// Returns a line for each exercised row, and one with the counts. `remark` follows a measured option that
+/// differs from the expected one.
 std::string evidence_table(const EvidenceFile& evidence, std::string_view remark);
 
 }  // namespace understudy::emulator::box

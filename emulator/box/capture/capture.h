@@ -16,8 +16,8 @@ namespace understudy::emulator::box {
 
 using CapturedBytes = std::vector<std::uint8_t>;
 
-/// Who sent bytes. Many tools know two sides but not which of them is the host, and one adapter on two wires
-/// of RS-485 hears both.
+/// The sender of bytes. Many tools distinguish two sides without knowing which one is the host. One adapter
+/// on a two-wire RS-485 line receives both.
 enum class Side : std::uint8_t { host, station, one, other, unknown };
 
 /// Bytes of one direction that were seen together.
@@ -43,7 +43,7 @@ struct Exchange {
   bool follows_loss = false;      // an earlier request is lost that may have written
 };
 
-/// What a reader has noticed.
+/// Observations of a reader about the whole capture.
 struct CaptureNotes {
   std::string format{};  // "a log of socat"
   std::string line{};    // the one that was taken
@@ -61,7 +61,7 @@ struct CaptureNotes {
   std::string beyond_the_line{};    // what else has changed a recorded device, and when
 };
 
-/// What an input did.
+/// A change of an input.
 struct InputChange {
   SimTime at{0};
   std::size_t device = 0;  // of the bench
@@ -91,7 +91,8 @@ struct CaptureSettings {
   std::optional<double> sample_rate{};  // in Hz, if the file counts samples
 };
 
-/// Returns what a file that begins so is, "a log of socat -x", or nothing if it is not a known capture.
+/// Returns the format of a file from its beginning ("a log of socat -x"), or nothing if it is not a known
+/// one.
 std::string capture_format(const std::string& head);
 
 using ExchangeSink = std::function<void(Exchange exchange)>;

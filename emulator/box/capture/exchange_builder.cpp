@@ -151,13 +151,13 @@ void ExchangeBuilder::add_text(CapturedPiece piece) {
   if (piece.side == Side::unknown)
     throw refuse(piece.place, "does not tell who sent a line of text; expected a capture that does");
   if (piece.side == Side::station) {
-    FoundFrame said{.bytes = std::move(piece.bytes), .at = piece.at, .place = piece.place};
+    FoundFrame sent{.bytes = std::move(piece.bytes), .at = piece.at, .place = piece.place};
     if (!text_line_) {
-      take_reply(std::move(said));
+      take_reply(std::move(sent));
     } else if (!text_echo_) {
-      text_echo_ = std::move(said);
+      text_echo_ = std::move(sent);
     } else {
-      text_echo_->bytes.insert(text_echo_->bytes.end(), said.bytes.begin(), said.bytes.end());
+      text_echo_->bytes.insert(text_echo_->bytes.end(), sent.bytes.begin(), sent.bytes.end());
     }
     return;
   }

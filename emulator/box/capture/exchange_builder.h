@@ -1,4 +1,4 @@
-// Makes exchanges of pieces: finds frames, says who sent them, and puts replies to their requests.
+// Makes exchanges from pieces: finds frames, infers their senders, and joins replies to requests.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class ExchangeBuilder {
                   const ExchangeSink& sink);
 
   void add(CapturedPiece piece);
-  /// Hands on what is left. Throws CaptureReadError if there was no request, or never a reply.
+  /// Passes on the last exchange. Throws CaptureReadError if there was no request, or never a reply.
   void finish();
 
  private:

@@ -15,7 +15,8 @@ class FollowedFile : public std::streambuf {
   /// Reading ends when `is_over` returns true. The file may appear later.
   FollowedFile(std::string path, std::function<bool()> is_over);
 
-  /// Waits until the file has begun, and returns its first bytes without reading them. Empty: it is over.
+  /// Waits for the first bytes of the file and returns them without consuming them. Returns none if reading
+  /// is over.
   std::string head();
 
  protected:

@@ -24,7 +24,7 @@ struct Packet {
   std::size_t number = 1;
 };
 
-/// Numbers in a packet, from its beginning, with checks.
+/// Reads numbers from a packet, with checks of its length.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes, bool is_little = false)
@@ -41,7 +41,7 @@ class ByteReader {
   bool is_little_;
 };
 
-/// Returns true if a file that begins so is pcap or pcapng.
+/// Returns true if a file with this beginning is pcap or pcapng.
 bool is_packet_file(std::string_view head);
 
 using PacketSink = std::function<void(Packet packet)>;

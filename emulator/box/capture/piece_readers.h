@@ -16,13 +16,13 @@ using PieceSink = std::function<void(CapturedPiece piece)>;
 void read_text_pieces(std::istream& file, const std::string& path, const PieceSink& sink);
 bool is_our_text(std::string_view head);
 
-/// pcap and pcapng. Returns what they hold: "packets of TCP".
+/// Reads pcap and pcapng. Returns a description of the content: "packets of TCP".
 std::string read_packet_pieces(std::istream& file, const std::string& path, const PieceSink& sink);
 
-/// Logs of other programs (log_pieces.cpp). `head` is the beginning of the file. Returns what they are.
+/// Reads logs of other programs (log_pieces.cpp). `head` is the beginning of the file. Returns the format.
 std::string read_log_pieces(std::istream& file, const std::string& head, const std::string& path,
                             const CaptureSettings& settings, const PieceSink& sink);
-/// Returns what a log is that begins so; empty: none that is known.
+/// Returns the format of a log from its beginning, or an empty text if it is unknown.
 std::string log_format(const std::string& head);
 
 }  // namespace understudy::emulator::box

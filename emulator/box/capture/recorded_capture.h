@@ -1,5 +1,5 @@
-// Takes a recording of a bench as a capture: what a host sent, what the devices sent back, and what the
-// inputs did. So a recording can be compared with another version, model or bench.
+// Reads a recording of a bench as a capture, with requests, replies and inputs. A recording can then be
+// compared with another version, model or bench.
 #pragma once
 
 #include <istream>

@@ -23,7 +23,7 @@ struct FoundFrame {
   std::uint64_t pair = 0;
 };
 
-/// How long a frame is that begins with `bytes`.
+/// The length of the frame that begins with `bytes`.
 struct FrameLength {
   enum class State : std::uint8_t { known, needs_more, none } state = State::none;
   std::size_t size = 0;  // with the checksum
@@ -31,7 +31,7 @@ struct FrameLength {
 FrameLength request_length(std::span<const std::uint8_t> bytes);
 FrameLength reply_length(std::span<const std::uint8_t> bytes);
 
-/// Returns true if `reply` may answer `request`: its station, its function, and what it repeats.
+/// Returns true if `reply` can answer `request`: station, function and repeated fields agree.
 bool may_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
 /// Makes a frame of a serial line from one of Modbus TCP; nothing if it is none. `bytes` begins with the
@@ -55,7 +55,7 @@ class FrameFinder {
   std::optional<FoundFrame> next(const CapturedBytes* pending, bool gives_up);
 
   bool is_empty() const { return begin_ == bytes_.size(); }
-  // Of the first byte that is no frame yet:
+  // The first byte that does not belong to a frame yet:
   std::optional<SimTime> begins() const;
   std::size_t begins_at_place() const { return marks_.empty() ? 0 : marks_.front().place; }
   /// Returns how many bytes were dropped since the last call.
@@ -67,7 +67,7 @@ class FrameFinder {
     std::optional<SimTime> at{};
     std::size_t place = 0;
   };
-  /// A way to read the beginning of the bytes.
+  /// One interpretation of the beginning of the bytes.
   struct Match {
     std::size_t size = 0;  // 0: it is no frame, or not a whole one yet
     FrameRole role = FrameRole::request;

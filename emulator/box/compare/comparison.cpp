@@ -71,13 +71,13 @@ Judgement Comparer::judge(const Exchange& exchange, std::optional<SimTime> next,
   agreeing_bytes_ = is_text ? static_cast<std::size_t>(differs.in1 - exchange.reply.begin()) : 0;
   if (extent_ == Extent::to_difference) return judgement;
   const world::WorldLine& line = replay_.line();
-  const auto told = [&](const Frame& bytes) {
+  const auto reported = [&](const Frame& bytes) {
     return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
   };
   judgement.request = line.request_text(exchange.request);
   if (judgement.verdict == Verdict::same) return judgement;
-  judgement.box = told(exchange.reply);
-  judgement.bench = told(reply.bytes);
+  judgement.box = reported(exchange.reply);
+  judgement.bench = reported(reply.bytes);
   return judgement;
 }
 

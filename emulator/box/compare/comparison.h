@@ -38,8 +38,8 @@ struct Judgement {
 struct Comparison {
   std::vector<Judgement> judgements;  // one for each exchange, up to the end
   std::optional<std::size_t> first_difference{};
-  /// Of lines of text: how many characters at the beginning of the reply that differs agree. Such a reply may
-  /// differ for several reasons at once.
+  /// For lines of text: how many characters of the differing reply agree, from its beginning. Such a reply
+  /// can differ for several reasons at once.
   std::size_t agreeing_bytes = 0;
   std::uint64_t fingerprint = 0;  // of all that the bench has replied
 };
@@ -52,7 +52,7 @@ enum class Extent : std::uint8_t {
 Comparison compare(const world::Bench& bench, const Capture& capture, const CompareSettings& settings,
                    Extent extent);
 
-/// Judges exchanges one by one, in their order. It holds none of them.
+/// Judges exchanges one by one, in their order. It stores none of them.
 class Comparer {
  public:
   /// `notes` and `inputs` are those of the capture, and `first_at` is the time of its first exchange. Throws
@@ -64,7 +64,7 @@ class Comparer {
   Judgement judge(const Exchange& exchange, std::optional<SimTime> next, bool is_last);
 
   std::uint64_t fingerprint() const { return fingerprint_; }
-  /// Of the exchange that was judged last.
+  /// Describes the exchange that was judged last.
   std::size_t agreeing_bytes() const { return agreeing_bytes_; }
 
  private:
@@ -85,7 +85,7 @@ class Comparer {
 class ReplyTimes {
  public:
   using Sink = std::function<void(const Exchange& exchange, const Judgement& judgement)>;
-  /// `samples` is the number of replies of which the usual delay is taken.
+  /// `samples` is the number of replies from which it takes the usual delay.
   ReplyTimes(SimTime tolerance, std::size_t samples, Sink sink)
       : tolerance_(tolerance), samples_(samples), sink_(std::move(sink)) {}
 
@@ -103,7 +103,7 @@ class ReplyTimes {
   std::vector<SimTime> delays_;
   std::optional<SimTime> usual_;
 };
-/// Enough for a whole capture of an evening's line, and few enough to hold.
+/// Enough for the capture of a whole evening, and small enough to hold in memory.
 inline constexpr std::size_t kDelaySamples = 1000;
 
 }  // namespace understudy::emulator::box

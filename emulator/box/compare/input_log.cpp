@@ -38,16 +38,16 @@ std::vector<InputChange> parse_input_log(const world::Bench& bench, std::string_
   const world::KnownDevices& known = world.known();
   std::vector<InputChange> changes;
   for (const TextLine line : TextLines(text)) {
-    const std::string_view said = line.text.substr(0, line.text.find('#'));
-    const std::size_t begin = said.find_first_not_of(" \t\r");
+    const std::string_view message = line.text.substr(0, line.text.find('#'));
+    const std::size_t begin = message.find_first_not_of(" \t\r");
     if (begin == std::string_view::npos) continue;
     const auto refuse = [&](const std::string& what) {
       return InputLogError(path + ":" + std::to_string(line.number) + ": " + what +
                            "; expected a line such as `0.250 feeder.DIN_2 on`");
     };
-    const auto time = take_log_time(said.substr(begin));
-    if (!time) throw refuse(quoted(said.substr(begin)) + " does not begin with a time");
-    std::istringstream words{std::string(said.substr(begin + time->size))};
+    const auto time = take_log_time(message.substr(begin));
+    if (!time) throw refuse(quoted(message.substr(begin)) + " does not begin with a time");
+    std::istringstream words{std::string(message.substr(begin + time->size))};
     std::string name, level_text, rest;
     words >> name >> level_text;
     const auto level = parse_level(level_text);

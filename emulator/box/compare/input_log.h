@@ -1,4 +1,4 @@
-// What the inputs of a controller did during a capture: a text with a line for each change.
+// Reads the changes of a controller's inputs during a capture: a text with one change per line.
 //
 //   0.250 feeder.DIN_2 on
 //   14:03:07.125 feeder.DIN_2 off      # times as in the capture

@@ -1,4 +1,4 @@
-// A bench that gets the requests that a host sent to a real controller, at the same times.
+// A bench that receives the requests that a host sent to a real controller, at the same times.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct BenchReply {
   /// For a read of registers: their values a tolerance before the request and after the reply.
   std::vector<std::uint16_t> before{};
   std::vector<std::uint16_t> after{};
-  /// The same for a query of a text controller that asks for a number.
+  /// The same for a query of a text controller whose reply is a number.
   std::optional<double> number_before{};
   std::optional<double> number_after{};
 };

@@ -28,7 +28,7 @@ struct PhotoWork {
   void report(std::string_view next) const {
     if (progress) progress(photo.exchanges.size(), next);
   }
-  /// Adds a value that the controller did not give.
+  /// Adds a value that the controller did not return.
   void refuse(const PhotoRefusal& refusal) { photo.refused.push_back(refusal); }
 };
 

@@ -23,7 +23,7 @@ struct PhotoValue {
   std::uint16_t address = 0;
 };
 
-/// A value that the controller did not give.
+/// A value that the controller did not return.
 struct PhotoRefusal {
   std::string name;
   std::string why;  // "exception 2", "no answer"

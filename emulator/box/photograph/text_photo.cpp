@@ -70,9 +70,9 @@ class TextPhoto {
       for (int i = 0; i < 2; ++i) {
         TextReply reply = asker_->ask("?VER", kPause);
         is_noisy = is_noisy || !reply.asked.reply.empty();
-        const bool is_there = !reply.lines.empty() && is_text(reply.lines);
+        const bool is_present = !reply.lines.empty() && is_text(reply.lines);
         work_.note(std::move(reply.asked));
-        if (!is_there) continue;
+        if (!is_present) continue;
         if (work_.port.has_settings()) work_.photo.line = pty::to_string(line);
         return;
       }

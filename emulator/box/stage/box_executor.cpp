@@ -192,11 +192,11 @@ play::HostReply BoxExecutor::ask(std::size_t line, const Bytes& request) {
   }
   note_written(line, begin, request.size(), hazards);
   play::HostReply judged = play::judge_reply(request, reply);
-  std::string said = "nothing";
+  std::string printed = "nothing";
   with_world([&](world::World& world) {
-    if (!reply.empty()) said = world.line(line).reply_text(request, reply);
+    if (!reply.empty()) printed = world.line(line).reply_text(request, reply);
   });
-  note(line, "<-", said);
+  note(line, "<-", printed);
   // Station numbers and the order of words follow what was written.
   if (!is_rehearsal() && is_write_frame(request) && judged.kind == play::HostReply::Kind::good)
     shadow_.exchange(line, request, kWriteReplySize, kShadowTime);
@@ -257,12 +257,12 @@ std::vector<std::string> BoxExecutor::exchange_text(std::size_t line, const std:
     note_edit(line, *text);
   }
   const SimTime begin = now();
-  std::vector<std::string> heard = is_rehearsal()
-                                       ? shadow_.exchange_text(line, text, wanted, within)
-                                       : host(line).exchange_text(text, wanted, within, scenario_.gap);
+  std::vector<std::string> received = is_rehearsal()
+                                          ? shadow_.exchange_text(line, text, wanted, within)
+                                          : host(line).exchange_text(text, wanted, within, scenario_.gap);
   if (text) note_written(line, begin, text->size() + 1, hazards);
-  note(line, "<-", world::lines_text(heard));
-  return heard;
+  note(line, "<-", world::lines_text(received));
+  return received;
 }
 
 // --- what it was before --------------------------------------------------------------------------
@@ -358,7 +358,7 @@ std::optional<std::string> BoxExecutor::tell(const std::string& name) {
   if (settings_.rig.empty() || is_rehearsal()) return std::nullopt;
   const CommandAnswer answer = run_command(settings_.rig, {"value", name});
   if (answer.exit_code != 0) return std::nullopt;
-  return answer.said;
+  return answer.output;
 }
 
 // --- the stop ------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// The stage whose controllers are real. A host on their lines sends what the user has allowed; a world that
-// is never asked for truths knows their names. In a rehearsal, the world answers.
+// Executes scenarios with real controllers. A host on their lines sends what the user has allowed. A
+// simulated world supplies the names of their values, but no values. In a rehearsal, that world replies.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@
 #include "emulator/box/stage/box_lines.h"
 #include "emulator/box/stage/permission.h"
 #include "emulator/device/register_map/hazards.h"
-#include "emulator/play/executors/box_stage.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/free_executor.h"
+#include "emulator/play/executors/real_box.h"
 #include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::box {
@@ -32,19 +32,19 @@ struct StageSettings {
   bool rehearses = false;   // the world answers: nothing is sent
   bool only_plans = false;  // this too, and requests are listed instead of judged
   bool puts_back = false;   // at the end, registers get the values that they had before
-  /// Takes a line for the user: a stop that was sent, a request of a plan.
+  /// Receives a line for the user: a stop that was sent, or a request of a plan.
   std::function<void(const std::string&)> say{};
   std::function<bool()> is_interrupted{};
 };
 
-class BoxExecutor final : public play::Executor, public play::BoxStage {
+class BoxExecutor final : public play::Executor, public play::RealBox {
  public:
   /// Both references must outlive it. Throws BoxError and WireError.
   BoxExecutor(const play::Scenario& scenario, BoxLines& lines, const StageSettings& settings);
   /// Stops everything that may move.
   ~BoxExecutor() override;
 
-  play::BoxStage* box() override { return this; }
+  play::RealBox* box() override { return this; }
 
   play::HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   play::HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
@@ -75,7 +75,7 @@ class BoxExecutor final : public play::Executor, public play::BoxStage {
 
  private:
   play::HostReply ask(std::size_t line, const Bytes& request);
-  /// Throws NotAllowed and BeyondEnvelope. Returns what the request can do.
+  /// Returns the effects that the request can have. Throws NotAllowed and BeyondEnvelope.
   Hazards require(std::size_t line, const SentRequest& request);
   void note_written(std::size_t line, SimTime begin, std::size_t bytes, Hazards hazards);
   void note(std::size_t line, const char* arrow, const std::string& text);
@@ -97,9 +97,9 @@ class BoxExecutor final : public play::Executor, public play::BoxStage {
   std::deque<std::string> frames_;
   std::set<std::size_t> may_move_;  // devices
   std::set<std::string> planned_;   // reads since the last write
-  /// Lines of text on which a program is being entered, and how that began.
+  /// The lines of text on which a program is being entered, with the commands that began it.
   std::map<std::size_t, EditMark> editing_;
-  /// What a register held before its first write.
+  /// The value of a register before its first write.
   struct Before {
     std::size_t line = 0;
     int station = 0;

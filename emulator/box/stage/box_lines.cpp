@@ -139,26 +139,26 @@ std::vector<std::string> LineHost::exchange_text(const std::optional<std::string
     return world::lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
   };
   const WallTime deadline = serve::wall_now() + within + (wanted.lines.empty() ? WallTime{0} : timeout_);
-  world::ReceivedLines heard = heard_now();
-  while (!world::has_come(wanted, heard) && serve::wall_now() < deadline) {
+  world::ReceivedLines received = heard_now();
+  while (!world::has_come(wanted, received) && serve::wall_now() < deadline) {
     receive_until(unread_, deadline);
-    heard = heard_now();
+    received = heard_now();
   }
   // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
-  while (text && heard.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
+  while (text && received.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
     if (!wire_->receive(unread_, std::min(deadline, serve::wall_now() + kAdapterDelay))) break;
-    heard = heard_now();
+    received = heard_now();
   }
   const std::size_t wanted_lines = wanted.lines.size();
-  if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
+  if (!text && wanted_lines > 0 && received.finished >= wanted_lines) {
     unread_.erase(unread_.begin(),
-                  unread_.begin() + static_cast<std::ptrdiff_t>(heard.ends[wanted_lines - 1]));
-    heard.lines.resize(wanted_lines);
+                  unread_.begin() + static_cast<std::ptrdiff_t>(received.ends[wanted_lines - 1]));
+    received.lines.resize(wanted_lines);
   } else {
     unread_.clear();
   }
-  if (!heard.lines.empty()) quiet_since_ = serve::wall_now();
-  return heard.lines;
+  if (!received.lines.empty()) quiet_since_ = serve::wall_now();
+  return received.lines;
 }
 
 LineHost& BoxLines::host(const std::string& line, const Model& model, int station) {

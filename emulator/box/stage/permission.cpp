@@ -22,7 +22,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
-#include "emulator/play/executors/box_stage.h"
+#include "emulator/play/executors/real_box.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"

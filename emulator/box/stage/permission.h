@@ -1,4 +1,4 @@
-// What may be sent to a real controller: what the user has allowed, within the user's limits.
+// Decides which requests may be sent to a real controller, by the user's permissions and limits.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@
 
 namespace understudy::emulator::box {
 
-/// A number that a request brings: "Aaxis_Speed" and 60; for a command its word and each of its numbers.
+/// A number in a request: "Aaxis_Speed" and 60. A command has its word and each of its numbers.
 struct SentNumber {
   std::string name;
   world::Number value;
 };
 
-/// A write as a frame brings it. Each bit takes a word.
+/// A write as it stands in a frame. Each bit takes a word.
 struct Written {
   Table table = Table::holding;
   std::uint16_t first = 0;
@@ -31,7 +31,7 @@ struct Written {
 /// Returns the write of a frame; nothing for another function, or a length that does not fit.
 std::optional<Written> written_by(std::span<const std::uint8_t> frame);
 
-/// What a request can do.
+/// The effects that a request can have.
 struct SentRequest {
   Hazards hazards = Hazards::all;
   std::string what;  // "write 0x1005 feeder.Aaxis_Move_INC = 1"
@@ -39,7 +39,7 @@ struct SentRequest {
   std::optional<std::size_t> device{};  // nothing: none on this line, or all
 };
 
-/// The view is that of the bench; it knows station numbers and the order of words.
+/// The view belongs to the bench, which knows station numbers and the order of words.
 SentRequest judge_frame(const world::WorldView& view, std::size_t line, std::span<const std::uint8_t> frame);
 SentRequest judge_text(const world::WorldView& view, std::size_t line, const std::string& text);
 

@@ -32,7 +32,7 @@ std::string request_to_person(const std::vector<std::string>& words) {
 
 CommandAnswer run_command(const std::string& command, const std::vector<std::string>& words) {
   std::array<int, 2> pipe_ends{};
-  if (pipe(pipe_ends.data()) != 0) return {.exit_code = 127, .said = {}};
+  if (pipe(pipe_ends.data()) != 0) return {.exit_code = 127, .output = {}};
   std::vector<std::string> all{"sh", "-c", command + " \"$@\"", "rig"};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> raw;
@@ -50,15 +50,15 @@ CommandAnswer run_command(const std::string& command, const std::vector<std::str
     const ssize_t size = read(pipe_ends[0], part.data(), part.size());
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) break;
-    answer.said.append(part.data(), static_cast<std::size_t>(size));
+    answer.output.append(part.data(), static_cast<std::size_t>(size));
   }
   close(pipe_ends[0]);
   int status = 127 << 8;
   while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  while (!answer.said.empty() && (answer.said.back() == '\n' || answer.said.back() == '\r'))
-    answer.said.pop_back();
+  while (!answer.output.empty() && (answer.output.back() == '\n' || answer.output.back() == '\r'))
+    answer.output.pop_back();
   return answer;
 }
 

@@ -1,4 +1,4 @@
-// What is done to the surroundings of a real controller: by a command of the user, or by a person.
+// Acts on the environment of a real controller, through a command of the user or a person.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ inline constexpr int kRigCannot = 3;
 
 struct CommandAnswer {
   int exit_code = 0;
-  std::string said;  // on its standard output
+  std::string output;  // on its standard output
 };
 /// Runs "COMMAND input feeder.DIN_2 on" in a shell. Exit code 127: it cannot be run.
 CommandAnswer run_command(const std::string& command, const std::vector<std::string>& words);

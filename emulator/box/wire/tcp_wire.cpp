@@ -119,7 +119,8 @@ void TcpWire::answer(const telnet::Command& command) {
       if (!is_ours) write_all(socket_, Bytes{telnet::kIac, telnet::kDont, command.option}, place_);
       break;
     case telnet::kSubnegotiation:
-      if (is_com_port && !command.body.empty() && command.body[0] == kSetBaud + kFromServer) ++settings_told_;
+      if (is_com_port && !command.body.empty() && command.body[0] == kSetBaud + kFromServer)
+        ++settings_confirmed_;
       break;
     default: break;
   }
@@ -151,11 +152,11 @@ void TcpWire::set_line(const pty::LineSettings& settings) {
   set(kSetDataBits, {static_cast<std::uint8_t>(settings.data_bits)});
   set(kSetParity, {code_of(settings.parity)});
   set(kSetStopBits, {static_cast<std::uint8_t>(settings.stop_bits)});
-  const int before = settings_told_;
+  const int before = settings_confirmed_;
   write_all(socket_, sent, place_);
   Bytes none;
   const WallTime deadline = serve::wall_now() + kNegotiationTime;
-  while (settings_told_ == before && serve::wall_now() < deadline) read_raw(none, deadline);
+  while (settings_confirmed_ == before && serve::wall_now() < deadline) read_raw(none, deadline);
 }
 
 void TcpWire::send(std::span<const std::uint8_t> bytes) {

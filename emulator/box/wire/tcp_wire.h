@@ -32,7 +32,7 @@ class TcpWire final : public Wire {
   serve::telnet::Reader reader_;
   bool has_com_port_ = false;  // the adapter has agreed to set the port
   bool refuses_com_port_ = false;
-  int settings_told_ = 0;  // answers to SET-BAUDRATE
+  int settings_confirmed_ = 0;  // answers to SET-BAUDRATE
 };
 
 }  // namespace understudy::emulator::box

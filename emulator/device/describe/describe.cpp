@@ -15,7 +15,7 @@
 #include "base/choices.h"
 #include "emulator/device/describe/sheet.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_language.h"
@@ -332,7 +332,7 @@ Sheet ports(const Model& model) {
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
-  const KeptMemory* const memory = std::as_const(*device).memory();
+  const PersistentMemory* const memory = std::as_const(*device).memory();
   const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
   if (kept == nullptr) return sheet;
   for (const BlockKind& kind : kept->kinds()) {

@@ -31,12 +31,12 @@ std::string fidelity_page(const Model& model) {
     if (!what.empty()) missing.rows.push_back({row[1], row[2], what});
   }
   page += "\n## Not modelled yet\n\n";
-  for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
+  for (const std::string_view gap : model.known_limitations) page += "- " + std::string(gap) + "\n";
   if (model.registers == nullptr) return page;
-  if (!model.gaps.empty()) page += "\n";
+  if (!model.known_limitations.empty()) page += "\n";
   if (missing.rows.empty()) {
-    page += model.gaps.empty() ? "Nothing: every register does what the manual says.\n"
-                               : "Every register does what the manual says.\n";
+    page += model.known_limitations.empty() ? "Nothing: every register does what the manual says.\n"
+                                            : "Every register does what the manual says.\n";
     return page;
   }
   page +=

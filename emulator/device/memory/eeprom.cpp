@@ -11,26 +11,28 @@
 
 namespace understudy::emulator {
 
-Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
+Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_persistent,
                std::span<const bool> at_once)
-    : kept_(factory.begin(), factory.end()) {
-  for (std::size_t slot = 0; slot < is_kept.size(); ++slot) {
+    : content_(factory.begin(), factory.end()) {
+  for (std::size_t slot = 0; slot < is_persistent.size(); ++slot) {
     const bool needs_no_time = !at_once.empty() && at_once[slot];
-    slots_.push_back(!is_kept[slot] ? Slot::not_kept : needs_no_time ? Slot::at_once : Slot::rests);
+    slots_.push_back(!is_persistent[slot] ? Slot::not_persistent
+                     : needs_no_time      ? Slot::at_once
+                                          : Slot::rests);
   }
 }
 
 void Eeprom::begin(Tick at) { done_at_ = jobs_.empty() ? kNever : at + jobs_.front().takes; }
 
 void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
-  if (kept_[slot] == bits) return;
-  kept_[slot] = bits;
+  if (content_[slot] == bits) return;
+  content_[slot] = bits;
   ++revision_;
 }
 
 void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same) {
   if (slots_[slot] == Slot::at_once) return keep(slot, bits);
-  const std::vector<std::uint32_t>& before = rewriting_.empty() ? kept_ : rewriting_;
+  const std::vector<std::uint32_t>& before = rewriting_.empty() ? content_ : rewriting_;
   if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
   slots_[slot] = Slot::waits;
   jobs_.push_back({static_cast<std::uint32_t>(slot), takes});
@@ -65,8 +67,9 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
 }
 
 void Eeprom::keep_all(std::span<const std::uint32_t> image, bool even_at_once) {
-  for (std::size_t slot = 0; slot < kept_.size(); ++slot) {
-    const bool is_left = slots_[slot] == Slot::not_kept || (slots_[slot] == Slot::at_once && !even_at_once);
+  for (std::size_t slot = 0; slot < content_.size(); ++slot) {
+    const bool is_left =
+        slots_[slot] == Slot::not_persistent || (slots_[slot] == Slot::at_once && !even_at_once);
     if (!is_left) keep(slot, image[slot]);
   }
 }
@@ -90,18 +93,20 @@ void Eeprom::lose_power() { forget_jobs(); }
 void Eeprom::check_restored(const Eeprom& earlier) const {
   constexpr Tick kLongestJob = 1'000'000;
   const auto is_alike = [](Slot a, Slot b) {
-    const auto lasts = [](Slot slot) { return slot == Slot::not_kept || slot == Slot::at_once; };
+    const auto lasts = [](Slot slot) { return slot == Slot::not_persistent || slot == Slot::at_once; };
     return a == b || (!lasts(a) && !lasts(b));
   };
-  require_state(kept_.size() == earlier.kept_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
-                "it holds other registers");
+  require_state(
+      content_.size() == earlier.content_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
+      "it holds other registers");
   // A waiting register has exactly one job. A job that writes everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     const Job& job = jobs_[i];
     require_within(job.takes, 0, kLongestJob);
     if (job.slot == kEverything) {
-      require_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot be writing everything");
+      require_state(i == 0 && rewriting_.size() == content_.size(),
+                    "the memory cannot be writing everything");
     } else {
       require_state(job.slot < left.size() && left[job.slot] == Slot::waits,
                     "the memory's writes are out of order");

@@ -19,9 +19,9 @@ namespace understudy::emulator {
 class Eeprom {
  public:
   Eeprom() = default;
-  /// `factory` has the factory value of each slot; `is_kept` says which slots are persistent. `at_once` says
-  /// which of those a battery or an FRAM keeps without delay; by default none.
-  Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
+  /// `factory` has the factory value of each slot; `is_persistent` says which slots are persistent. `at_once`
+  /// says which of those a battery or an FRAM keeps without delay; by default none.
+  Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_persistent,
          std::span<const bool> at_once = {});
 
   /// Queues a register that was written after tick `now`; `bits` is its content. A value that is already
@@ -43,14 +43,14 @@ class Eeprom {
   bool writing() const { return done_at_ != kNever; }
   /// Returns the tick at whose end step() has something to do, or kNever if nothing waits.
   Tick next_active_tick() const { return done_at_; }
-  std::span<const std::uint32_t> kept() const { return kept_; }
+  std::span<const std::uint32_t> content() const { return content_; }
   /// Grows with every stored change.
   std::uint64_t revision() const { return revision_; }
 
   bool operator==(const Eeprom&) const = default;
 
   // --- its state as bytes (eeprom_fields.h) ------------------------------------------------
-  enum class Slot : std::uint8_t { not_kept, rests, waits, at_once };
+  enum class Slot : std::uint8_t { not_persistent, rests, waits, at_once };
   /// Throws StateError unless it can be a later state of `earlier`: it has the same registers, and its jobs
   /// are possible.
   void check_restored(const Eeprom& earlier) const;
@@ -74,7 +74,7 @@ class Eeprom {
 
   Tick done_at_ = kNever;  // first, because each tick reads it
   std::uint64_t revision_ = 0;
-  std::vector<std::uint32_t> kept_;  // by slot
+  std::vector<std::uint32_t> content_;  // by slot
   std::vector<Slot> slots_;
   std::vector<Job> jobs_;                 // the first is in progress
   std::vector<std::uint32_t> rewriting_;  // by slot, during an erasure; otherwise empty

@@ -51,7 +51,7 @@ bool holds_the_same(const NvImage& a, const NvImage& b);
 
 std::string to_json(const NvImage& image);
 /// Throws NvError if the text is cut off, not JSON, or not an NV image; the error of a block has its line in
-/// the file. KeptMemory::load_nv() checks whether names and values suit the device.
+/// the file. PersistentMemory::load_nv() checks whether names and values suit the device.
 NvImage parse_nv_image(const std::string& text);
 
 }  // namespace understudy::emulator

@@ -45,16 +45,16 @@ bool can_hold(const MapPolicy& policy, const RegisterRow& row, std::uint32_t bit
          (!is_written || value == row.factory || may_hold(policy, row, value));
 }
 
-void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
-                          const std::vector<std::uint32_t>& kept, NvImage& image) {
+void write_persistent_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
+                                const std::vector<std::uint32_t>& content, NvImage& image) {
   std::size_t slot = 0;
   std::size_t number = 0;
   for (const RegisterRow& row : map.rows()) {
-    const bool is_kept = keeps_row[number++];
+    const bool is_persistent = keeps_row[number++];
     if (row.is_view) continue;
     for (int i = 0; i < row.count; ++i, ++slot) {
-      if (!is_kept || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
-      const Value value = value_of(kept[slot], row.type);
+      if (!is_persistent || content[slot] == static_cast<std::uint32_t>(row.factory)) continue;
+      const Value value = value_of(content[slot], row.type);
       std::string name = map.unique_name(row, i);
       // A real that is not finite is written as its bits.
       if (row.type == Type::f32 && std::isfinite(real_of(value))) {
@@ -69,31 +69,31 @@ void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps
 }  // namespace
 
 void check_restored_registers(const RegisterBank& bank, std::span<const std::uint32_t> image,
-                              std::span<const std::uint32_t> kept) {
+                              std::span<const std::uint32_t> content) {
   const auto slots = static_cast<std::size_t>(bank.map().slot_count());
-  require_state(image.size() == slots && kept.size() == slots, "the image has a different size");
+  require_state(image.size() == slots && content.size() == slots, "the image has a different size");
   // This is the model's own policy: a choice of the bench may restrict what hosts write, but not programs.
   const MapPolicy& policy = bank.map().policy();
   std::size_t slot = 0;
   for (const RegisterRow& row : bank.map().rows()) {
     if (row.is_view) continue;
-    const bool is_kept = bank.keeps(row);
+    const bool is_persistent = bank.keeps(row);
     for (int i = 0; i < row.count; ++i, ++slot) {
       // Without power the image is blank except for later writes, and a worn-out register may be 0.
       const bool can_be = (image[slot] == 0 || can_hold(policy, row, image[slot])) &&
-                          (!is_kept || can_hold(policy, row, kept[slot]));
+                          (!is_persistent || can_hold(policy, row, content[slot]));
       if (!can_be) throw StateError(bank.map().unique_name(row, i) + " holds a value that is not valid");
     }
   }
 }
 
 std::function<void(NvImage&)> registers_writer(const RegisterBank& bank,
-                                               std::span<const std::uint32_t> kept) {
+                                               std::span<const std::uint32_t> content) {
   std::vector<bool> keeps_row;
   for (const RegisterRow& row : bank.map().rows()) keeps_row.push_back(bank.keeps(row));
   return [&map = bank.map(), keeps_row = std::move(keeps_row),
-          values = std::vector<std::uint32_t>(kept.begin(), kept.end())](NvImage& image) {
-    write_kept_registers(map, keeps_row, values, image);
+          values = std::vector<std::uint32_t>(content.begin(), content.end())](NvImage& image) {
+    write_persistent_registers(map, keeps_row, values, image);
   };
 }
 
@@ -102,9 +102,9 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
   const auto rows = map.rows();
   const bool has_reals =
       std::any_of(rows.begin(), rows.end(), [](const RegisterRow& row) { return row.type == Type::f32; });
-  for (const auto& [key, is_there] : {std::pair("reals", !image.reals.empty() && !has_reals),
-                                      std::pair("program", !image.program.empty())}) {
-    if (!is_there) continue;
+  for (const auto& [key, is_present] : {std::pair("reals", !image.reals.empty() && !has_reals),
+                                        std::pair("program", !image.program.empty())}) {
+    if (!is_present) continue;
     throw NvError(std::string(key) + ": is not part of the memory of " + image.model + "; expected none");
   }
   std::vector<std::uint32_t> values;

@@ -246,11 +246,11 @@ struct RegisterRow {
     return *this;
   }
   /// The register is stored at once, in battery RAM or FRAM.
-  constexpr RegisterRow& kept_at_once() {
+  constexpr RegisterRow& persists_at_once() {
     needs_no_time = true;
-    return kept();
+    return persists();
   }
-  constexpr RegisterRow& kept() {
+  constexpr RegisterRow& persists() {
     persistent = true;
     return *this;
   }

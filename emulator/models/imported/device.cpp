@@ -15,7 +15,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/refusal.h"
@@ -42,9 +42,9 @@ Eeprom factory_memory(const RegisterMap& map) {
     factory.push_back(static_cast<std::uint32_t>(row.factory));
     kept.push_back(row.persistent ? 1 : 0);
   }
-  const auto is_kept = std::make_unique<bool[]>(kept.size());
-  std::copy(kept.begin(), kept.end(), is_kept.get());
-  const std::span<const bool> slots(is_kept.get(), kept.size());
+  const auto is_persistent = std::make_unique<bool[]>(kept.size());
+  std::copy(kept.begin(), kept.end(), is_persistent.get());
+  const std::span<const bool> slots(is_persistent.get(), kept.size());
   return Eeprom(factory, slots, slots);
 }
 
@@ -53,7 +53,7 @@ Eeprom factory_memory(const RegisterMap& map) {
 ImportedDevice::ImportedDevice(const ImportedModel& model, const DeviceSettings& settings)
     : StatefulDevice(model.model(), settings),
       RegisterBankOf(*this, *model.model().registers, settings.firmware),
-      KeptMemory(model.model().name, settings.firmware),
+      PersistentMemory(model.model().name, settings.firmware),
       model_(model),
       edges_(model.description().axes.size()),
       is_restored_(edges_.size()) {

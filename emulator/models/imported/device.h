@@ -14,7 +14,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/eeprom.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/stateful_device.h"
@@ -41,7 +41,7 @@ struct State {
 class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
                              public RegisterBankOf<ImportedDevice>,
                              public ModbusStation,
-                             public KeptMemory,
+                             public PersistentMemory,
                              public Terminals,
                              public Axes {
  public:
@@ -67,7 +67,7 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   pty::SimTime end_silence(pty::SimTime usual) const override;
 
   // --- memory ----------------------------------------------------------------------------------
-  std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
+  std::uint64_t memory_revision() const override { return state_.eeprom.revision(); }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
 
   // --- time ------------------------------------------------------------------------------------

@@ -31,7 +31,7 @@ void ImportedDevice::check_restored(State& restored) const {
                   "a direction is not forward, backward or none");
   }
   restored.eeprom.check_restored(state_.eeprom);
-  check_restored_registers(*this, restored.image, restored.eeprom.kept());
+  check_restored_registers(*this, restored.image, restored.eeprom.content());
 }
 
 void ImportedDevice::take_over(const State& restored) {
@@ -40,7 +40,7 @@ void ImportedDevice::take_over(const State& restored) {
 }
 
 std::function<void(NvImage&)> ImportedDevice::memory_writer() const {
-  return registers_writer(*this, state_.eeprom.kept());
+  return registers_writer(*this, state_.eeprom.content());
 }
 
 void ImportedDevice::read_memory(const NvImage& image) {
@@ -54,7 +54,8 @@ State ImportedDevice::state_at_power_up() const {
   std::size_t slot = 0;
   for (const RegisterRow& row : map().rows()) {
     if (row.is_view) continue;
-    made.image.push_back(row.persistent ? made.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory));
+    made.image.push_back(row.persistent ? made.eeprom.content()[slot]
+                                        : static_cast<std::uint32_t>(row.factory));
     ++slot;
   }
   made.held.assign(description().axes.size() * kCommands, 0);

@@ -24,7 +24,7 @@ namespace understudy::emulator::models::imported {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> kGaps{
+constexpr std::array<std::string_view, 1> kKnownLimitations{
     "A file describes it. Registers without a binding only store the values that hosts write.",
 };
 
@@ -47,7 +47,7 @@ std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, c
     const bool low_first = listed.order.words == WordOrder::Words::low_first;
     const bool is_own_order = listed.order.words != WordOrder::Words::as_the_model;
     row.ordered(is_own_order && low_first != policy.low_word_first, listed.order.low_byte_first);
-    if (listed.persistent) row.kept_at_once();
+    if (listed.persistent) row.persists_at_once();
     for (const BitName& name : listed.bits) fields[i].push_back(bits(name.bit, name.name, name.width));
     row.with_bits(fields[i]);
     rows.push_back(row);
@@ -139,7 +139,7 @@ Model ImportedModel::made_model() {
                .terminals = terminals_,
                .axes = axes_,
                .state_registers = state_registers_,
-               .gaps = kGaps,
+               .known_limitations = kKnownLimitations,
                .line = {.protocol = kModbusRtu,
                         .ports = ports_,
                         .station_numbers = StationNumbers{.lowest = line.lowest_station,

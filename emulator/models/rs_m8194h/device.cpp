@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "base/simulated_time.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
@@ -35,7 +35,7 @@ MapPolicy policy_by_choice(const Device& device) {
 RsM8194h::RsM8194h(const DeviceSettings& given)
     : StatefulDevice(rs_m8194h::model(), given),
       RegisterBankOf(module_, *rs_m8194h::model().registers, given.firmware),
-      KeptMemory(rs_m8194h::model().name, given.firmware),
+      PersistentMemory(rs_m8194h::model().name, given.firmware),
       policy_(policy_by_choice(*this)),
       ground_(*this),
       module_(ground_, state_),
@@ -77,12 +77,12 @@ void RsM8194h::prefetch(Tick tick) const {
 
 // --- memory ----------------------------------------------------------------------------------------------
 
-std::uint64_t RsM8194h::kept_revision() const {
+std::uint64_t RsM8194h::memory_revision() const {
   return state().eeprom.revision() + state().blocks.revision();
 }
 
 std::function<void(NvImage&)> RsM8194h::memory_writer() const {
-  return registers_writer(*this, state().eeprom.kept());
+  return registers_writer(*this, state().eeprom.content());
 }
 
 void RsM8194h::read_memory(const NvImage& image) {
@@ -93,7 +93,7 @@ void RsM8194h::read_memory(const NvImage& image) {
 void RsM8194h::check_restored(State& restored) const {
   restored.eeprom.check_restored(state_.eeprom);
   restored.blocks.check_restored(state_.blocks);
-  check_restored_registers(*this, restored.image, restored.eeprom.kept());
+  check_restored_registers(*this, restored.image, restored.eeprom.content());
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/stateful_device.h"
@@ -27,7 +27,7 @@ namespace understudy::emulator::models::rs_m8194h {
 class RsM8194h final : public StatefulDevice<RsM8194h, State>,
                        public RegisterBankOf<Module>,
                        public ModbusStation,
-                       public KeptMemory,
+                       public PersistentMemory,
                        public UserProgram {
  public:
   explicit RsM8194h(const DeviceSettings& given);
@@ -84,7 +84,7 @@ class RsM8194h final : public StatefulDevice<RsM8194h, State>,
   // --- memory ------------------------------------------------------------------------------------
   TextBlocks* text_blocks() override { return &state_.blocks; }
   const TextBlocks* text_blocks() const override { return &state_.blocks; }
-  std::uint64_t kept_revision() const override;
+  std::uint64_t memory_revision() const override;
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view text) override { module_.load_program(text); }
   std::string program_text() const override { return module_.programs.text(); }

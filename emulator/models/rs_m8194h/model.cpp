@@ -28,7 +28,7 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::string_view kGaps[] = {
+constexpr std::string_view kKnownLimitations[] = {
     ("Noise filters below 1.024 ms cause no delay or, by choice (`filter_delay`), a delay of one tick, "
      "because inputs that a bench sets change at ticks, and the machine's edges are at pulses."),
     ("Pulses below 1 ms at OUT_X and OUT_Y are counted but have no length, because levels exist only "
@@ -132,7 +132,7 @@ const Model& model() {
       .terminal_groups = terminal_tables().groups,
       .axes = terminal_tables().axes,
       .state_registers = kStateRegisters,
-      .gaps = kGaps,
+      .known_limitations = kKnownLimitations,
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{1, 247}},
       .rtu = RtuRules{.end_silence = std::chrono::milliseconds(3), .functions = kServedFunctions},
       .first_files = &kFirstFiles,

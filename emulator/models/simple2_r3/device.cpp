@@ -14,8 +14,8 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
@@ -36,7 +36,7 @@ namespace understudy::emulator::models::simple2_r3 {
 Simple2R3::Simple2R3(const DeviceSettings& given)
     : StatefulDevice(simple2_r3::model(), given),
       RegisterBankOf(*this, *simple2_r3::model().registers, given.firmware),
-      KeptMemory(simple2_r3::model().name, given.firmware),
+      PersistentMemory(simple2_r3::model().name, given.firmware),
       setup_(*this),
       map_policy_(map_policy_of(setup_)) {
   state_.eeprom = factory_memory(setup_);
@@ -66,7 +66,7 @@ pty::LineSettings Simple2R3::line_settings(std::size_t port) const {
 // --- memory and program ----------------------------------------------------------------------------
 
 std::function<void(NvImage&)> Simple2R3::memory_writer() const {
-  return registers_writer(*this, state_.eeprom.kept());
+  return registers_writer(*this, state_.eeprom.content());
 }
 
 void Simple2R3::read_memory(const NvImage& image) {

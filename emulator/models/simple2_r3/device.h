@@ -14,7 +14,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/stateful_device.h"
@@ -33,7 +33,7 @@ namespace understudy::emulator::models::simple2_r3 {
 class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
                         public RegisterBankOf<Simple2R3>,
                         public ModbusStation,
-                        public KeptMemory,
+                        public PersistentMemory,
                         public UserProgram,
                         public Terminals,
                         public Axes {
@@ -70,7 +70,7 @@ class Simple2R3 final : public StatefulDevice<Simple2R3, State>,
   pty::LineSettings line_settings(std::size_t port) const override;
 
   // --- memory and program --------------------------------------------------------------------------
-  std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
+  std::uint64_t memory_revision() const override { return state_.eeprom.revision(); }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view listing) override { programs().load(listing); }
   std::string program_text() const override;

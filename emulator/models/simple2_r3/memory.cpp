@@ -48,12 +48,12 @@ std::uint32_t factory_bits(const Setup& setup, const RegisterRow& row) {
 
 Eeprom factory_memory(const Setup& setup) {
   std::array<std::uint32_t, kSlotCount> factory{};
-  std::array<bool, kSlotCount> is_kept{};
+  std::array<bool, kSlotCount> is_persistent{};
   for_each_slot([&](std::size_t slot, const RegisterRow& row) {
     factory[slot] = factory_bits(setup, row);
-    is_kept[slot] = setup.keeps(row);
+    is_persistent[slot] = setup.keeps(row);
   });
-  return Eeprom(factory, is_kept);
+  return Eeprom(factory, is_persistent);
 }
 
 void Memory::save(const RegisterRow& row, std::size_t slot, std::optional<bool>& was_saving) {

@@ -28,7 +28,7 @@ namespace {
 // Every version for which the manual names a difference; the manual itself is for 1.52.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
-constexpr std::array<std::string_view, 2> kGaps{
+constexpr std::array<std::string_view, 2> kKnownLimitations{
     ("PWM is modelled as its duty (`feeder.A.pwm`), and the form of the pulses as a number "
      "(`feeder.pulse_format`), because the pulse terminals have no levels. A duty does not move a "
      "machine."),
@@ -149,7 +149,7 @@ const Model& model() {
       .terminals = kTerminals,
       .axes = kAxes,
       .state_registers = kStateRegisters,
-      .gaps = kGaps,
+      .known_limitations = kKnownLimitations,
       .line = {.protocol = kModbusRtu,
                .ports = kPorts,
                .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: every station number

@@ -48,7 +48,7 @@ void Power::down() {
 void Power::up() {
   blank(state_);
   for_each_slot([&](std::size_t slot, const RegisterRow& row) {
-    state_.image[slot] = setup_.keeps(row) ? state_.eeprom.kept()[slot] : factory_bits(setup_, row);
+    state_.image[slot] = setup_.keeps(row) ? state_.eeprom.content()[slot] : factory_bits(setup_, row);
   });
   for (std::size_t i = 0; i < kAssignmentCount; ++i) {
     if (state_.image[kFirstAssignment + i] != 0) state_.assignments |= static_cast<std::uint16_t>(1U << i);

@@ -86,7 +86,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 void Simple2R3::check_restored(State& restored) const {
   restored.eeprom.check_restored(state_.eeprom);
-  check_restored_registers(*this, restored.image, restored.eeprom.kept());
+  check_restored_registers(*this, restored.image, restored.eeprom.content());
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -12,7 +12,7 @@
 #include "base/simulated_time.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/stateful_device.h"
@@ -40,7 +40,7 @@ namespace understudy::emulator::models::slim {
 
 Slim::Slim(const DeviceSettings& settings)
     : StatefulDevice(slim::model(), settings),
-      KeptMemory(slim::model().name, settings.firmware),
+      PersistentMemory(slim::model().name, settings.firmware),
       setup_(*this) {
   state_.kept = setup_.factory();
   state_.ram = state_.kept;
@@ -191,6 +191,7 @@ bool Slim::output(int terminal) const {
   return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
 }
 
-void Slim::set_encoder(int, std::int64_t) {}  // the servo closes its loop itself; see the model's gaps
+void Slim::set_encoder(int, std::int64_t) {
+}  // the servo closes its loop itself; see the model's known limitations
 
 }  // namespace understudy::emulator::models::slim

@@ -20,7 +20,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/clear_travel.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_parts.h"
 #include "emulator/device/stateful_device.h"
@@ -28,7 +28,7 @@
 #include "emulator/device/text/text_protocol.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/by_name.h"
-#include "emulator/models/slim/kept_image.h"
+#include "emulator/models/slim/memory_image.h"
 #include "emulator/models/slim/power.h"
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
@@ -39,7 +39,7 @@ namespace understudy::emulator::models::slim {
 class Slim final : public StatefulDevice<Slim, State>,
                    public TextProtocol,
                    public NamedValues,
-                   public KeptMemory,
+                   public PersistentMemory,
                    public UserProgram,
                    public Terminals,
                    public Axes,
@@ -64,7 +64,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   std::vector<std::string> names() const override { return common_names(state_, setup_); }
 
   // --- memory ---
-  std::uint64_t kept_revision() const override { return state_.kept_revision; }
+  std::uint64_t memory_revision() const override { return state_.memory_revision; }
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::slim {
 void note_error(State& state, const Setup& setup, int module, Error error) {
   Errors& errors = state.errors[static_cast<std::size_t>(module)];
   errors.present = error;
-  if (setup.history_is_kept()) ++state.kept_revision;
+  if (setup.history_is_kept()) ++state.memory_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > setup.history_length()) errors.history.pop_back();
 }

@@ -123,7 +123,7 @@ std::vector<NamedParameterRow> parameter_rows() {
 
 constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
 
-constexpr std::array<std::string_view, 5> kGaps{
+constexpr std::array<std::string_view, 5> kKnownLimitations{
     ("?AC and ?TEMP always show the same values, 24 and 25 or those that a bench has chosen, and ?IMX "
      "and ?IC show 0, because nothing electrical is modelled. ?VER and ?MT do not belong to a "
      "particular version."),
@@ -158,7 +158,7 @@ const Model& model() {
       .terminals = names.terminals,
       .axes = names.axes,
       .state_registers = kStateNames,
-      .gaps = kGaps,
+      .known_limitations = kKnownLimitations,
       .line = line_of_text(kPorts),
       .first_files = &kFirstFiles,
       .stop = kStop,

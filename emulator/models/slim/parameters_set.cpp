@@ -148,19 +148,19 @@ Error restore_factory_parameters(State& state, const Setup& setup) {
 
 void keep_parameters(State& state) {
   state.kept.parameters = state.ram.parameters;
-  ++state.kept_revision;
+  ++state.memory_revision;
 }
 
 void keep_data(State& state) {
   const auto parameters = state.kept.parameters;
   state.kept = state.ram;
   state.kept.parameters = parameters;
-  ++state.kept_revision;
+  ++state.memory_revision;
 }
 
 void keep_program(State& state) {
   state.kept_program = state.program.texts();
-  ++state.kept_revision;
+  ++state.memory_revision;
 }
 
 std::vector<std::string> parameter_list(const State& state, const Setup& setup) {

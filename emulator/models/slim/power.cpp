@@ -41,7 +41,7 @@ void power_down(State& state, const Setup& setup) {
   blank.kept = std::move(state.kept);
   blank.ram = blank.kept;
   blank.kept_program = std::move(state.kept_program);
-  blank.kept_revision = state.kept_revision;
+  blank.memory_revision = state.memory_revision;
   blank.chain.set_options(setup.options);
   blank.chain.skip_to(setup.now());
   if (setup.history_is_kept()) {

@@ -138,7 +138,7 @@ struct Queries {
       answer.number = value;
       return words(std::move(text));
     }
-    /// Answers a query of an electrical value, which is not modelled (kGaps).
+    /// Answers a query of an electrical value, which is not modelled (kKnownLimitations).
     Error electrical(double value) const {
       setup.device.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
       return whole(value);

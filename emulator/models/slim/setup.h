@@ -7,7 +7,7 @@
 //   parameters_set.h    parameters and axis letters; what is persistent
 //   variables.h         N#, R#, NS(), RS() and the clock
 //   power.h             power-up, power-down, inputs
-//   kept_image.h        the retentive memory as a file
+//   memory_image.h        the retentive memory as a file
 //   program_text.h      programs that are loaded
 //   queries.h           what queries answer
 //   actions.h           what commands do (commands.cpp)

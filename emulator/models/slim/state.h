@@ -31,7 +31,7 @@ struct State {
   Memory ram;
   Memory kept;
   std::vector<std::string> kept_program{};
-  std::uint64_t kept_revision = 0;
+  std::uint64_t memory_revision = 0;
   Chain chain{};
   lang::Program program{};
   lang::Editor editor{};

@@ -28,12 +28,13 @@ struct StateOf<emulator::models::slim::Memory> {
 template <>
 struct StateOf<emulator::models::slim::State> {
   using Value = emulator::models::slim::State;
-  static constexpr auto fields =
-      FieldList{field<&Value::ram>(),           field<&Value::kept>(),       field<&Value::kept_program>(),
-                field<&Value::kept_revision>(), field<&Value::chain>(),      field<&Value::program>(),
-                field<&Value::editor>(),        field<&Value::execution>(),  field<&Value::errors>(),
-                field<&Value::inputs>(),        field<&Value::powered_at>(), field<&Value::clock_zero>(),
-                field<&Value::output>(),        field<&Value::touched>()};
+  static constexpr auto fields = FieldList{field<&Value::ram>(),          field<&Value::kept>(),
+                                           field<&Value::kept_program>(), field<&Value::memory_revision>(),
+                                           field<&Value::chain>(),        field<&Value::program>(),
+                                           field<&Value::editor>(),       field<&Value::execution>(),
+                                           field<&Value::errors>(),       field<&Value::inputs>(),
+                                           field<&Value::powered_at>(),   field<&Value::clock_zero>(),
+                                           field<&Value::output>(),       field<&Value::touched>()};
   static void check(const Value& state);
 };
 

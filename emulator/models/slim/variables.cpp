@@ -72,7 +72,7 @@ Error set_variable(State& state, const Setup& setup, const lang::Operand& variab
                                                : setup.chose(option("variables_kept", "when_written"));
   if (!is_kept) return Error::none;
   store(state.kept);
-  ++state.kept_revision;
+  ++state.memory_revision;
   return Error::none;
 }
 

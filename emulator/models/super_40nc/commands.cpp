@@ -216,7 +216,7 @@ void Commands::reset_parameters() {
     return leaves_some &&
            (row.address == data_address(d9::kStation) || row.address == data_address(d9::kPassword));
   };
-  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+  for_each_slot([&](std::size_t slot, const RegisterRow& row) {
     if (is_parameter(row) && !stays(row))
       ground_.put({.slot = slot}, static_cast<std::int32_t>(ground_.factory_bits(row)));
   });

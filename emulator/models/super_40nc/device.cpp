@@ -28,7 +28,7 @@ namespace understudy::emulator::models::super_40nc {
 Super40nc::Super40nc(const DeviceSettings& given)
     : StatefulDevice(super_40nc::model(), given),
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
-      KeptMemory(Device::model().name, given.firmware) {
+      PersistentMemory(Device::model().name, given.firmware) {
   map_policy_ = chosen_map_policy(*this, map().policy());
   state_.eeprom = parts_.ground.factory_memory();
   state_.blocks = TextBlocks(block_kinds());
@@ -179,7 +179,7 @@ bool Super40nc::output(int terminal) const {
 std::int32_t Super40nc::analog_level(int terminal) const {
   const int number = terminal - kFirstAnalogOut;
   if (!powered() || number < 0 || number >= kAnalogOutCount) return 0;
-  const Value steps = parts_.ground.registers().of(number == 0 ? kept_d(d8::kVout1) : kept_d(d8::kVout2));
+  const Value steps = parts_.ground.registers().of(number == 0 ? stored_d(d8::kVout1) : stored_d(d8::kVout2));
   return static_cast<std::int32_t>((steps * kMaxMillivolts + kVoltageSteps / 2) / kVoltageSteps);
 }
 

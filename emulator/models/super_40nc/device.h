@@ -13,7 +13,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/program_error.h"
@@ -29,7 +29,7 @@ namespace understudy::emulator::models::super_40nc {
 class Super40nc final : public StatefulDevice<Super40nc, State>,
                         public RegisterBankOf<Super40nc>,
                         public ModbusStation,
-                        public KeptMemory,
+                        public PersistentMemory,
                         public UserProgram,
                         public Terminals,
                         public Axes {
@@ -57,7 +57,9 @@ class Super40nc final : public StatefulDevice<Super40nc, State>,
   // --- memory and programs -------------------------------------------------------------------------
   TextBlocks* text_blocks() override { return &state_.blocks; }
   const TextBlocks* text_blocks() const override { return &state_.blocks; }
-  std::uint64_t kept_revision() const override { return state_.eeprom.revision() + state_.blocks.revision(); }
+  std::uint64_t memory_revision() const override {
+    return state_.eeprom.revision() + state_.blocks.revision();
+  }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view text) override { parts_.programs.load_program(text); }
   std::string program_text() const override { return parts_.programs.stored().program_text(); }

@@ -94,7 +94,7 @@ void select_file(Super40nc& device, Cell, Value number) {
 
 void select_file_by_alias(Super40nc& device, Cell, Value number) {
   if (device.chose(option("d8002_alias", "plain_register"))) return;
-  device.parts().ground.put(kept_d(d9::kFileNumber), static_cast<std::int32_t>(number));
+  device.parts().ground.put(stored_d(d9::kFileNumber), static_cast<std::int32_t>(number));
   device.parts().programs.change_file(static_cast<std::int32_t>(number));
 }
 
@@ -106,7 +106,7 @@ void lay_out_files(Super40nc& device, Cell, Value) { device.parts().programs.sto
 
 void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
   const auto limited = static_cast<std::int32_t>(std::clamp<Value>(thousandths, 0, kVoltageSteps));
-  device.parts().ground.put(cell.argument == 0 ? kept_d(d8::kVout1) : kept_d(d8::kVout2), limited);
+  device.parts().ground.put(cell.argument == 0 ? stored_d(d8::kVout1) : stored_d(d8::kVout2), limited);
 }
 
 void change_override(Super40nc& device, Cell, Value) { device.parts().paths.apply_override(); }

@@ -34,7 +34,7 @@ void Super40nc::warn_not_implemented(const RegisterRow& row) const {
 }
 
 std::function<void(NvImage&)> Super40nc::memory_writer() const {
-  return registers_writer(*this, state_.eeprom.kept());
+  return registers_writer(*this, state_.eeprom.content());
 }
 
 void Super40nc::read_memory(const NvImage& image) {
@@ -63,13 +63,13 @@ void Super40nc::power_up() {
   ground.load_image();
   ground.take_parameters();
   const Settings settings = ground.registers();
-  ground.put(kept_d(d8::kFeed), settings.raw(kept_d(d9::kSystemSpeed)));
-  ground.put(kept_d(d8::kPlane), settings.raw(kept_d(d9::kArcPlane)));
-  state_.station = settings.raw(kept_d(d9::kStation));
-  if (chose(option("version_number", "0"))) ground.put(kept_d(d8::kVersion), 0);
-  if (chose(option("override_at_power_up", "0"))) ground.put(kept_d(d8::kFeedPercentage), 0);
-  state_.file = settings.raw(kept_d(d9::kFileNumber));
-  state_.recipe = settings.raw(kept_d(d9::kRecipeNumber));
+  ground.put(stored_d(d8::kFeed), settings.raw(stored_d(d9::kSystemSpeed)));
+  ground.put(stored_d(d8::kPlane), settings.raw(stored_d(d9::kArcPlane)));
+  state_.station = settings.raw(stored_d(d9::kStation));
+  if (chose(option("version_number", "0"))) ground.put(stored_d(d8::kVersion), 0);
+  if (chose(option("override_at_power_up", "0"))) ground.put(stored_d(d8::kFeedPercentage), 0);
+  state_.file = settings.raw(stored_d(d9::kFileNumber));
+  state_.recipe = settings.raw(stored_d(d9::kRecipeNumber));
   state_.wheel_edges = input(kWheelTerminal);
   ground.take_power_up_parameters();
   if (chose(option("power_up_files", "read_from_file_and_recipe_again")))

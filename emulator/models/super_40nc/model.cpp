@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
-constexpr std::array<std::string_view, 5> kGaps{
+constexpr std::array<std::string_view, 5> kKnownLimitations{
     ("The speed of an axis that is on a path or follows the hand wheel is compared at the end of each tick, "
      "and so are counters that count an encoder while the machine does not follow its pulses."),
     ("Changes of the CLR and LTC inputs take effect at the beginning of the next tick, unless a switch "
@@ -140,7 +140,7 @@ const Model& model() {
       .terminals = terminals(),
       .axes = kAxes,
       .state_registers = kStateRegisters,
-      .gaps = kGaps,
+      .known_limitations = kKnownLimitations,
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 15, "D9000"}},
       .rtu = RtuRules{.end_silence = std::chrono::nanoseconds(3'500'000'000LL * kCharacterBits / kBauds[0]),
                       .functions = kFunctions},

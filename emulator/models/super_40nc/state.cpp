@@ -85,7 +85,7 @@ namespace understudy::emulator::models::super_40nc {
 void Super40nc::check_restored(State& restored) const {
   restored.eeprom.check_restored(state_.eeprom);
   restored.blocks.check_restored(state_.blocks);
-  check_restored_registers(*this, restored.image, restored.eeprom.kept());
+  check_restored_registers(*this, restored.image, restored.eeprom.content());
 }
 
 void Super40nc::take_over(const State& restored) {

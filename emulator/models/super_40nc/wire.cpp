@@ -39,7 +39,7 @@ Addressing Super40nc::addressing(std::uint8_t address) const {
   // D9000 is the station number; 0 is also a number, and answers.
   if (address == 0 && chose(option("station_rule", "0_is_never_answered")))
     return Addressing::execute_silently;
-  const Kept kept = kept_d(d9::kStation);
+  const StoredRegister kept = stored_d(d9::kStation);
   const Value number = chose(option("station_change", "at_the_next_power_up"))
                            ? std::clamp<Value>(state_.station, kept.min, kept.max)
                            : parts_.ground.registers().of(kept);

@@ -47,7 +47,7 @@ class HostCommand {
   virtual void stop() = 0;
 };
 
-class BoxStage;
+class RealBox;
 
 class Executor {
  public:
@@ -55,7 +55,7 @@ class Executor {
 
   /// Returns the stage if the controllers are real. Then the world only knows names, stations and the order
   /// of words. Null: they are those of the world.
-  virtual BoxStage* box() { return nullptr; }
+  virtual RealBox* box() { return nullptr; }
 
   // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
   // it. Each call lasts, in simulated time, until the reply has arrived or time runs out.

@@ -164,20 +164,20 @@ void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, co
   const std::uint8_t station = frame[0];
   asked_ = Asked{.station = station, .function = frame[1], .at = at, .command = command, .worn = {}};
   const Written write = written(frame);
-  bool is_there = false;
+  bool is_present = false;
   bool will_be_answered = false;
   for (const auto& present : world_.line(number_).stations) {
     const Device& device = present->device();
     const Addressing addressing =
         device.modbus() == nullptr ? Addressing::ignore : device.modbus()->addressing(station);
     if (addressing == Addressing::ignore) continue;
-    is_there = true;
+    is_present = true;
     will_be_answered = will_be_answered || addressing == Addressing::execute_and_reply;
     if (!write.values.empty() && device.powered()) judge_write(device, write, at);
   }
-  if (!is_there) find(LintRule::absent, std::to_string(station)).add(at);
+  if (!is_present) find(LintRule::absent, std::to_string(station)).add(at);
   if (will_be_answered) return;
-  if (is_there) carried_out(*asked_);
+  if (is_present) carried_out(*asked_);
   asked_.reset();
 }
 

@@ -42,7 +42,7 @@ class Performance::OnBox::Asking {
       } else if (place.is_time) {
         names_.set(handle, on_box_.performance_.executor_->now().count());
       } else {
-        names_.set(handle, told(place.name));
+        names_.set(handle, reported(place.name));
       }
     }
     read(targets, handles);
@@ -77,15 +77,15 @@ class Performance::OnBox::Asking {
     if (const auto why = on_box_.box_.why_no_query(line)) throw Skip(*why, true);
     const std::vector<std::string> lines =
         performance.executor_->exchange_text(line, place.query, single, std::chrono::milliseconds(500));
-    for (const std::string& heard : lines) {
-      const std::size_t begin = heard.find_first_not_of("> ");
+    for (const std::string& received : lines) {
+      const std::size_t begin = received.find_first_not_of("> ");
       if (begin == std::string::npos) continue;
-      if (const auto value = parse_real(heard.substr(begin))) return world::finite_number(*value);
+      if (const auto value = parse_real(received.substr(begin))) return world::finite_number(*value);
     }
     throw Skip(place.query + " is not answered by a number: " + world::lines_text(lines), true);
   }
 
-  world::Number told(const std::string& name) {
+  world::Number reported(const std::string& name) {
     const auto text = on_box_.box_.tell(name);
     const auto value = text ? parse_real(*text) : std::nullopt;
     if (value) return world::finite_number(*value);

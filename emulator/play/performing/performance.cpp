@@ -14,8 +14,8 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
-#include "emulator/play/executors/box_stage.h"
 #include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/real_box.h"
 #include "emulator/play/performing/performance_on_box.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
@@ -112,7 +112,7 @@ Performance::Performance(const Scenario& scenario, std::unique_ptr<Executor> exe
     if (keeps_peaks_)
       world.add_watcher(world_observers_->peaks);  // must come before the watchers that need peaks
   });
-  if (BoxStage* const box = executor_->box()) on_box_ = std::make_unique<OnBox>(*this, *box);
+  if (RealBox* const box = executor_->box()) on_box_ = std::make_unique<OnBox>(*this, *box);
 }
 
 Performance::~Performance() {

@@ -199,24 +199,24 @@ void Performance::perform(const ExpectStep& step) {
   std::size_t next = 0;  // the next of the values that were read
   for (const ExpectStep::Entry& entry : step.entries) {
     const Target& target = entry.target;
-    std::string told;
+    std::string reported;
     bool holds = false;
     const auto look = [&](world::Number value) {
-      told = world::number_text(value);
+      reported = world::number_text(value);
       holds = entry.value.holds(value);
     };
     if (target.is_value) {
       look(present_value(target.name));
     } else {
-      told = "not a number";
+      reported = "not a number";
       if (const auto number = number_of(target, value_in(target, words[next], low_word_first[next])))
         look(*number);
       ++next;
     }
     if (holds) continue;
     expected.push_back(target.name + " = " + entry.value.text);
-    came.push_back(target.name + " = " + told);
-    details.push_back(target.name + " is " + told + "; expected " + entry.value.text);
+    came.push_back(target.name + " = " + reported);
+    details.push_back(target.name + " is " + reported + "; expected " + entry.value.text);
   }
   if (details.empty()) return;
   throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});

@@ -13,8 +13,8 @@
 #include "base/files/file_error.h"
 #include "base/simulated_time.h"
 #include "emulator/device/program_error.h"
-#include "emulator/play/executors/box_stage.h"
 #include "emulator/play/executors/executor.h"
+#include "emulator/play/executors/real_box.h"
 #include "emulator/play/performing/asking_on_box.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/results/result.h"
@@ -316,11 +316,11 @@ void Performance::OnBox::wait(const WaitStep& step) {
   while (true) {
     const SimTime asked = executor.now();
     asking.ask(condition);
-    const SimTime told = executor.now();
+    const SimTime reported = executor.now();
     if (world::is_true(condition, asking.names())) {
       const SimTime min = is_first ? SimTime{0} : std::max(not_yet - write.latest, SimTime{0});
-      const SimTime max = told - write.earliest;
-      due_ = is_first ? told : (not_yet + told) / 2;
+      const SimTime max = reported - write.earliest;
+      due_ = is_first ? reported : (not_yet + reported) / 2;
       if (!step.takes) return;
       const bool is_too_early = step.takes->low && world::Number(max.count()) < *step.takes->low;
       const bool is_too_late = step.takes->high && world::Number(min.count()) > *step.takes->high;
@@ -334,7 +334,7 @@ void Performance::OnBox::wait(const WaitStep& step) {
     is_first = false;
     not_yet = asked;
     if (asked > deadline) break;
-    if (step.poll && told < asked + *step.poll) executor.advance(asked + *step.poll - told);
+    if (step.poll && reported < asked + *step.poll) executor.advance(asked + *step.poll - reported);
     if (executor.now() == asked) executor.advance(std::chrono::milliseconds(1));
   }
   const std::string text = world::to_text(condition);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/play/executors/box_stage.h"
+#include "emulator/play/executors/real_box.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/world/expression/expression.h"
 
@@ -19,7 +19,7 @@ namespace understudy::emulator::play {
 
 class Performance::OnBox {
  public:
-  OnBox(Performance& performance, BoxStage& box) : performance_(performance), box_(box) {}
+  OnBox(Performance& performance, RealBox& box) : performance_(performance), box_(box) {}
 
   std::optional<Failure> begin();
   std::optional<Failure> play(const Step& step);
@@ -65,7 +65,7 @@ class Performance::OnBox {
   void let_time_pass(SimTime by);
 
   Performance& performance_;
-  BoxStage& box_;
+  RealBox& box_;
   std::vector<Span> spans_;
   std::string cut_;  // why all later steps are skipped
   /// When the present step would have begun if looking took no time, as in simulated time.

@@ -15,9 +15,9 @@
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/play/performing/performance.h"
@@ -168,10 +168,10 @@ void Performance::perform(const ProgramStep& step) {
     } catch (const ProgramError& error) {
       if (!step.asks) return;
       if (!step.refused) throw StepError(in_file(error.first(), step.file));
-      const std::string said = in_text(error.first());
-      if (said.find(*step.refused) != std::string::npos) return;
-      throw StepError(device.name() + " refused the program for another reason: " + said,
-                      "a message with " + quoted(*step.refused), said);
+      const std::string message = in_text(error.first());
+      if (message.find(*step.refused) != std::string::npos) return;
+      throw StepError(device.name() + " refused the program for another reason: " + message,
+                      "a message with " + quoted(*step.refused), message);
     }
     if (step.refused && step.asks)
       throw StepError(device.name() + " accepted the program; expected a refusal");
@@ -181,7 +181,8 @@ void Performance::perform(const ProgramStep& step) {
 void Performance::perform(const MemoryStep& step) {
   // The image is made here, not on the world's thread, because a large memory takes time.
   LateImage kept;
-  executor_->with_world([&](world::World& world) { kept = world.device(step.device).memory()->kept_now(); });
+  executor_->with_world(
+      [&](world::World& world) { kept = world.device(step.device).memory()->content_now(); });
   const NvImage present = kept();
   if (step.what == MemoryStep::What::save) {
     const std::string why = replace_text_file(step.file, to_json(present), ContentKind::nv_image);

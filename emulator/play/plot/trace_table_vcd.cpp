@@ -62,23 +62,23 @@ class VcdReader {
 
   void read_declaration(std::string_view keyword) {
     if (!keyword.starts_with("$")) fail(quoted(keyword) + " is not a declaration; expected one such as $var");
-    const std::vector<std::string> said = words();
+    const std::vector<std::string> message = words();
     if (keyword == "$timescale") {
       std::string scale;
-      for (const std::string& word : said) scale += word;
+      for (const std::string& word : message) scale += word;
       if (scale != "1ms") fail("$timescale: is " + quoted(scale) + "; expected 1 ms");
     } else if (keyword == "$scope") {
-      if (said.size() != 2) fail("$scope: expected a kind and a name");
-      scopes_.push_back(said[1]);
+      if (message.size() != 2) fail("$scope: expected a kind and a name");
+      scopes_.push_back(message[1]);
     } else if (keyword == "$upscope") {
       if (scopes_.empty()) fail("$upscope: there is no scope to leave");
       scopes_.pop_back();
     } else if (keyword == "$var") {
-      if (said.size() < 4) fail("$var: expected a type, a size, a code and a name");
+      if (message.size() < 4) fail("$var: expected a type, a size, a code and a name");
       std::string name;
       for (const std::string& scope : scopes_) name += scope + ".";
-      codes_[said[2]] = table_.names.size();
-      table_.names.push_back(name + said[3]);
+      codes_[message[2]] = table_.names.size();
+      table_.names.push_back(name + message[3]);
       values_.push_back(0);
     } else if (keyword == "$enddefinitions") {
       has_header_ = true;

@@ -201,9 +201,9 @@ std::string PlayReader::name_with(const Case& which, const Parameters& parameter
   if (which.values.empty()) return name;
   if (!which.is_varied) return name != written ? name : name + " " + to_text(which);
   Case untold;
-  const auto told = parameters.used_in(written);
+  const auto reported = parameters.used_in(written);
   for (const auto& value : which.values) {
-    if (!told.contains(value.first)) untold.values.push_back(value);
+    if (!reported.contains(value.first)) untold.values.push_back(value);
   }
   return untold.values.empty() ? name : name + " " + to_text(untold);
 }

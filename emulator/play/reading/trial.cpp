@@ -84,16 +84,16 @@ std::size_t Trial::line_of_all(const world::YamlFields& field,
   const std::size_t number = line(field, field.text());
   for (const std::size_t device : devices) {
     std::string lines;
-    bool is_there = false;
+    bool is_present = false;
     for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
       const auto& stations = bench_.lines[i].stations;
       if (std::none_of(stations.begin(), stations.end(),
                        [&](const auto& its) { return its.device == device; }))
         continue;
-      is_there = is_there || i == number;
+      is_present = is_present || i == number;
       lines += (lines.empty() ? "" : " or ") + bench_.lines[i].name;
     }
-    if (!is_there)
+    if (!is_present)
       field.fail(known()[device].name + " is not on line " + quoted(field.text()) + "; expected " + lines);
   }
   return number;

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/model.h"
 #include "emulator/play/reading/scenario_schema.h"
@@ -157,7 +157,7 @@ class SchemaWriter {
     Json kinds = Json::object();
     // Only a device knows its kinds.
     const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
-    const KeptMemory* const memory = std::as_const(*device).memory();
+    const PersistentMemory* const memory = std::as_const(*device).memory();
     const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
     if (kept == nullptr) return kinds;
     for (const BlockKind& kind : kept->kinds()) {

@@ -107,8 +107,9 @@ std::vector<std::vector<std::string>> functions_of(const Model& model, const wor
     const std::string name = std::string(axis.name) + ".";
     for (std::size_t i = 0; i < world::kContactNames.size(); ++i) {
       const auto contact = static_cast<world::Contact>(i);
-      const bool is_there = plant.has_contact(contact);
-      add(is_there ? world::input_of(axis, plant, contact) : -1, name + std::string(world::kContactNames[i]));
+      const bool is_present = plant.has_contact(contact);
+      add(is_present ? world::input_of(axis, plant, contact) : -1,
+          name + std::string(world::kContactNames[i]));
     }
     add(axis.servo_output, name + "servo");
     add(axis.alarm_clear_output, name + "alarm_clear");
@@ -253,7 +254,7 @@ ReplyTask device_message(Daemon& daemon, std::optional<std::size_t> only) {
       text.member("program", program);
     }
     if (Json moves = first_move_of(device); !moves.empty()) text.member("first_move", moves);
-    text.member("gaps", names_json(model.gaps));
+    text.member("gaps", names_json(model.known_limitations));
     text.close_object();
   }
   if (!only) text.close_list();

@@ -271,8 +271,8 @@ Json clear_message(Daemon& daemon, const Json& message) {
   }
   const Json& number = message["number"];
   if (!is_whole(number)) throw is_not("number", number, "a whole number");
-  const bool is_there = number.get<std::int64_t>() >= 0 && world.clear_fault(number.get<std::size_t>());
-  if (!is_there) throw is_not("number", number, "a fault in force", numbers_of_faults(world));
+  const bool is_present = number.get<std::int64_t>() >= 0 && world.clear_fault(number.get<std::size_t>());
+  if (!is_present) throw is_not("number", number, "a fault in force", numbers_of_faults(world));
   return Json{{"ok", true}};
 }
 

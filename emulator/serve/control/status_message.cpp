@@ -12,7 +12,7 @@
 #include "base/version.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -113,7 +113,7 @@ Json device_status(const world::World& world, std::size_t number) {
               {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
   status["runs"] = runs_program(device);
-  if (device.memory() != nullptr) status["kept_writes"] = device.memory()->kept_revision();
+  if (device.memory() != nullptr) status["kept_writes"] = device.memory()->memory_revision();
   const Axes* const axes = device.axes();
   if (axes != nullptr && !axes->pulse_format().empty()) status["pulse_format"] = axes->pulse_format();
   if (device.powered()) status["registers"] = telling_registers(device);

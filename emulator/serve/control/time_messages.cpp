@@ -84,9 +84,9 @@ void run_until_message(Daemon& daemon, const Json& message, const ControlServer:
     if (!condition->no_result.empty()) {
       return reply(Json{{"ok", false}, {"error", "condition: " + condition->no_result}}.dump());
     }
-    Json told = time_and_stop(daemon);
-    told["reached"] = reached;
-    reply(told.dump());
+    Json reported = time_and_stop(daemon);
+    reported["reached"] = reached;
+    reply(reported.dump());
   };
   if (!daemon.advance(within, done, [condition] { return condition->is_met(); })) {
     throw MessageError(std::string(kRunsByItself));

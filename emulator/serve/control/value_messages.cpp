@@ -120,13 +120,13 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
   }
 }
 
-void require_accepted(Refusal refusal, const std::string& name, const std::string& told,
+void require_accepted(Refusal refusal, const std::string& name, const std::string& reported,
                       const NamedPlace& place, Value value) {
   switch (refusal) {
     case Refusal::none: return;
     case Refusal::no_register: throw MessageError(name + " " + why_not_writable(place));
     case Refusal::bad_value:
-      throw MessageError(name + ": " + told + " is out of range; expected " + range_text(place, value));
+      throw MessageError(name + ": " + reported + " is out of range; expected " + range_text(place, value));
     case Refusal::busy: throw MessageError(name + " cannot be written now; the device is busy");
     case Refusal::failure:
       throw MessageError(name + " cannot be written now; the device refuses it (exception 4)");

@@ -34,8 +34,8 @@ void Daemon::make_ports(const world::Bench& bench) {
           loop_, world_, i, link, presence_, [this] { catch_up_for_bytes(); }, log_));
     } catch (const pty::PortError& error) {
       const auto folder = std::filesystem::absolute(link).parent_path();
-      const bool is_there = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
-      if (!is_there || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
+      const bool is_present = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
+      if (!is_present || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
       throw pty::PortError(std::string(error.what()) + " (--links FOLDER puts the links elsewhere)");
     }
   }

@@ -14,10 +14,10 @@
 #include "base/files/content_kind.h"
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/bench/bench.h"
@@ -102,9 +102,9 @@ NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
     if (device.nv_path.empty() || world.device(i).memory() == nullptr) continue;
     claim(device);
     files_.push_back({.device = i, .path = device.nv_path});
-    files_.back().written = world.device(i).memory()->kept_revision();
-    const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
-    if (!is_there || !holds_the_same(*device.settings.nv, world.device(i).memory()->nv_image())) {
+    files_.back().written = world.device(i).memory()->memory_revision();
+    const bool is_present = device.settings.nv && std::filesystem::exists(device.nv_path);
+    if (!is_present || !holds_the_same(*device.settings.nv, world.device(i).memory()->nv_image())) {
       write(files_.back());
     }
   }
@@ -135,12 +135,12 @@ NvKeeper::~NvKeeper() {
 }
 
 bool NvKeeper::is_behind(const File& file) const {
-  return world_.device(file.device).memory()->kept_revision() != file.written;
+  return world_.device(file.device).memory()->memory_revision() != file.written;
 }
 
 void NvKeeper::write(File& file) {
-  file.written = world_.device(file.device).memory()->kept_revision();
-  writer_.write(file.path, world_.device(file.device).memory()->kept_now());
+  file.written = world_.device(file.device).memory()->memory_revision();
+  writer_.write(file.path, world_.device(file.device).memory()->content_now());
 }
 
 void NvKeeper::world_restored() {

@@ -133,18 +133,19 @@ void Child::become(char* const* words, char* const* environment, int diagnostics
   signals_.restore();
   execvpe(words[0], words, environment);
   const int why = errno;
-  [[maybe_unused]] const ssize_t told = write(diagnostics, &why, sizeof why);
+  [[maybe_unused]] const ssize_t reported = write(diagnostics, &why, sizeof why);
   _exit(127);
 }
 
 void Child::look_after_children() {
-  siginfo_t told{};
-  while (told.si_pid = 0, waitid(P_ALL, 0, &told, WEXITED | WSTOPPED | WNOHANG) == 0 && told.si_pid != 0) {
-    if (told.si_pid != pid_) continue;  // an orphan
-    if (told.si_code == CLD_STOPPED) {
+  siginfo_t reported{};
+  while (reported.si_pid = 0,
+         waitid(P_ALL, 0, &reported, WEXITED | WSTOPPED | WNOHANG) == 0 && reported.si_pid != 0) {
+    if (reported.si_pid != pid_) continue;  // an orphan
+    if (reported.si_code == CLD_STOPPED) {
       on_stop();
     } else {
-      on_end(told);
+      on_end(reported);
     }
   }
   if (has_ended_) check_group();

@@ -15,12 +15,12 @@
 namespace understudy::emulator::serve {
 
 ParentSignals::ParentSignals() {
-  sigset_t told;
-  sigemptyset(&told);
-  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGCHLD}) sigaddset(&told, signal_number);
-  descriptor_ = signalfd(-1, &told, SFD_NONBLOCK | SFD_CLOEXEC);
+  sigset_t reported;
+  sigemptyset(&reported);
+  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGCHLD}) sigaddset(&reported, signal_number);
+  descriptor_ = signalfd(-1, &reported, SFD_NONBLOCK | SFD_CLOEXEC);
   if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
-  sigset_t blocked = told;
+  sigset_t blocked = reported;
   sigaddset(&blocked, SIGTTOU);  // or we would stop when we give the terminal back
   sigprocmask(SIG_BLOCK, &blocked, &mask_before_);
   pipe_before_ = signal(SIGPIPE, SIG_IGN);
@@ -33,9 +33,9 @@ ParentSignals::~ParentSignals() {
 
 void ParentSignals::watch(EventLoop& loop, std::function<void(int)> on_signal) {
   loop.watch(descriptor_, EventLoop::readable, [this, on_signal = std::move(on_signal)](std::uint32_t) {
-    signalfd_siginfo told;
-    while (read(descriptor_, &told, sizeof told) == static_cast<ssize_t>(sizeof told)) {
-      on_signal(static_cast<int>(told.ssi_signo));
+    signalfd_siginfo reported;
+    while (read(descriptor_, &reported, sizeof reported) == static_cast<ssize_t>(sizeof reported)) {
+      on_signal(static_cast<int>(reported.ssi_signo));
     }
   });
 }

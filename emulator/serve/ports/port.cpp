@@ -312,10 +312,10 @@ void Port::world_restored() {
 
 void Port::hand_over() {
   while (!line().output().empty()) {
-    const std::span<const std::uint8_t> said = line().output();
-    const std::size_t taken = guest_ != nullptr ? guest_->take(said)
-                              : terminal_       ? terminal_->write(said)
-                                                : said.size();  // there is no host to read it
+    const std::span<const std::uint8_t> sent = line().output();
+    const std::size_t taken = guest_ != nullptr ? guest_->take(sent)
+                              : terminal_       ? terminal_->write(sent)
+                                                : sent.size();  // there is no host to read it
     if (taken == 0) break;                                // the host does not read
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();

@@ -84,8 +84,8 @@ void Rfc2217::execute(const telnet::Command& command) {
     case telnet::kWont:
     case telnet::kDo:
     case telnet::kDont: {
-      const Bytes said = options_.answer(command);
-      to_client_.insert(to_client_.end(), said.begin(), said.end());
+      const Bytes sent = options_.answer(command);
+      to_client_.insert(to_client_.end(), sent.begin(), sent.end());
       if (options_.has_com_port() && !std::exchange(has_reported_modem_state_, options_.has_com_port()))
         report_modem_state();
       break;

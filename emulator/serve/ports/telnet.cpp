@@ -94,15 +94,15 @@ std::optional<Command> Reader::take_subnegotiation() {
 }
 
 Bytes Options::begin() {
-  Bytes said;
+  Bytes printed;
   for (Row& row : rows_) {
-    said.insert(said.end(), {kIac, kDo, row.option});
+    printed.insert(printed.end(), {kIac, kDo, row.option});
     row.theirs = State::asked;
     if (row.option == kComPort) continue;  // the client must offer this
-    said.insert(said.end(), {kIac, kWill, row.option});
+    printed.insert(printed.end(), {kIac, kWill, row.option});
     row.ours = State::asked;
   }
-  return said;
+  return printed;
 }
 
 Bytes Options::answer(const Command& command) {

@@ -60,12 +60,12 @@ void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, 
     } catch (const ListeningError& error) {
       place.fail(understudy::quoted(place.text()) + " " + error.what());
     }
-    const auto is_there = [&](const TcpAddress& other) { return is_same_place(address, other); };
+    const auto is_present = [&](const TcpAddress& other) { return is_same_place(address, other); };
     for (const LineSetup& other : lines) {
-      if (std::ranges::any_of(other.tcp, is_there))
+      if (std::ranges::any_of(other.tcp, is_present))
         place.fail("line " + understudy::quoted(other.name) + " listens there; expected another port");
     }
-    if (std::ranges::any_of(line.tcp, is_there)) place.fail("appears twice; expected it once");
+    if (std::ranges::any_of(line.tcp, is_present)) place.fail("appears twice; expected it once");
     line.tcp.push_back(address);
   };
   const auto places = listen.is_list() ? listen.elements() : std::vector{listen};

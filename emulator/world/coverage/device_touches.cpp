@@ -103,15 +103,15 @@ void DeviceTouches::add_registers() {
     if (const auto named = bank->find(name)) shows_state.insert(named->place.row);
   }
   for (const RegisterRow& row : bank->map().rows()) {
-    const bool is_there = bank->has_row(row);
-    const bool is_read = is_there && row.access != Access::write && row.message == nullptr;
-    const bool is_written = is_there && row.access != Access::read;
+    const bool is_present = bank->has_row(row);
+    const bool is_read = is_present && row.access != Access::write && row.message == nullptr;
+    const bool is_written = is_present && row.access != Access::read;
     const bool matters = shows_state.contains(&row);
     registers_.rows.push_back({.name = name_of(bank->map(), row),
                                .counts = {is_read ? 0 : kCannotBe, is_written ? 0 : kCannotBe, kCannotBe},
                                .matters_most = matters});
     first_bits_.push_back(bits_.rows.size());
-    if (!is_there || !has_bits(row)) continue;
+    if (!is_present || !has_bits(row)) continue;
     const std::string& name = registers_.rows.back().name;
     if (row.type == Type::bit) {
       bits_.rows.push_back({.name = name, .counts = {0, 0}, .matters_most = matters});

@@ -99,8 +99,8 @@ int ProgramLines::last_line() const {
 std::vector<ProgramLines::Instruction> ProgramLines::at(int line) const {
   std::vector<Instruction> all;
   for (const ProgramPart& part : parts_) {
-    const auto is_there = [&](const ProgramLine& one) { return one.text_line == line; };
-    const auto found = std::find_if(part.lines.begin(), part.lines.end(), is_there);
+    const auto is_present = [&](const ProgramLine& one) { return one.text_line == line; };
+    const auto found = std::find_if(part.lines.begin(), part.lines.end(), is_present);
     if (found != part.lines.end()) all.push_back({part.number, static_cast<int>(found - part.lines.begin())});
   }
   return all;

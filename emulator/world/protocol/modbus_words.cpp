@@ -236,18 +236,18 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
   if (function == nullptr) return whom + hex_text(request);
   const int first = frame_word(request, 2);
   const Table table = table_of(device, *function);
-  const auto told = [&](const char* verb, int count, std::span<const std::uint8_t> values) {
+  const auto reported = [&](const char* verb, int count, std::span<const std::uint8_t> values) {
     return whom + verb + place_text(table, first, count) +
            WordsText(device, table, first, count, values).text();
   };
   if (function->kind == FunctionRow::Kind::read) {
-    return request.size() == 8 ? told("read ", frame_word(request, 4), {}) : whom + hex_text(request);
+    return request.size() == 8 ? reported("read ", frame_word(request, 4), {}) : whom + hex_text(request);
   }
   const auto values = written(*function, request);
   if (const std::string command = modbus_command_text(stations, request); !command.empty()) {
     return whom + "command " + place_text(table, first, values->count) + command;
   }
-  return values ? told("write ", values->count, values->bytes) : whom + hex_text(request);
+  return values ? reported("write ", values->count, values->bytes) : whom + hex_text(request);
 }
 
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,

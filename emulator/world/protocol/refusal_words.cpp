@@ -135,13 +135,13 @@ class Reason {
     }
     const char* const what = is_table_of_bits(wanted_.table) ? "bit" : "register";
     const std::string none = std::string("there is no ") + what + " at " + hex(address);
-    const auto told = [&](const RegisterRow& row, int at) {
+    const auto reported = [&](const RegisterRow& row, int at) {
       return hex(at) + " " + RegisterMap::name_of(row, (at - row.address) / std::max(row.stride, 1));
     };
     if (below == nullptr && above == nullptr) return none;
-    if (below == nullptr) return none + "; the first is " + told(*above, above_at);
-    if (above == nullptr) return none + "; the last is " + told(*below, below_at);
-    return none + "; the nearest are " + told(*below, below_at) + " and " + told(*above, above_at);
+    if (below == nullptr) return none + "; the first is " + reported(*above, above_at);
+    if (above == nullptr) return none + "; the last is " + reported(*below, below_at);
+    return none + "; the nearest are " + reported(*below, below_at) + " and " + reported(*above, above_at);
   }
 
   const Device& device_;

@@ -71,9 +71,9 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
     signals.push_back({.name = device.name + ".power", .kind = SignalKind::bit});
   }
   for (const std::string& name : also) {
-    const bool is_there = std::any_of(signals.begin(), signals.end(),
-                                      [&](const TraceSignal& signal) { return signal.name == name; });
-    if (!is_there) signals.push_back({.name = name, .kind = kind_of(name)});
+    const bool is_present = std::any_of(signals.begin(), signals.end(),
+                                        [&](const TraceSignal& signal) { return signal.name == name; });
+    if (!is_present) signals.push_back({.name = name, .kind = kind_of(name)});
   }
   return signals;
 }

@@ -182,9 +182,9 @@ TEST(Fields, WhatNoValueCanBeIsRefused) {
 TEST(Difference, IsReportedByTheNamesOfTheFields) {
   struct Case {
     void (*change)(Panel& panel);
-    const char* told;
+    const char* reported;
   };
-  for (const auto& [change, told] : {
+  for (const auto& [change, reported] : {
            Case{[](Panel&) {}, ""},
            Case{[](Panel& p) { p.number = 8; }, "number: 7 against 8"},
            Case{[](Panel& p) { p.spare.reset(); }, "spare: something against nothing"},
@@ -202,7 +202,7 @@ TEST(Difference, IsReportedByTheNamesOfTheFields) {
        }) {
     Panel other = a_panel();
     change(other);
-    EXPECT_EQ(first_difference(a_panel(), other), told);
+    EXPECT_EQ(first_difference(a_panel(), other), reported);
   }
 }
 
@@ -211,9 +211,9 @@ TEST(Difference, OfTextMapsAndNamedElements) {
   const Shelf shelf{.label = "left", .lamps = {{3, {Colour::green, 1}}, {5, {}}}, .drawers = {0, 1, 2}};
   struct Case {
     void (*change)(Shelf& shelf);
-    const char* told;
+    const char* reported;
   };
-  for (const auto& [change, told] : {
+  for (const auto& [change, reported] : {
            Case{[](Shelf&) {}, ""},
            Case{[](Shelf& s) { s.label = "l\"\r"; }, R"(label: "left" against "l\x22\x0d")"},
            Case{[](Shelf& s) { s.lamps.erase(5); }, "lamps[5]: something against nothing"},
@@ -226,7 +226,7 @@ TEST(Difference, OfTextMapsAndNamedElements) {
        }) {
     Shelf other = shelf;
     change(other);
-    EXPECT_EQ(first_difference(shelf, other), told);
+    EXPECT_EQ(first_difference(shelf, other), reported);
   }
 }
 

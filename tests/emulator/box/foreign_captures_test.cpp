@@ -215,9 +215,9 @@ TEST(ForeignCapture, SaysWhatItLacksInOneLine) {
       {"", {}, "is not a known capture"},
   };
   for (const auto& one : cases) {
-    const std::string told = diagnostic(one.text, one.settings);
-    EXPECT_NE(told.find(one.what), std::string::npos) << told;
-    EXPECT_EQ(told.find('\n'), std::string::npos);
+    const std::string reported = diagnostic(one.text, one.settings);
+    EXPECT_NE(reported.find(one.what), std::string::npos) << reported;
+    EXPECT_EQ(reported.find('\n'), std::string::npos);
   }
 }
 

@@ -58,7 +58,7 @@ class Client {
     heard_.clear();
     session_.handle(text);
   }
-  const std::vector<Json>& heard() const { return heard_; }
+  const std::vector<Json>& received() const { return heard_; }
   Session& session() { return session_; }
 
  private:
@@ -183,17 +183,17 @@ TEST(DapSession, SaysWhatIsNotARequest) {
   for (const std::string text : {"", "{", "[]", "5", "null", "{}", R"({"seq":"1","type":"request"})",
                                  "\xff\xfe", R"({"seq":1,"type":"request","command":"initialize"} more)"}) {
     client.send_raw(text);
-    ASSERT_EQ(client.heard().size(), 1U) << text;
-    EXPECT_EQ(client.heard()[0]["event"], "output") << text;
+    ASSERT_EQ(client.received().size(), 1U) << text;
+    EXPECT_EQ(client.received()[0]["event"], "output") << text;
   }
   client.send_raw(std::string(100'000, '[') + std::string(100'000, ']'));
-  EXPECT_EQ(client.heard().at(0)["event"], "output");
+  EXPECT_EQ(client.received().at(0)["event"], "output");
   for (const char* const text :
        {R"({"seq":1,"type":"response","command":"initialize"})", R"({"seq":1,"type":"request"})",
         R"({"seq":1,"type":"request","command":5})", R"({"seq":1,"type":"request","command":"a\nb"})"}) {
     client.send_raw(text);
-    ASSERT_EQ(client.heard().size(), 1U) << text;
-    EXPECT_EQ(client.heard()[0]["success"], false) << text;
+    ASSERT_EQ(client.received().size(), 1U) << text;
+    EXPECT_EQ(client.received()[0]["success"], false) << text;
   }
   EXPECT_EQ(client.ask("initialize")["success"], true);
 }
@@ -205,8 +205,8 @@ TEST(DapSession, EndsWithItsBench) {
   running.reset();
   EXPECT_NE(client.refusal_of("evaluate", {{"expression", "time"}}).find("control"), std::string::npos);
   client.session().poll();
-  ASSERT_FALSE(client.heard().empty());
-  EXPECT_EQ(client.heard().back()["event"], "terminated");
+  ASSERT_FALSE(client.received().empty());
+  EXPECT_EQ(client.received().back()["event"], "terminated");
   EXPECT_EQ(client.refusal_of("threads"), "threads: the bench has ended; expected `disconnect`");
   EXPECT_EQ(client.ask("disconnect")["success"], true);
   EXPECT_TRUE(client.session().is_over());

@@ -45,7 +45,7 @@ Model bare_model() {
           .terminals = {},
           .axes = {},
           .state_registers = {},
-          .gaps = {},
+          .known_limitations = {},
           .line = {.protocol = kSmokeSigns, .ports = kPorts},
           .make = nullptr};
 }

@@ -80,7 +80,7 @@ const Model& gate_model(std::size_t number) {
                  .terminals = {},
                  .axes = {},
                  .state_registers = {},
-                 .gaps = {},
+                 .known_limitations = {},
                  .line = {.protocol = {"knocks"}, .ports = kPorts},
                  .make = nullptr};
   };

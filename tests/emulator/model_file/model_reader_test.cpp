@@ -354,7 +354,7 @@ TEST_F(ModelFilesInAFolder, AreSaidToBeMissingWhereTheyAreNamed) {
 }
 
 TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
-  const auto told = [](const std::string& model) {
+  const auto reported = [](const std::string& model) {
     try {
       world::parse_bench(with_described(),
                          "understudy: 1\nlines: { a: { stations: [ { device: d } ] } }\ndevices:\n  d:\n    "
@@ -367,14 +367,14 @@ TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
     }
   };
   EXPECT_EQ(
-      told("|\n      understudy: 1\n      model: m\n      registers: |\n        table,address\n      "
-           "axs: 1\n"),
+      reported("|\n      understudy: 1\n      model: m\n      registers: |\n        table,address\n      "
+               "axs: 1\n"),
       "bench.yaml:9:7: devices.d.model: registers: there is none; expected a line of columns, and one for "
       "each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
       "understudy, model, title, firmware, registers, list, line, map, bits, inputs, outputs, axes, follows, "
       "shows, "
       "momentary (the nearest is 'axes')");
-  EXPECT_EQ(told("./list.csv\n"),
+  EXPECT_EQ(reported("./list.csv\n"),
             "bench.yaml:5:12: devices.d.model: './list.csv' is a path; expected that of a model file, "
             "NAME.yaml, or a model's name");
 }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -63,7 +63,7 @@ TEST_P(ModelContract, KeepsEachPersistentRegisterOverAPowerCut) {
         if (write_value(bank, *place, another_value(row, read_value(bank, *place))) != Refusal::none)
           continue;
         const Value written = read_value(bank, *place);
-        KeptMemory& memory = *fresh->memory();
+        PersistentMemory& memory = *fresh->memory();
         const NvImage before = memory.nv_image();
         memory.settle_memory();
         const NvImage stored = memory.nv_image();
@@ -164,8 +164,8 @@ TEST_P(ModelContract, DiffersByPowerByAnInputOrByTimeAlone) {
   const std::vector<std::byte> saved = one->save_state();
   const auto expect_told = [&](const std::string& begin) {
     EXPECT_FALSE(one->same_state(*other)) << begin;
-    const std::string told = one->state_difference(saved, other->save_state());
-    EXPECT_EQ(told.substr(0, begin.size()), begin);
+    const std::string reported = one->state_difference(saved, other->save_state());
+    EXPECT_EQ(reported.substr(0, begin.size()), begin);
     other->restore_state(saved);
     EXPECT_TRUE(one->same_state(*other)) << begin;
   };

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/state/state_error.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/models/models.h"
 #include "emulator/models/rs_m8194h/rows/registers.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -210,9 +210,9 @@ TEST(RestoredStates, AreTriedByActsThatThereAre) {
 
 TEST(RestoredStates, ThereIsALifeForEveryModel) {
   for (const Model* model : all_models()) {
-    const bool is_there = std::ranges::any_of(
+    const bool is_present = std::ranges::any_of(
         lives(), [&](const Life& life) { return std::string_view(life.model) == model->name; });
-    EXPECT_TRUE(is_there) << model->name;
+    EXPECT_TRUE(is_present) << model->name;
   }
 }
 
@@ -289,7 +289,7 @@ TEST(RestoredStates, ImagesThatAreChangedAreRefusedOrCanBeLivedOn) {
     for (int i = 0; i < flips() / 8 && !testing::Test::HasFailure(); ++i) {
       Living living(life, seed + static_cast<std::uint64_t>(i));
       living.live(12, 30);
-      KeptMemory& memory = *living.world.device(0).memory();
+      PersistentMemory& memory = *living.world.device(0).memory();
       memory.settle_memory();
       living.world.switch_power(0, false);
       const NvImage good = memory.nv_image();

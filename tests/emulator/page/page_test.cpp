@@ -357,8 +357,8 @@ TEST(PageLooks, UnderWayTakeNothingFromTheNextBrowser) {
   const TestJson watch{{"do", "watch"}, {"bench", 0}, {"frames", true}};
   const auto first = rig.browser();
   first->say(watch);
-  for (std::size_t heard = 0; heard < 300;)
-    heard += first->hear_one("look").value("frames", TestJson::array()).size();
+  for (std::size_t received = 0; received < 300;)
+    received += first->hear_one("look").value("frames", TestJson::array()).size();
   is_held = true;
   while (!is_under_way) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   first->say({{"do", "watch"}, {"bench", 0}});
@@ -399,14 +399,14 @@ TEST_P(PageLosses, AreToldWhereverTheHoleIs) {
   };
   MadeUpBench bench(rig.socket(), answer);
   const auto wait_for = [&](TestBrowser& browser, int last) {
-    std::pair<std::vector<int>, int> told;
-    while (told.first.empty() || told.first.back() < last) {
+    std::pair<std::vector<int>, int> reported;
+    while (reported.first.empty() || reported.first.back() < last) {
       const TestJson look = browser.hear_one("look");
       if (look.is_null()) break;
-      for (const TestJson& one : look.value(key, TestJson::array())) told.first.push_back(one["number"]);
-      told.second += look.value(key + "_lost", 0);
+      for (const TestJson& one : look.value(key, TestJson::array())) reported.first.push_back(one["number"]);
+      reported.second += look.value(key + "_lost", 0);
     }
-    return told;
+    return reported;
   };
   using Told = std::pair<std::vector<int>, int>;
   const auto browser = rig.browser();

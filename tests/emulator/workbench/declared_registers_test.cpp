@@ -27,7 +27,7 @@ struct Declaration {
   Type type = Type::u16;
   std::string access;  // R, R/W, W; "-": a hole that the manual mentions
   std::string held;    // stored, view, window, hole
-  bool is_kept = false;
+  bool is_persistent = false;
   Value power_up = 0;
 
   int words() const { return is_32_bit(type) ? 2 : 1; }
@@ -55,7 +55,7 @@ std::vector<Declaration> facts_of(const std::string& controller) {
                      .type = type_called(at("type")),
                      .access = at("access"),
                      .held = at("held"),
-                     .is_kept = at("kept") == "1",
+                     .is_persistent = at("kept") == "1",
                      .power_up = std::stoll(at("power_up"))});
   }
   return facts;
@@ -116,7 +116,7 @@ RegisterRow row_of(const Declaration& fact, int number) {
   }
   if (fact.held == "view") row.shows<seen, Varies::in_ticks>(number);
   if (fact.held == "view" && access != Access::read) row.does<take>(number);
-  return fact.is_kept ? row.kept() : row;
+  return fact.is_persistent ? row.persists() : row;
 }
 
 std::vector<RegisterRow> rows_of(std::span<const Declaration> facts) {
@@ -154,7 +154,7 @@ struct Controller {
               .terminals = {},
               .axes = {},
               .state_registers = {},
-              .gaps = {},
+              .known_limitations = {},
               .line = {.protocol = kModbusRtu, .ports = kPorts},
               .rtu = RtuRules{.functions = functions},
               .make = nullptr},

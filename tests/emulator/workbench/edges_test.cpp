@@ -155,14 +155,14 @@ TEST(Edges, HomingByModesEndsOnThePulse) {
 
 TEST(Edges, AreReportedOnlyWhenTheMachineChanges) {
   Rig rig({.position = 2000});
-  const std::uint32_t told = rig.environment(0).version;
+  const std::uint32_t reported = rig.environment(0).version;
   rig.axis(0).move(-800, law(1000), rig.device().now());
   rig.advance(3000);
   EXPECT_EQ(rig.place(0), 1200);
-  EXPECT_EQ(rig.environment(0).version, told);
+  EXPECT_EQ(rig.environment(0).version, reported);
   rig.inject("slip", "it.A", {{"pulses", "300"}});
   rig.advance(2);
-  EXPECT_NE(rig.environment(0).version, told);
+  EXPECT_NE(rig.environment(0).version, reported);
   ASSERT_EQ(rig.home(0, four_steps(0, 4e6)), motion::Cause::arrived);
   EXPECT_EQ(rig.place(0), kIndex);
 }

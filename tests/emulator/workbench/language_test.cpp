@@ -79,7 +79,7 @@ const Wrong kWrong[] = {
      {"line 1, column 6: is not a number; expected 00 to 99", "line 2: FILE 3 has no end; expected END"}},
 };
 
-std::vector<std::string> told(const std::vector<ProgramMistake>& mistakes) {
+std::vector<std::string> reported(const std::vector<ProgramMistake>& mistakes) {
   std::vector<std::string> texts;
   for (const ProgramMistake& mistake : mistakes) texts.push_back(in_text(mistake));
   return texts;
@@ -93,9 +93,9 @@ DeviceSettings settings_with(const std::string& option = "8") {
 }
 
 TEST(Languages, AllMistakesOfATextHaveLineAndColumn) {
-  EXPECT_EQ(told(check_program(model(), kGood, {})), std::vector<std::string>{});
+  EXPECT_EQ(reported(check_program(model(), kGood, {})), std::vector<std::string>{});
   for (const Wrong& wrong : kWrong)
-    EXPECT_EQ(told(check_program(model(), wrong.text, {})), wrong.mistakes) << wrong.text;
+    EXPECT_EQ(reported(check_program(model(), wrong.text, {})), wrong.mistakes) << wrong.text;
 }
 
 TEST(Languages, ADeviceRefusesWhatTheCheckRefuses) {
@@ -106,7 +106,7 @@ TEST(Languages, ADeviceRefusesWhatTheCheckRefuses) {
       load_program(*device, wrong.text);
       ADD_FAILURE() << wrong.text;
     } catch (const ProgramError& error) {
-      EXPECT_EQ(told(error.mistakes), wrong.mistakes);
+      EXPECT_EQ(reported(error.mistakes), wrong.mistakes);
       EXPECT_EQ(error.what(), error.mistakes.front().what);
     }
     EXPECT_EQ(device->user_program()->program_text(), kListed) << "it is unchanged";
@@ -117,7 +117,7 @@ TEST(Languages, TheOptionsOfADeviceDecideAsWell) {
   const std::string three = "AREA MAIN\nSTOP\nSTOP\n STOP\n";
   EXPECT_TRUE(check_program(model(), three, settings_with()).empty());
   const std::vector<std::string> full{"line 4, column 2: the area is full; expected at most 2 steps"};
-  EXPECT_EQ(told(check_program(model(), three, settings_with("2"))), full);
+  EXPECT_EQ(reported(check_program(model(), three, settings_with("2"))), full);
   DeviceSettings settings = settings_with("2");
   settings.program = three;
   EXPECT_THROW(make_device(model(), settings), ProgramError);
@@ -374,10 +374,10 @@ TEST(Languages, DescribeHasParametersByTheirOwnNumbers) {
                        "D101,D1,0x0065,16,0\n"))
       << text;
   EXPECT_TRUE(text.ends_with("D224,D124,0x00E0,16,0\n7,Offset,0x0008,16,0\n")) << text;
-  const Sheet told = *describe(model(), "parameters", SheetFormat::json);
-  EXPECT_EQ(told.columns.back(), "meaning");
-  EXPECT_EQ(told.rows[1].back(), "speed of axis Y");
-  EXPECT_EQ(told.rows.back().back(), "");
+  const Sheet reported = *describe(model(), "parameters", SheetFormat::json);
+  EXPECT_EQ(reported.columns.back(), "meaning");
+  EXPECT_EQ(reported.rows[1].back(), "speed of axis Y");
+  EXPECT_EQ(reported.rows.back().back(), "");
 }
 
 /// Its devices accept programs, but the model has no language for them.
@@ -395,7 +395,7 @@ const Model& silent() {
 
 TEST(Languages, AModelAndItsDevicesAgreeOnThem) {
   EXPECT_THROW(make_device(silent(), settings_with()), std::logic_error);
-  EXPECT_EQ(told(check_program(silent(), "", {})),
+  EXPECT_EQ(reported(check_program(silent(), "", {})),
             std::vector<std::string>{"workbench cannot load a program from a file; expected none"});
 }
 

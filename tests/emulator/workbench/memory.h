@@ -14,7 +14,7 @@
 #include "base/state/fields.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/eeprom_fields.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -45,7 +45,7 @@ struct Kept {
   bool operator==(const Kept&) const = default;
 };
 
-inline Kept factory_kept(const RegisterMap& map) {
+inline Kept factory_persistent(const RegisterMap& map) {
   std::vector<std::uint32_t> factory;
   std::vector<std::uint8_t> kept;
   std::vector<std::uint8_t> at_once;
@@ -61,9 +61,9 @@ inline Kept factory_kept(const RegisterMap& map) {
     for (std::size_t i = 0; i < given.size(); ++i) made[i] = given[i] != 0;
     return made;
   };
-  const auto is_kept = as_bools(kept);
+  const auto is_persistent = as_bools(kept);
   const auto is_at_once = as_bools(at_once);
-  return {.eeprom = Eeprom(factory, {is_kept.get(), kept.size()}, {is_at_once.get(), at_once.size()}),
+  return {.eeprom = Eeprom(factory, {is_persistent.get(), kept.size()}, {is_at_once.get(), at_once.size()}),
           .blocks = TextBlocks(kBlocks)};
 }
 
@@ -72,24 +72,24 @@ inline void recall(const Eeprom& eeprom, const RegisterMap& map, std::vector<std
   std::size_t slot = 0;
   for (const RegisterRow& row : map.rows()) {
     for (int i = 0; i < row.count && !row.is_view; ++i, ++slot) {
-      if (row.persistent) image[slot] = eeprom.kept()[slot];
+      if (row.persistent) image[slot] = eeprom.content()[slot];
     }
   }
 }
 
-class WorkbenchMemory final : public KeptMemory {
+class WorkbenchMemory final : public PersistentMemory {
  public:
   WorkbenchMemory(std::string_view model, Firmware firmware, RegisterBank& bank, Kept& kept)
-      : KeptMemory(model, firmware), bank_(bank), kept_(kept) {}
+      : PersistentMemory(model, firmware), bank_(bank), kept_(kept) {}
 
   TextBlocks* text_blocks() override { return &kept_.blocks; }
   const TextBlocks* text_blocks() const override { return &kept_.blocks; }
-  std::uint64_t kept_revision() const override { return kept_.eeprom.revision() + kept_.blocks.revision(); }
+  std::uint64_t memory_revision() const override { return kept_.eeprom.revision() + kept_.blocks.revision(); }
   void settle_memory() override { kept_.eeprom.settle(bank_.image()); }
 
  protected:
   std::function<void(NvImage&)> memory_writer() const override {
-    return registers_writer(bank_, kept_.eeprom.kept());
+    return registers_writer(bank_, kept_.eeprom.content());
   }
   void read_memory(const NvImage& image) override {
     const auto values = read_registers(bank_, image, 100);

@@ -207,7 +207,7 @@ TEST(WorkbenchMemory, IsGivenAwayAsItIsAndMadeIntoAnImageLater) {
     rig.fill();
     rig.set("Total", 70000);
     wanted = rig.image();
-    late = rig.device().memory()->kept_now();
+    late = rig.device().memory()->content_now();
     rig.set("Total", 5);
     ASSERT_EQ(rig.blocks().put("files", "42", SharedText("b\n")), "");
     rig.blocks().erase("files", "43");
@@ -248,7 +248,7 @@ TEST(WorkbenchMemory, RefusesWhatDoesNotFitAndChangesNothing) {
   Rig rig;
   rig.fill();
   const NvImage before = rig.image();
-  const std::uint64_t revision = rig.device().memory()->kept_revision();
+  const std::uint64_t revision = rig.device().memory()->memory_revision();
   EXPECT_EQ(rig.blocks().put("files", "01", SharedText("a\n\xC0\xAF")),
             "line 2: is not UTF-8; expected text");
   EXPECT_NE(rig.blocks().put("macros", "01", SharedText("a")), "");
@@ -256,7 +256,7 @@ TEST(WorkbenchMemory, RefusesWhatDoesNotFitAndChangesNothing) {
   EXPECT_NE(rig.blocks().put("recipes", "50", SharedText("x")), "");
   for (int i = 0; i < 10; ++i) rig.blocks().erase("recipes", std::to_string(10 + i));
   EXPECT_EQ(rig.image(), before);
-  EXPECT_GT(rig.device().memory()->kept_revision(), revision);
+  EXPECT_GT(rig.device().memory()->memory_revision(), revision);
   NvImage bad = before;
   bad.registers.emplace_back("Nothing", 1);
   bad.blocks.clear();
@@ -268,12 +268,12 @@ TEST(WorkbenchMemory, RefusesWhatDoesNotFitAndChangesNothing) {
 TEST(WorkbenchMemory, CountsOnlyWhatChanges) {
   Rig rig;
   rig.fill();
-  const std::uint64_t revision = rig.device().memory()->kept_revision();
+  const std::uint64_t revision = rig.device().memory()->memory_revision();
   rig.fill();
   rig.set("Total", 0);
   rig.set("Offset", 5);
   rig.world.advance_to(100ms);
-  EXPECT_EQ(rig.device().memory()->kept_revision(), revision);
+  EXPECT_EQ(rig.device().memory()->memory_revision(), revision);
 }
 
 TEST(WorkbenchMemory, StandsInABench) {

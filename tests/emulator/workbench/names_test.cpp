@@ -107,7 +107,7 @@ TEST(Views, HaveNoSlotAndAreNotKept) {
   for (const char* name : {"holding.Position_X", "STATE", "Module_ID", "DRIVING_X", "Command3"}) {
     EXPECT_EQ(find(name)->place.slot, Place::kNoSlot) << name;
   }
-  static constexpr RegisterRow kKeptView[] = {input(0, "A", Type::u16).always(1).kept()};
+  static constexpr RegisterRow kKeptView[] = {input(0, "A", Type::u16).always(1).persists()};
   EXPECT_THROW(RegisterMap(kKeptView, {}), std::logic_error);
 }
 

@@ -265,9 +265,9 @@ TEST(PortsOnLines, AreDistinguishedAmongTheFrames) {
   world::FrameLog log(two.world);
   two.ask(kPc, "01 06 00 64 00 01");
   two.ask(kHmi, "01 03 00 64 00 01");
-  std::string told;
-  for (const auto& frame : log.since(1, 10)) told += frame.line + ": " + frame.text + "\n";
-  EXPECT_EQ(told, "pc: write 0x0064 mill.D0 = 1\npc: done\nhmi: read 0x0064 mill.D0\nhmi: mill.D0 = 1\n");
+  std::string reported;
+  for (const auto& frame : log.since(1, 10)) reported += frame.line + ": " + frame.text + "\n";
+  EXPECT_EQ(reported, "pc: write 0x0064 mill.D0 = 1\npc: done\nhmi: read 0x0064 mill.D0\nhmi: mill.D0 = 1\n");
 }
 
 }  // namespace ports_line_test

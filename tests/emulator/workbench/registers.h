@@ -53,7 +53,7 @@ inline constexpr RegisterRow kRows[] = {
         .each(kAxes, 1)
         .range(1, 4000)
         .from_factory(100)
-        .kept(),
+        .persists(),
     reg(0x0008, "Offset", Type::s16, Access::read_write).range(-500, 500),
     reg(0x0010, "Position_{}", Type::s32, Access::read_write)
         .each(kAxes, 2)
@@ -63,17 +63,17 @@ inline constexpr RegisterRow kRows[] = {
         .each(kAxes, 2)
         .real_range(0, 10)
         .from_factory(value_of_real(1.5F))
-        .kept(),
+        .persists(),
     reg(0x0030, "Mode", Type::u16, Access::read_write).with_bits(kModeBits),
     reg(0x0031, "Word_Order", Type::u16, Access::read_write).range(0, 1),
     reg(0x0032, "Key", Type::u16, Access::write),
-    reg(0x0033, "Station", Type::u16, Access::read_write).range(0, 247).from_factory(1).kept(),
+    reg(0x0033, "Station", Type::u16, Access::read_write).range(0, 247).from_factory(1).persists(),
     reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done, Varies::in_ticks>(),
     reg(0x0064, "D{}", Type::u16, Access::read_write).times(125, 1, 0),
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
     reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
     reg(0x0310, "DO_Word_{}", Type::u16, Access::read_write).times(8, 1, 0),
-    reg(0x0320, "Total", Type::u32, Access::read_write).kept_at_once(),
+    reg(0x0320, "Total", Type::u32, Access::read_write).persists_at_once(),
     window<take_command>(kWindow, "Command{}", kWindowWords, 1),
     window<take_block>(kBlockWindow, "Block{}", kBlockWords, 1),
 

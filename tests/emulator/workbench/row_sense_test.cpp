@@ -66,7 +66,7 @@ const Case kCases[] = {
     {real().real_range(0, std::numeric_limits<float>::quiet_NaN()), "has a range that ends before it begins"},
     {real().holding_bits(0xFF), "is a real, which must be stored whole"},
     {word().holding_bits(0), "holds no bit of what is written"},
-    {input(0, "I", Type::u16).always(1).kept(), "is a view, which keeps nothing"},
+    {input(0, "I", Type::u16).always(1).persists(), "is a view, which keeps nothing"},
     {input(0, "I", Type::s32).does<set_position>(), "can only be read, and has an effect"},
     {reg(0, "R", Type::u16, Access::read).missing_trigger("x"), "can only be read, and has an effect"},
     {reg(0, "W", Type::u16, Access::write).reads<last_cause, Varies::in_ticks>(),

@@ -211,9 +211,9 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
   const world::LineStations& stations = served.daemon.world().line(0).stations;
   struct Case {
     const char* request;
-    const char* told;
+    const char* reported;
     const char* reply;
-    const char* reply_told;
+    const char* decoded_reply;
   };
   const Case cases[] = {
       {"01 01 00 02 00 03", "read coils 0x0002 it.Output_2, Output_3, Output_4", "01 01 01 05",
@@ -240,16 +240,16 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
   };
   for (const Case& c : cases) {
     const world::Bytes request = frame(c.request);
-    const std::string told = world::modbus_request_text(stations, request);
-    const bool is_bytes = std::string_view(c.told).starts_with("01 ");
-    EXPECT_EQ(is_bytes ? told.substr(0, std::string_view(c.request).size()) : told,
-              is_bytes ? c.request : c.told);
+    const std::string reported = world::modbus_request_text(stations, request);
+    const bool is_bytes = std::string_view(c.reported).starts_with("01 ");
+    EXPECT_EQ(is_bytes ? reported.substr(0, std::string_view(c.request).size()) : reported,
+              is_bytes ? c.request : c.reported);
     const std::string reply = world::modbus_reply_text(stations, request, frame(c.reply));
-    const bool reply_is_bytes = std::string_view(c.reply_told).starts_with("01 ");
-    const std::string_view told_by = reply_is_bytes ? c.reply : c.reply_told;
+    const bool reply_is_bytes = std::string_view(c.decoded_reply).starts_with("01 ");
+    const std::string_view expected = reply_is_bytes ? c.reply : c.decoded_reply;
     const bool is_begin =
-        reply_is_bytes || told_by.starts_with("exception");  // the nearest registers may follow
-    EXPECT_EQ(is_begin ? reply.substr(0, told_by.size()) : reply, told_by) << c.request;
+        reply_is_bytes || expected.starts_with("exception");  // the nearest registers may follow
+    EXPECT_EQ(is_begin ? reply.substr(0, expected.size()) : reply, expected) << c.request;
   }
 }
 

@@ -134,22 +134,23 @@ TEST(WindowNames, FramesAreDescribedWithThem) {
                          "it, model: workbench } ] }\n",
                          "bench.yaml", "/tmp"),
       {}, {});
-  const auto told = [&](const std::vector<std::uint8_t>& request) {
+  const auto reported = [&](const std::vector<std::uint8_t>& request) {
     return world.line(0).request_text(request);
   };
-  EXPECT_EQ(told(play::message_request(1, kWindow, Words{kMove, 1, 0, 1000})),
+  EXPECT_EQ(reported(play::message_request(1, kWindow, Words{kMove, 1, 0, 1000})),
             "command 0x1F40 it: MOVE Y 1000");
-  EXPECT_EQ(told(play::message_request(1, kWindow, Words{kStop})), "command 0x1F40 it: STOP");
-  EXPECT_EQ(told(play::write_request(1, Table::holding, kWindow, Words{kStop})), "command 0x1F40 it: STOP");
-  EXPECT_EQ(told(play::message_request(0, kWindow, Words{kStop})), "station 0: command 0x1F40 it: STOP");
+  EXPECT_EQ(reported(play::message_request(1, kWindow, Words{kStop})), "command 0x1F40 it: STOP");
+  EXPECT_EQ(reported(play::write_request(1, Table::holding, kWindow, Words{kStop})),
+            "command 0x1F40 it: STOP");
+  EXPECT_EQ(reported(play::message_request(0, kWindow, Words{kStop})), "station 0: command 0x1F40 it: STOP");
   // Other messages are described as words.
-  EXPECT_EQ(told(play::message_request(1, kWindow, Words{7, 1})),
+  EXPECT_EQ(reported(play::message_request(1, kWindow, Words{7, 1})),
             "write 0x1F40 it.Command0 = 7, Command1 = 1");
-  EXPECT_EQ(told(play::message_request(1, kWindow + 1, Words{kStop})), "write 0x1F41 it.Command1 = 2562");
+  EXPECT_EQ(reported(play::message_request(1, kWindow + 1, Words{kStop})), "write 0x1F41 it.Command1 = 2562");
   // In the present word order.
   auto& bench = static_cast<Workbench&>(world.device(0));
   write_value(bench, *find_register(model(), "Word_Order", 100), 1);
-  EXPECT_EQ(told(play::message_request(1, kWindow, Words{kMove, 1, 1000, 0})),
+  EXPECT_EQ(reported(play::message_request(1, kWindow, Words{kMove, 1, 1000, 0})),
             "command 0x1F40 it: MOVE Y 1000");
 }
 

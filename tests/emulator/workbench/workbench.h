@@ -83,7 +83,7 @@ class Workbench final : public DeviceOf<Workbench>,
       const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
       state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
     }
-    state.kept = factory_kept(*model.registers);
+    state.kept = factory_persistent(*model.registers);
   }
 
   /// Its areas and files are persistent blocks; settings take effect at once.
@@ -131,8 +131,8 @@ class Workbench final : public DeviceOf<Workbench>,
     return text;
   }
 
-  KeptMemory* memory() override { return &memory_; }
-  const KeptMemory* memory() const override { return &memory_; }
+  PersistentMemory* memory() override { return &memory_; }
+  const PersistentMemory* memory() const override { return &memory_; }
 
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
@@ -197,7 +197,7 @@ class Workbench final : public DeviceOf<Workbench>,
   void step_motion(Tick tick) override { motors_.step(tick); }
   Tick next_event_tick(Tick done, Tick max, const ClearTravel& ahead) const override {
     if (module_moves() || inputs_changed()) return done + 1;
-    return std::min(motors_.next_event_tick(done, max, ahead), next_kept_tick(done));
+    return std::min(motors_.next_event_tick(done, max, ahead), next_persistent_tick(done));
   }
   void fast_forward_to(Tick, Tick tick, const ClearTravel&, std::span<std::int64_t> pulses) override {
     motors_.fast_forward_to(tick, pulses);
@@ -234,10 +234,12 @@ class Workbench final : public DeviceOf<Workbench>,
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
   void update_outputs(Tick tick) override { state.kept.eeprom.step(tick, state.image); }
-  Tick next_kept_tick(Tick done) const { return std::max(done + 1, state.kept.eeprom.next_active_tick()); }
+  Tick next_persistent_tick(Tick done) const {
+    return std::max(done + 1, state.kept.eeprom.next_active_tick());
+  }
   bool module_moves() const { return is_moving() || (stored(run_) != 0 && !state.fifo.empty()); }
   Tick next_active_tick(Tick done) const override {
-    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : next_kept_tick(done);
+    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : next_persistent_tick(done);
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -350,7 +352,7 @@ inline const Model& model() {
       .terminal_groups = terminal_tables().groups,
       .axes = motor_rows(),
       .state_registers = kStateRegisters,
-      .gaps = {},
+      .known_limitations = {},
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 247, "Station"}},
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(500), .functions = kFunctions},
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {

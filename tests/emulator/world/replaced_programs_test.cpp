@@ -44,7 +44,7 @@ struct Language {
   std::vector<Part> parts;  // some of them are omitted
   const char* tail;         // of each
   Texts writes;             // "D9001=1"
-  Texts said;               // commands, or lines of text
+  Texts sent;               // commands, or lines of text
   Texts inputs;
 };
 
@@ -97,7 +97,7 @@ const Language kLanguages[] = {
                 "M8508={0-1}", "M8509={0-1}", "M8595={0-1}", "M858{0-7}={0-1}", "M8008={0-1}", "D9001={0-5}",
                 "D8000={0-9}", "D8100={0-9}", "D8020={98-111}", "D9045={1-1500}", "M{0-9}={0-1}",
                 "M8501={0-1}", "M8507={0-1}"},
-     .said = {},
+     .sent = {},
      .inputs = {"PLC_RUN", "CEMG", "X0", "X1"}},
     {.model = "simple2-r3",
      .settings = "set: { AutoStart_MainProg: 1 }",
@@ -110,7 +110,7 @@ const Language kLanguages[] = {
      .writes = {"PROG_MAIN_RunTime_START={0-9}", "PROG_MAIN_RunTime_END=1", "MAIN_LINE{0-9}_CMD={0-60}",
                 "MAIN_LINE{0-9}_DATA1={0-60}", "MAIN_LINE{0-9}_JMP={0-3}", "PROG_MAIN_Erase_ALL=1",
                 "Factory_Reset=1", "Aaxis_SVON={0-1}", "Aaxis_STOP=1", "PWD_Input={0-2}", "NEW_PWD={0-2}"},
-     .said = {},
+     .sent = {},
      .inputs = {"DIN_3", "DIN_4"}},
     {.model = "rs-m8194h",
      .settings = "address: 1",
@@ -121,7 +121,7 @@ const Language kLanguages[] = {
                {"ISR {16-18}", kOfMacros}},
      .tail = "END",
      .writes = {"CALL_MPn={155-157}", "CALL_MPn=41", "FRnet Event={0-1}"},
-     .said = {"RSM_MP_CALL {156-157}", "RSM_MP_CALL 41", "RSM_MP_ISR_CALL {16-19}", "RSM_MP_TERMINATE",
+     .sent = {"RSM_MP_CALL {156-157}", "RSM_MP_CALL 41", "RSM_MP_ISR_CALL {16-19}", "RSM_MP_TERMINATE",
               "RSM_RESET_CARD", "RSM_EMERGENCY_STOP {0-1}", "RSM_CLEAR_EMERGENCY_STOP", "RSM_MP_CREATE 156",
               "RSM_MP_CREATE 41", "RSM_MP_ISR_CREATE {16-19}", "RSM_MACRO_SET_VAR VAR{0-9} 7",
               "RSM_MACRO_TIMER 3", "RSM_MACRO_MP_CLOSE", "RSM_MACRO_MP_ISR_CLOSE", "RSM_FIXED_MOVE X {1-90}"},
@@ -135,7 +135,7 @@ const Language kLanguages[] = {
                             "REDO",          "GETI",           "N1=GETI",      "RESET",      "CLR BUF"}}},
      .tail = "RET",
      .writes = {},
-     .said = {"G",     "G {0-5}", "EXIT",   "PG",     "PA",     "PE {0-5}", "PI {0-5}", "PD {0-5}", "DLP",
+     .sent = {"G",     "G {0-5}", "EXIT",   "PG",     "PA",     "PE {0-5}", "PI {0-5}", "PD {0-5}", "DLP",
               "END",   "",        "\x1B",   "N2=N1",  "WT 2",   "MR 5",     "$A N0=1",  "JP $A",    "{0-99}",
               "RESET", "RESET H", "SAVE P", "SAVE D", "TASTOP", "DF",       "REDO",     "PZ",       "?N1"},
      .inputs = {"IN1", "IN2"}}};
@@ -157,9 +157,9 @@ class Course {
     load();
     for (int i = 0; i < acts; ++i) {
       act();
-      told_ += std::to_string(hash(world_)) + " ";
+      log_ += std::to_string(hash(world_)) + " ";
     }
-    return told_;
+    return log_;
   }
   int loaded() const { return loaded_; }
   int stops() const { return stops_; }
@@ -227,7 +227,7 @@ class Course {
       ++loaded_;
       if (debugging_) debugging_->set_some();
     } catch (const ProgramError& error) {
-      told_ += "refused: " + in_text(error.first()) + "\n";
+      log_ += "refused: " + in_text(error.first()) + "\n";
     }
   }
 
@@ -239,18 +239,18 @@ class Course {
     Device& device = world_.device(0);
     if (prepare_value(*device.register_bank(), place, std::stoi(text.substr(equals + 1)), prepared) ==
         Refusal::none) {
-      told_ += world_.write(0, prepared) == Refusal::none ? "" : "not written ";
+      log_ += world_.write(0, prepared) == Refusal::none ? "" : "not written ";
     }
   }
 
   void say() {
-    const std::string text = any(language_.said);
+    const std::string text = any(language_.sent);
     Device& device = world_.device(0);
     if (device.text_protocol() != nullptr && below(2) == 0) {
       const std::string line = text + "\r";
       world_.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
     } else if (text.size() > 1) {
-      told_ += world_.command(0, text).refusal == Refusal::none ? "" : "not taken ";
+      log_ += world_.command(0, text).refusal == Refusal::none ? "" : "not taken ";
     }
   }
 
@@ -274,10 +274,10 @@ class Course {
         break;
       }
       case 5: wait(); break;
-      case 6: told_ += world_.device(0).user_program()->program_text(); break;
-      case 7: told_ += std::to_string(world_.device(0).user_program()->program_locations().size()); break;
+      case 6: log_ += world_.device(0).user_program()->program_text(); break;
+      case 7: log_ += std::to_string(world_.device(0).user_program()->program_locations().size()); break;
       default:
-        if (!language_.writes.empty() && (language_.said.empty() || below(2) == 0))
+        if (!language_.writes.empty() && (language_.sent.empty() || below(2) == 0))
           write();
         else
           say();
@@ -304,7 +304,7 @@ class Course {
   std::optional<StoppingDebugger> debugging_;
   int stops_ = 0;
   std::optional<WorldState> kept_;
-  std::string told_;
+  std::string log_;
   int loaded_ = 0;
 };
 
@@ -320,11 +320,11 @@ TEST_P(ReplacedPrograms, AreTheSameWhateverFreedMemoryHolds) {
     for (const int fill : {0, 90, 165}) {
       mallopt(M_PERTURB, fill);
       Course course(language, seed);
-      const std::string told = course.run(60);
+      const std::string reported = course.run(60);
       loaded += course.loaded();
-      if (fill == 0) usual = told;
+      if (fill == 0) usual = reported;
       mallopt(M_PERTURB, 0);
-      ASSERT_EQ(told, usual) << language.model << ", UNDERSTUDY_SEED=" << seed << ", fill " << fill;
+      ASSERT_EQ(reported, usual) << language.model << ", UNDERSTUDY_SEED=" << seed << ", fill " << fill;
     }
   }
   EXPECT_GT(loaded, static_cast<int>(courses) * 9) << "hardly any program is accepted";

@@ -24,7 +24,7 @@ models::simple2_r3::State& state_of(World& world, std::size_t device) {
 
 TEST(SnapshotDifference, IsReportedByPathAndName) {
   struct Case {
-    std::string told;
+    std::string reported;
     std::function<void(World& world)> change;
   };
   const std::vector<Case> cases = {
@@ -62,12 +62,12 @@ TEST(SnapshotDifference, IsReportedByPathAndName) {
          StateOf<World>::line(w, 0).restore(state);
        }},
   };
-  for (const auto& [told, change] : cases) {
+  for (const auto& [reported, change] : cases) {
     World world = make_world("wire");
     world.advance_to(50ms);
     const WorldState before = save(world);
     change(world);
-    EXPECT_EQ(difference(world, before, save(world)), told);
+    EXPECT_EQ(difference(world, before, save(world)), reported);
   }
 }
 
@@ -87,7 +87,7 @@ TEST(SnapshotDifference, OfMachinesIsReportedByTheirAxes) {
 void expect_all_told(World& world) {
   const WorldState state = save(world);
   const std::size_t step = is_sanitized() ? 19 : 7;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (std::size_t part = 0; part < state.parts.size(); ++part) {
     for (std::size_t at = 0; at < state.parts[part].bytes.size(); at += step) {
       WorldState other = state;
@@ -97,13 +97,13 @@ void expect_all_told(World& world) {
         EXPECT_NE(found, "") << state.parts[part].name << " byte " << at;
         EXPECT_EQ(found.find("other bytes"), std::string::npos) << found;
         EXPECT_NE(found.find(" against "), std::string::npos) << found;
-        ++told;
+        ++reported;
       } catch (const StateError&) {
         // It is not a state of such a world.
       }
     }
   }
-  EXPECT_GT(told * step, 3500U);
+  EXPECT_GT(reported * step, 3500U);
   EXPECT_EQ(difference(world, state, state), "");
 }
 

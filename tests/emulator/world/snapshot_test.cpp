@@ -29,13 +29,13 @@ std::uint64_t seed() {
 /// The visible state of a world just before an act.
 struct Seen {
   std::uint64_t hash = 0;
-  Bytes said;
+  Bytes sent;
   std::optional<SimTime> next_due;
   bool operator==(const Seen&) const = default;
 };
 
 Seen look(World& world) {
-  return {.hash = hash(world), .said = take_output(world), .next_due = world.next_due()};
+  return {.hash = hash(world), .sent = take_output(world), .next_due = world.next_due()};
 }
 
 /// The number of moments in which something was running, so that the test does not only prove something for
@@ -125,7 +125,7 @@ void save_and_go_on(std::uint64_t seed_value, Moments& moments) {
         acts[i].carry_out(*other);
       }
       for (std::size_t i = 0; i < again.size(); ++i) {
-        ASSERT_EQ(again[i].said, lived[saved.next_act + i].said)
+        ASSERT_EQ(again[i].sent, lived[saved.next_act + i].sent)
             << "sends something else before act " << saved.next_act + i << which;
         ASSERT_EQ(again[i], lived[saved.next_act + i])
             << "differs before act " << saved.next_act + i << which;

@@ -60,17 +60,17 @@ TEST(Super40ncEvents, AllCellsAreTheManuals) {
         const std::string cell = row.cells[i];
         const std::string where = std::string(row_of(area).name) + " event " +
                                   std::to_string(static_cast<int>(row.event)) + " phase " + "IEMHWPQ"[i];
-        std::string told;
-        for (const std::string& line : running.machine.log) told += line.substr(line.find(':') + 1);
+        std::string reported;
+        for (const std::string& line : running.machine.log) reported += line.substr(line.find(':') + 1);
         const bool is_on = running.machine.special_contact(row_of(area).run_contact);
         if (cell == "-") {
           EXPECT_EQ(running.state(area), before) << where;
           EXPECT_EQ(is_on, was_on) << where;
-          EXPECT_EQ(told, "") << where;
+          EXPECT_EQ(reported, "") << where;
           continue;
         }
         EXPECT_EQ(running.phase(area), phase_of(cell[0])) << where;
-        EXPECT_EQ(told, cell.substr(1)) << where;
+        EXPECT_EQ(reported, cell.substr(1)) << where;
         const bool runs = cell[0] == 'E' || cell[0] == 'M';
         EXPECT_EQ(is_on, runs) << where;
         StepState cleared;  // except for its modes
@@ -322,11 +322,11 @@ TEST(Super40ncEvents, MotionsBesideTheLinesFollowTheirRow) {
     ASSERT_EQ(running.phase(Area::x), Phase::waiting);
     running.machine.log.clear();
     running.take(row.event, Area::x);
-    std::string told;
-    for (const std::string& line : running.machine.log) told += line;
+    std::string reported;
+    for (const std::string& line : running.machine.log) reported += line;
     const bool is_held = row.motion == OutsideEffect::is_held;
     const bool is_stopped = row.motion == OutsideEffect::is_stopped;
-    EXPECT_EQ(told, is_held ? "X: hold" : is_stopped ? "X: stop" : "") << i;
+    EXPECT_EQ(reported, is_held ? "X: hold" : is_stopped ? "X: stop" : "") << i;
     EXPECT_EQ(row.wheel == OutsideEffect::is_stopped, is_stopped) << i;  // hold() does not affect the wheel
   }
 }

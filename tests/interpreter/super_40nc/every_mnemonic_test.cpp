@@ -366,8 +366,8 @@ Did run_in(const Place& place, const std::string& line, int owned_axes) {
   }
   Did did{running.machine.codes, {}, running.machine.value(d(0)) == 7};
   const std::string own = std::string(place.name) + ": ";
-  for (const std::string& said : running.machine.log) {
-    if (said != own + "starts" && said != own + "ended") did.asked.push_back(said);
+  for (const std::string& message : running.machine.log) {
+    if (message != own + "starts" && message != own + "ended") did.asked.push_back(message);
   }
   return did;
 }

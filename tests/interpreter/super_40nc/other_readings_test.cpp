@@ -139,11 +139,11 @@ TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
   Options options;
   options.outputs_clear_blocks = true;
   const auto codes = [&](const std::string& text) {
-    std::string said;
+    std::string message;
     const Checked checked = check(text, options);
-    for (const Diagnostic& error : checked.errors) said += to_string(error) + ";";
-    for (const Diagnostic& warning : checked.warnings) said += "(" + to_string(warning) + ")";
-    return said;
+    for (const Diagnostic& error : checked.errors) message += to_string(error) + ";";
+    for (const Diagnostic& warning : checked.warnings) message += "(" + to_string(warning) + ")";
+    return message;
   };
   EXPECT_EQ(codes("AREA PLC\nLD X0\nLD X1\nOUT Y0\nANB\nOUT Y1\nEND\n"),
             "5:1: ANB joins blocks that were not begun; expected two blocks before it;");

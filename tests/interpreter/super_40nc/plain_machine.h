@@ -20,7 +20,7 @@ class PlainMachine : public Machine {
     return {.x = 0, .y = 48, .m = 80, .t = 592, .c = 656, .t_value = 688, .c_value = 752, .d = 784};
   }
   std::span<std::uint32_t> cells() override { return memory; }
-  void kept_cell_written(std::uint32_t) override {}
+  void retentive_cell_written(std::uint32_t) override {}
   bool special_contact(int number) const override { return contacts.at(place(number)) != 0; }
   bool set_special_contact(int number, bool on) override {
     const bool was_on = std::exchange(contacts.at(place(number)), on ? 1 : 0) != 0;

@@ -37,7 +37,7 @@ class ScriptedMachine : public Machine {
       .x = 5, .y = 60, .m = 100, .t = 620, .c = 690, .t_value = 730, .c_value = 800, .d = 840};
   CellLayout layout() const override { return kLayout; }
   std::span<std::uint32_t> cells() override { return memory; }
-  void kept_cell_written(std::uint32_t cell) override {
+  void retentive_cell_written(std::uint32_t cell) override {
     kept.insert(cell);
     ++kept_writes;
   }

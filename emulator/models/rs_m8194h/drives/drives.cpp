@@ -195,8 +195,8 @@ void Drives::note_marks(std::size_t axis, DiscardEvent event) const {
       unit.external.running != 0 || unit.external_waiting != 0 || unit.external_free_ns != 0;
   const bool is_held =
       std::ranges::any_of(state_.trigger_holds, [&](AxisMask held) { return has(held, axis); });
-  const auto meet = [&](Mark mark, bool is_there) {
-    if (!is_there) return;
+  const auto meet = [&](Mark mark, bool is_present) {
+    if (!is_present) return;
     decisions().meet(kDiscardTable, static_cast<std::size_t>(mark), static_cast<std::size_t>(event));
   };
   meet(Mark::paused_drive, unit.paused_drive.what != Drive::What::none);

@@ -112,27 +112,28 @@ bool Memory::keeps(const RegisterRow& row) const {
 
 Eeprom Memory::factory_memory() const {
   std::vector<std::uint32_t> factory;
-  const auto is_kept = std::make_unique<bool[]>(kSlotCount);
+  const auto is_persistent = std::make_unique<bool[]>(kSlotCount);
   const auto at_once = std::make_unique<bool[]>(kSlotCount);
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && !row.is_view; ++i) {
       // Persistent values are stored without delay.
-      is_kept[factory.size()] = at_once[factory.size()] = keeps(row);
+      is_persistent[factory.size()] = at_once[factory.size()] = keeps(row);
       factory.push_back(static_cast<std::uint32_t>(row.factory));
     }
   }
-  return Eeprom(factory, {is_kept.get(), kSlotCount}, {at_once.get(), kSlotCount});
+  return Eeprom(factory, {is_persistent.get(), kSlotCount}, {at_once.get(), kSlotCount});
 }
 
 std::vector<std::uint32_t> Memory::image_at_power_up() const {
-  const std::span<const std::uint32_t> kept = state_.eeprom.kept();
+  const std::span<const std::uint32_t> kept = state_.eeprom.content();
   std::vector<std::uint32_t> image(kSlotCount);
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     if (row.is_view) continue;
-    const bool is_kept = keeps(row);
+    const bool is_persistent = keeps(row);
     for (int i = 0; i < row.count; ++i, ++next) {
-      image[next] = is_kept && next < kept.size() ? kept[next] : static_cast<std::uint32_t>(row.factory);
+      image[next] =
+          is_persistent && next < kept.size() ? kept[next] : static_cast<std::uint32_t>(row.factory);
     }
   }
   return image;

@@ -175,7 +175,7 @@ inline constexpr auto kHoldingRows1 = section("12.2.1", Hazards::output, {
 });
 inline constexpr auto kHoldingRows2 = section("12.2.2", kMacro, {
     reg(8,    "CALL_MPn", u16, RW).means("calls the macro program of this number", "寫入巨集程序的編號").also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
-    reg(9,    "FRnet Event", u16, RW).means("1: inputs of FRnet trigger macro programs", "FRnet 事件觸發").also("FRNET_EVENT").range(0, 1).kept_at_once().does<enable_triggers>(),
+    reg(9,    "FRnet Event", u16, RW).means("1: inputs of FRnet trigger macro programs", "FRnet 事件觸發").also("FRNET_EVENT").range(0, 1).persists_at_once().does<enable_triggers>(),
     reg(14,   "WORD Order", u16, RW).means("order of words: 0 high word first, 1 low word first", "字組順序").also("WORD_ORDER").range(0, 1).may(kMotion),
 });
 inline constexpr auto kHoldingRows3 = section("12.2.3", kNetwork, {
@@ -199,8 +199,8 @@ inline constexpr auto kHoldingRows6 = section("12.2.5", kValue, {
     reg(300,  "VAR{}", s32, RW).means("variable VAR{} of macros", "VAR{} 的設定值").times(512, 2, 0),
 });
 inline constexpr auto kHoldingRows7 = section("3.19.1", Hazards::memory, {
-    reg(3000, "MD{}", s32, RW).means("machine data MD{}, persistent", "機器資料 MD{}").times(1024, 2, 0).kept_at_once(),
-    reg(5048, "MD{}", f32, RW).means("machine data MD{}, a real number, persistent", "機器資料 MD{}").times(1024, 2, 1024).kept_at_once(),
+    reg(3000, "MD{}", s32, RW).means("machine data MD{}, persistent", "機器資料 MD{}").times(1024, 2, 0).persists_at_once(),
+    reg(5048, "MD{}", f32, RW).means("machine data MD{}, a real number, persistent", "機器資料 MD{}").times(1024, 2, 1024).persists_at_once(),
 });
 inline constexpr auto kHoldingRows8 = section("12.2.6", Hazards::all, {
     window<take_message>(kWindow, "Reg{}", kWindowWords).means("word {} of a command: its code, then its parameters", "Sub_Function 代碼定義").also("Sub_Function_Code"),

@@ -20,8 +20,8 @@ namespace understudy::emulator::models::super_40nc {
 
 Value AxisInputs::limit_logic(int axis, int direction) const {
   if (!has_limit_copies())
-    return registers().of(direction > 0 ? kept_x(d9x::kPlusOtSignal) : kept_x(d9x::kMinusOtSignal), axis);
-  return registers().of(direction > 0 ? kept_d(d8x::kPlusLimitPort) : kept_d(d8x::kMinusLimitPort), axis);
+    return registers().of(direction > 0 ? stored_x(d9x::kPlusOtSignal) : stored_x(d9x::kMinusOtSignal), axis);
+  return registers().of(direction > 0 ? stored_d(d8x::kPlusLimitPort) : stored_d(d8x::kMinusLimitPort), axis);
 }
 
 void AxisInputs::update_environment(int axis_number) {
@@ -45,7 +45,7 @@ void AxisInputs::update_environment(int axis_number) {
     const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == (direction > 0);
     return is_mark ? std::optional(true) : limit_of_line(direction);
   };
-  const bool dog_level = !settings.is_on(kept_x(d9x::kOrgLogic), axis_number);
+  const bool dog_level = !settings.is_on(stored_x(d9x::kOrgLogic), axis_number);
   const int dog =
       chose(option("dog_inputs", "x0_x3_x6_x9")) ? dog_input(axis_number) : kFirstDogTerminal + axis_number;
   const Function functions[] = {
@@ -77,7 +77,7 @@ void AxisInputs::update_environment(int axis_number) {
     }
   }
   seen.encoder = edges.encoder.as<motion::EncoderLine>();
-  seen.encoder.turned = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number);
+  seen.encoder.turned = settings.is_on(stored_x(d9x::kEncoderDirection), axis_number);
   seen.version = environment(axis_number).version;
   if (seen == environment(axis_number)) return;
   ++seen.version;
@@ -93,8 +93,8 @@ void AxisInputs::see_first_signals() {
 }
 
 MachineEdges AxisInputs::edges_of(int axis) const {
-  const MachineEdges& told = edges_[static_cast<std::size_t>(axis)];
-  return chip(axis).inverted ? told.reversed() : told;
+  const MachineEdges& reported = edges_[static_cast<std::size_t>(axis)];
+  return chip(axis).inverted ? reported.reversed() : reported;
 }
 
 std::optional<MachineEdges::Span> AxisInputs::span_of(int axis, int input) const {

@@ -22,24 +22,24 @@ namespace understudy::emulator::models::super_40nc {
 
 motion::AxisSettings AxisParameters::motor_settings(int axis, bool homes) const {
   const Settings settings = registers();
-  const auto reaction = [&](Kept kept) {
+  const auto reaction = [&](StoredRegister kept) {
     return settings.is_on(kept, axis) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
   };
   motion::AxisSettings made = chip(axis).settings;
   made.needs_servo = false;
-  made.at_limit_plus = made.at_limit_minus = reaction(kept_x(d9x::kOtStop));
-  made.at_alarm = reaction(kept_x(d9x::kAlmStop));
+  made.at_limit_plus = made.at_limit_minus = reaction(stored_x(d9x::kOtStop));
+  made.at_alarm = reaction(stored_x(d9x::kAlmStop));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
   if (homes && chose(option("home_soft_limits", "ignored"))) return made;
   const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
   struct Side {
-    Kept source, method, action, value;
+    StoredRegister source, method, action, value;
     std::optional<std::int64_t> motion::AxisSettings::*limit;
   };
   static constexpr Side kSides[] = {
-      {kept_x(d9x::kCp1Source), kept_x(d9x::kCp1Method), kept_x(d9x::kCp1Action), kept_d(d8x::kRcmp1),
+      {stored_x(d9x::kCp1Source), stored_x(d9x::kCp1Method), stored_x(d9x::kCp1Action), stored_d(d8x::kRcmp1),
        &motion::AxisSettings::soft_limit_plus},
-      {kept_x(d9x::kCp2Source), kept_x(d9x::kCp2Method), kept_x(d9x::kCp2Action), kept_d(d8x::kRcmp2),
+      {stored_x(d9x::kCp2Source), stored_x(d9x::kCp2Method), stored_x(d9x::kCp2Action), stored_d(d8x::kRcmp2),
        &motion::AxisSettings::soft_limit_minus}};
   for (const Side& side : kSides) {
     const Value action = settings.of(side.action, axis);
@@ -71,7 +71,7 @@ void AxisParameters::keep_display(int axis_number) {
 
 void AxisParameters::apply_axis_parameters(int axis_number, int number) {
   const Settings settings = registers();
-  const auto limit_pulses = [&](Kept kept) {
+  const auto limit_pulses = [&](StoredRegister kept) {
     constexpr std::int64_t kRange = std::int64_t{1} << 28;  // the chip's numbers wrap
     const std::int64_t pulses =
         settings.scale(axis_number).to_pulses(settings.of(kept, axis_number)).value_or(0);
@@ -84,17 +84,17 @@ void AxisParameters::apply_axis_parameters(int axis_number, int number) {
       motion::Axis& motor = chip(axis_number);
       const std::int64_t counts = axis(axis_number).encoder_counts;
       motor.encoder_pulses = motor.encoder_seen =
-          settings.is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -counts : counts;
+          settings.is_on(stored_x(d9x::kEncoderDirection), axis_number) ? -counts : counts;
       break;
     }
     case d9x::kPlusOtSignal:
       if (inputs_.has_limit_copies())
-        ground_.put(kept_d(d8x::kPlusLimitPort), settings.raw(kept_x(d9x::kPlusOtSignal), axis_number),
+        ground_.put(stored_d(d8x::kPlusLimitPort), settings.raw(stored_x(d9x::kPlusOtSignal), axis_number),
                     axis_number);
       break;
     case d9x::kMinusOtSignal:
       if (inputs_.has_limit_copies())
-        ground_.put(kept_d(d8x::kMinusLimitPort), settings.raw(kept_x(d9x::kMinusOtSignal), axis_number),
+        ground_.put(stored_d(d8x::kMinusLimitPort), settings.raw(stored_x(d9x::kMinusOtSignal), axis_number),
                     axis_number);
       break;
     case d9x::kCmx:
@@ -102,9 +102,9 @@ void AxisParameters::apply_axis_parameters(int axis_number, int number) {
     case d9x::kPlusSoftLimit:
     case d9x::kMinusSoftLimit:
       if (number != d9x::kMinusSoftLimit)
-        ground_.put(kept_d(d8x::kRcmp1), limit_pulses(kept_x(d9x::kPlusSoftLimit)), axis_number);
+        ground_.put(stored_d(d8x::kRcmp1), limit_pulses(stored_x(d9x::kPlusSoftLimit)), axis_number);
       if (number != d9x::kPlusSoftLimit)
-        ground_.put(kept_d(d8x::kRcmp2), limit_pulses(kept_x(d9x::kMinusSoftLimit)), axis_number);
+        ground_.put(stored_d(d8x::kRcmp2), limit_pulses(stored_x(d9x::kMinusSoftLimit)), axis_number);
       if (number <= d9x::kCdv) {
         axis(axis_number).stands_on_target = false;
         keep_display(axis_number);

@@ -48,11 +48,11 @@ void ChipPins::see(int axis, ChipPin pin, bool is_on) {
 void ChipPins::pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed) {
   see(axis, pin, is_on);
   if (pin == kLatchPin) {
-    if (is_on && registers().of(kept_x(d9x::kLatchOfCounters), axis) == 0)
+    if (is_on && registers().of(stored_x(d9x::kLatchOfCounters), axis) == 0)
       counters_.take_latch(axis, chip(axis).travel_pulses, speed);
     return;
   }
-  const Value mode = registers().of(kept_x(d9x::kClrSignal), axis);
+  const Value mode = registers().of(stored_x(d9x::kClrSignal), axis);
   if (mode == (is_on ? kAtOn : kAtOff) || holds_cleared(axis)) clear_by_pin(axis);
   const bool has_level = mode == kWhileOn || mode == kWhileOff;
   if (has_level) parameters_.apply_axis_parameters(axis, 0);  // a held counter passes no comparator
@@ -66,7 +66,7 @@ void ChipPins::hold_cleared() {
 }
 
 void ChipPins::clear_by_pin(int axis) {
-  const std::int32_t mask = registers().raw(kept_x(d9x::kClrResetC), axis);
+  const std::int32_t mask = registers().raw(stored_x(d9x::kClrResetC), axis);
   for (int which = 0; which < static_cast<int>(kCounters); ++which) {
     if (is_bit(mask, which) && counter(axis, which) != 0) parameters_.set_counter(axis, which, 0);
   }
@@ -74,7 +74,7 @@ void ChipPins::clear_by_pin(int axis) {
 
 void ChipPins::give_erc(int axis) {
   if (!has_chip_pins()) return;
-  const Tick ticks = kErcTicks[static_cast<std::size_t>(registers().of(kept_x(d9x::kErcSignal), axis))];
+  const Tick ticks = kErcTicks[static_cast<std::size_t>(registers().of(stored_x(d9x::kErcSignal), axis))];
   axes_.erc_until[static_cast<std::size_t>(axis)] = ticks == kNever ? kNever : now() + 1 + ticks;
 }
 
@@ -82,10 +82,10 @@ void ChipPins::give_erc(int axis) {
 void ChipPins::give_erc_behind(int axis, Code code) {
   const Settings settings = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;
-  const bool at_once = (is_limit && !settings.is_on(kept_x(d9x::kOtStop), axis)) ||
-                       (code == Code::alarm && !settings.is_on(kept_x(d9x::kAlmStop), axis)) ||
+  const bool at_once = (is_limit && !settings.is_on(stored_x(d9x::kOtStop), axis)) ||
+                       (code == Code::alarm && !settings.is_on(stored_x(d9x::kAlmStop), axis)) ||
                        code == Code::emergency_input;
-  if (at_once && settings.is_on(kept_x(d9x::kElAlmErc), axis)) give_erc(axis);
+  if (at_once && settings.is_on(stored_x(d9x::kElAlmErc), axis)) give_erc(axis);
 }
 
 Tick ChipPins::next_end_of_erc(Tick done) const {

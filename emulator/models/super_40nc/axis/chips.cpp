@@ -24,11 +24,12 @@ namespace understudy::emulator::models::super_40nc {
 
 bool Chips::holds_cleared(int axis) const {
   if (!has_chip_pins()) return false;
-  return registers().of(kept_x(d9x::kClrSignal), axis) == (pin_seen(axis, kClearPin) ? kWhileOn : kWhileOff);
+  return registers().of(stored_x(d9x::kClrSignal), axis) ==
+         (pin_seen(axis, kClearPin) ? kWhileOn : kWhileOff);
 }
 
 bool Chips::is_held_cleared(int axis, int which) const {
-  return holds_cleared(axis) && is_bit(registers().raw(kept_x(d9x::kClrResetC), axis), which);
+  return holds_cleared(axis) && is_bit(registers().raw(stored_x(d9x::kClrResetC), axis), which);
 }
 
 std::int32_t Chips::counter(int axis_number, int number) const {
@@ -70,7 +71,7 @@ std::int64_t Chips::braking_pulses(int axis) const {
 /// Returns X16, for MRK.
 std::int64_t Chips::search_pulses(int axis) const {
   const Settings settings = registers();
-  const Value distance = settings.of(kept_x(d9x::kLowSpeedLength), axis);
+  const Value distance = settings.of(stored_x(d9x::kLowSpeedLength), axis);
   const bool is_in_pulses = chose(option("mark_distance_unit", "pulses"));
   return is_in_pulses ? distance : settings.scale(axis).to_pulses(distance).value_or(0);
 }

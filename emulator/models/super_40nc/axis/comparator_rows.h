@@ -15,14 +15,15 @@
 namespace understudy::emulator::models::super_40nc {
 
 struct ComparatorRow {
-  Kept source, method, action, value;
+  StoredRegister source, method, action, value;
 };
 inline constexpr std::array<ComparatorRow, kComparators> kComparatorRows{
-    {{kept_x(d9x::kCp1Source), kept_x(d9x::kCp1Method), kept_x(d9x::kCp1Action), kept_d(d8x::kRcmp1)},
-     {kept_x(d9x::kCp2Source), kept_x(d9x::kCp2Method), kept_x(d9x::kCp2Action), kept_d(d8x::kRcmp2)},
-     {kept_x(d9x::kCp3Source), kept_x(d9x::kCp3Method), kept_x(d9x::kCp3Action), kept_d(d8x::kRcmp3)},
-     {kept_x(d9x::kCp4Source), kept_x(d9x::kCp4Method), kept_x(d9x::kCp4Action), kept_d(d8x::kRcmp4)},
-     {kept_x(d9x::kCp5Source), kept_x(d9x::kCp5Method), kept_x(d9x::kCp5Action), kept_d(d8x::kPrcmp5)}}};
+    {{stored_x(d9x::kCp1Source), stored_x(d9x::kCp1Method), stored_x(d9x::kCp1Action), stored_d(d8x::kRcmp1)},
+     {stored_x(d9x::kCp2Source), stored_x(d9x::kCp2Method), stored_x(d9x::kCp2Action), stored_d(d8x::kRcmp2)},
+     {stored_x(d9x::kCp3Source), stored_x(d9x::kCp3Method), stored_x(d9x::kCp3Action), stored_d(d8x::kRcmp3)},
+     {stored_x(d9x::kCp4Source), stored_x(d9x::kCp4Method), stored_x(d9x::kCp4Action), stored_d(d8x::kRcmp4)},
+     {stored_x(d9x::kCp5Source), stored_x(d9x::kCp5Method), stored_x(d9x::kCp5Action),
+      stored_d(d8x::kPrcmp5)}}};
 
 /// The sources. A counter's is its own index; COUNTER3 counts without its sign.
 enum CompareSource : Value { kCounter1, kCounter2, kCounter3, kCounter4, kRemaining, kSpeed };
@@ -33,7 +34,7 @@ constexpr bool stops(Value action) { return action == kStopAtOnce || action == k
 
 /// Returns true if the comparator latches the counters (D9x50: 2 and 3 are the comparators 4 and 5).
 inline bool latches(const Settings& settings, int axis, std::size_t which) {
-  return which >= 3 && settings.of(kept_x(d9x::kLatchOfCounters), axis) == static_cast<Value>(which) - 1;
+  return which >= 3 && settings.of(stored_x(d9x::kLatchOfCounters), axis) == static_cast<Value>(which) - 1;
 }
 
 /// Returns true if a number has met the condition between two values. Soft limits have no such moment.

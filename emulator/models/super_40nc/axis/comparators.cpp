@@ -83,14 +83,14 @@ std::optional<motion::Comparator> Comparators::comparator_of(int axis_number, st
     return made;
   }
   const bool is_stopped =
-      is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source) - 1);
+      is_bit(settings.raw(stored_x(d9x::kDisableC2ToC4), axis_number), static_cast<int>(source) - 1);
   if (is_stopped || (source != kCounter2 && source != kCounter4)) return std::nullopt;
   // The source of COUNTER2 is D9x23, that of COUNTER4 D9x25: the pulses, the encoder, or something else.
   const Value from =
-      settings.of(source == kCounter2 ? kept_x(d9x::kC2Source) : kept_x(d9x::kC4Source), axis_number);
+      settings.of(source == kCounter2 ? stored_x(d9x::kC2Source) : stored_x(d9x::kC4Source), axis_number);
   const bool by_pulses = from == (source == kCounter2 ? 1 : 0);
   const bool by_encoder =
-      from == (source == kCounter2 ? 0 : 1) && !settings.is_on(kept_x(d9x::kEncoderDisable), axis_number);
+      from == (source == kCounter2 ? 0 : 1) && !settings.is_on(stored_x(d9x::kEncoderDisable), axis_number);
   if (!by_pulses && !by_encoder) return std::nullopt;
   const motion::Axis& motor = chip(axis_number);
   made.count = by_encoder ? motion::Count::encoder : motion::Count::command;

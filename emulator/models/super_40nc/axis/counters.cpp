@@ -45,20 +45,20 @@ std::int64_t clock_until(Tick tick, double at_s) {
 }  // namespace
 
 std::int64_t counts_of(const Settings& settings, int axis, int counter, const Counted& counted) {
-  const bool with_backlash = is_bit(settings.raw(kept_x(d9x::kCountCorrect), axis), counter);
+  const bool with_backlash = is_bit(settings.raw(stored_x(d9x::kCountCorrect), axis), counter);
   const std::int64_t pulses = counted.pulses + (with_backlash ? counted.backlash : 0);
-  const std::int64_t encoder = settings.is_on(kept_x(d9x::kEncoderDisable), axis) ? 0 : counted.encoder;
+  const std::int64_t encoder = settings.is_on(stored_x(d9x::kEncoderDisable), axis) ? 0 : counted.encoder;
   const auto pick = [](Value source, auto... of) {
     const std::array all{of...};
     return all[static_cast<std::size_t>(source)];
   };
   switch (counter) {
-    case kCounter2: return pick(settings.of(kept_x(d9x::kC2Source), axis), encoder, pulses, counted.wheel);
+    case kCounter2: return pick(settings.of(stored_x(d9x::kC2Source), axis), encoder, pulses, counted.wheel);
     case kCounter3:
-      return pick(settings.of(kept_x(d9x::kC3Source), axis), pulses - encoder, pulses - counted.wheel,
+      return pick(settings.of(stored_x(d9x::kC3Source), axis), pulses - encoder, pulses - counted.wheel,
                   encoder - counted.wheel);
     default:
-      return pick(settings.of(kept_x(d9x::kC4Source), axis), pulses, encoder, counted.wheel, counted.clock);
+      return pick(settings.of(stored_x(d9x::kC4Source), axis), pulses, encoder, counted.wheel, counted.clock);
   }
 }
 
@@ -95,17 +95,17 @@ void Counters::add_to_counters(int axis_number, const Counted& counted) {
 
 bool Counters::counts_now(int axis_number, int which) const {
   const Settings settings = registers();
-  if (is_bit(settings.raw(kept_x(d9x::kDisableC2ToC4), axis_number), which - 1) ||
+  if (is_bit(settings.raw(stored_x(d9x::kDisableC2ToC4), axis_number), which - 1) ||
       is_held_cleared(axis_number, which)) {
     return false;
   }
   const AxisState& state = axis(axis_number);
-  return which != kCounter4 || !settings.is_on(kept_x(d9x::kC4Enable), axis_number) || state.moves() ||
+  return which != kCounter4 || !settings.is_on(stored_x(d9x::kC4Enable), axis_number) || state.moves() ||
          state.followed_pulses != 0;
 }
 
 bool Counters::counts_a_clock(int axis) const {
-  return has_clock_ && registers().of(kept_x(d9x::kC4Source), axis) == 3;
+  return has_clock_ && registers().of(stored_x(d9x::kC4Source), axis) == 3;
 }
 
 bool Counters::is_quiet(int axis_number) const {
@@ -117,13 +117,13 @@ bool Counters::is_quiet(int axis_number) const {
 }
 
 bool Counters::acts_each_tick(int axis) const {
-  return counts_a_clock(axis) || registers().of(kept_x(d9x::kLatchOfCounters), axis) >= 2;
+  return counts_a_clock(axis) || registers().of(stored_x(d9x::kLatchOfCounters), axis) >= 2;
 }
 
 void Counters::set_encoder(int axis_number, std::int64_t counts) {
   count_encoder(axis_number, counts);
   chip(axis_number)
-      .set_encoder(registers().is_on(kept_x(d9x::kEncoderDirection), axis_number) ? -counts : counts);
+      .set_encoder(registers().is_on(stored_x(d9x::kEncoderDirection), axis_number) ? -counts : counts);
 }
 
 void Counters::count_encoder(int axis_number, std::int64_t counts) {
@@ -132,7 +132,7 @@ void Counters::count_encoder(int axis_number, std::int64_t counts) {
   const std::int64_t turned = counts - state.encoder_counts;
   state.encoder_counts = counts;
   if (turned == 0 || !ground_.powered()) return;
-  const bool is_reversed = settings.is_on(kept_x(d9x::kEncoderDirection), axis_number);
+  const bool is_reversed = settings.is_on(stored_x(d9x::kEncoderDirection), axis_number);
   add_to_counters(axis_number, {.encoder = is_reversed ? -turned : turned});
 }
 
@@ -147,7 +147,7 @@ void Counters::count(int axis_number, const Counted& counted) {
   AxisState& state = axis(axis_number);
   state.backlash_seen += counted.backlash;
   const bool is_beside_travel = counted.backlash != 0;
-  if (is_beside_travel && is_bit(registers().raw(kept_x(d9x::kCountCorrect), axis_number), 0)) {
+  if (is_beside_travel && is_bit(registers().raw(stored_x(d9x::kCountCorrect), axis_number), 0)) {
     state.command.set(machine_pulses(axis_number) + counted.backlash, chip(axis_number).travel_pulses);
     parameters_.apply_axis_parameters(axis_number, 0);
   }
@@ -205,7 +205,7 @@ void Counters::count_until(int axis_number, double at_s) {
 
 void Counters::latch_by_comparator(int axis_number) {
   AxisState& state = axis(axis_number);
-  const Value by = registers().of(kept_x(d9x::kLatchOfCounters), axis_number);
+  const Value by = registers().of(stored_x(d9x::kLatchOfCounters), axis_number);
   const bool is_on = by == 2 ? comparators_.comparator_holds(axis_number, 3)
                              : by == 3 && comparators_.comparator_holds(axis_number, 4);
   const bool comes = is_on && !state.latch_was_on && state.latching == 0;
@@ -216,13 +216,13 @@ void Counters::latch_by_comparator(int axis_number) {
 void Counters::take_latch(int axis_number, std::int64_t travel, std::int64_t speed) {
   AxisState& state = axis(axis_number);
   const Settings settings = registers();
-  if (settings.is_on(kept_x(d9x::kStopLatch), axis_number)) return;
+  if (settings.is_on(stored_x(d9x::kStopLatch), axis_number)) return;
   state.latched[0] = is_held_cleared(axis_number, kCounter1) ? 0 : wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
     state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);
   }
-  if (settings.is_on(kept_x(d9x::kC3LatchSpeed), axis_number)) state.latched[2] = wrapped(speed);
-  const std::int32_t cleared = settings.raw(kept_x(d9x::kLatchResetC), axis_number);
+  if (settings.is_on(stored_x(d9x::kC3LatchSpeed), axis_number)) state.latched[2] = wrapped(speed);
+  const std::int32_t cleared = settings.raw(stored_x(d9x::kLatchResetC), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);
     parameters_.apply_axis_parameters(axis_number, 0);

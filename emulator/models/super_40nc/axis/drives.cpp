@@ -28,7 +28,7 @@ constexpr int kModeTurningBack = 0x08;
 
 double Drives::override_percent() const {
   constexpr double kMax = 100;
-  const auto percent = static_cast<double>(registers().of(kept_d(d8::kFeedPercentage)));
+  const auto percent = static_cast<double>(registers().of(stored_d(d8::kFeedPercentage)));
   return chose(option("override_range", "0_to_100")) ? std::min(percent, kMax) : percent;
 }
 
@@ -100,8 +100,8 @@ bool Drives::begin_mark(int axis_number, std::int64_t distance, std::int64_t sea
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = line_law(axis_number, static_cast<double>(settings.of(kept_x(d9x::kCreepSpeed), axis_number)),
-                         mover),
+       .creep = line_law(axis_number,
+                         static_cast<double>(settings.of(stored_x(d9x::kCreepSpeed), axis_number)), mover),
        .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
        .searches_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
        .mark_slows = chose(option("mrk_course", "stops_by_a_ramp")),

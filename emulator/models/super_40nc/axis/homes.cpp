@@ -36,9 +36,9 @@ void Homes::start_home(int axis_number, int order) {
   if (starts_.ask(axis_number, Request::home_or_zero) != Grant::starts) return;
   const Settings settings = registers();
   AxisState& state = axis(axis_number);
-  const auto rpm = [&](Kept kept) { return static_cast<double>(settings.of(kept, axis_number)); };
-  const int mode = static_cast<int>(settings.of(kept_x(d9x::kHomeMode), axis_number));
-  const int direction = settings.is_on(kept_x(d9x::kHomeDirection), axis_number) ? -1 : +1;
+  const auto rpm = [&](StoredRegister kept) { return static_cast<double>(settings.of(kept, axis_number)); };
+  const int mode = static_cast<int>(settings.of(stored_x(d9x::kHomeMode), axis_number));
+  const int direction = settings.is_on(stored_x(d9x::kHomeDirection), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
   const bool is_by_limit = motion::super40nc_homes_by_limit(mode);
@@ -50,7 +50,7 @@ void Homes::start_home(int axis_number, int order) {
   starts_.prepare(axis_number, true);
   // X25 = 0 never leads away from a DOG that is ON.
   if (!is_by_limit && has_signal(axis_number, motion::Signal::home) &&
-      settings.of(kept_x(d9x::kMoveOff), axis_number) == 0 &&
+      settings.of(stored_x(d9x::kMoveOff), axis_number) == 0 &&
       chose(option("home_leave_0", "the_search_fails"))) {
     return home_fails(axis_number);
   }
@@ -59,17 +59,17 @@ void Homes::start_home(int axis_number, int order) {
     return home_fails(axis_number);
   }
   const bool limit_stops_at_once =
-      chose(option("home_el_stop", "by_d9x01")) && !settings.is_on(kept_x(d9x::kOtStop), axis_number);
-  const motion::SpeedLaw fast = settings.law(axis_number, rpm(kept_x(d9x::kHomeSpeed)));
+      chose(option("home_el_stop", "by_d9x01")) && !settings.is_on(stored_x(d9x::kOtStop), axis_number);
+  const motion::SpeedLaw fast = settings.law(axis_number, rpm(stored_x(d9x::kHomeSpeed)));
   const motion::HomingProgram program = motion::super40nc_homing(
       {.mode = mode,
        .direction = direction,
        .fast = fast,
-       .creep = settings.law(axis_number, rpm(kept_x(d9x::kCreepSpeed))),
-       .index_count = static_cast<std::int32_t>(settings.of(kept_x(d9x::kCNumber), axis_number) + 1),
-       .leave_pulses = settings.of(kept_x(d9x::kMoveOff), axis_number),
+       .creep = settings.law(axis_number, rpm(stored_x(d9x::kCreepSpeed))),
+       .index_count = static_cast<std::int32_t>(settings.of(stored_x(d9x::kCNumber), axis_number) + 1),
+       .leave_pulses = settings.of(stored_x(d9x::kMoveOff), axis_number),
        .offset_pulses =
-           home_pulses(settings.scale(axis_number), settings.of(kept_x(d9x::kHomeOffset), axis_number)),
+           home_pulses(settings.scale(axis_number), settings.of(stored_x(d9x::kHomeOffset), axis_number)),
        .limit_stops_at_once = limit_stops_at_once,
        .leaves_fast = chose(option("home_leave_speed", "home_speed")),
        .offset_creeps = chose(option("home_offset_speed", "creep")),
@@ -100,7 +100,7 @@ void Homes::start_zero(int axis_number, int order) {
   const std::int64_t distance =
       home_pulses(settings.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
   const motion::SpeedLaw law =
-      settings.law(axis_number, static_cast<double>(settings.of(kept_x(d9x::kZeroSpeed), axis_number)));
+      settings.law(axis_number, static_cast<double>(settings.of(stored_x(d9x::kZeroSpeed), axis_number)));
   starts_.begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::zero);
   if (state.holder != Activity::zero) {
     axes_.zeroing_by_key.has_failed = axes_.zeroing_by_key.has_failed || order != 0;
@@ -124,9 +124,9 @@ void Homes::home_ended(int axis_number, bool found, Code code) {
     return;
   }
   state.homed = true;
-  if (settings.is_on(kept_x(d9x::kHomeErc), axis_number)) pins_.give_erc(axis_number);
-  const std::int32_t cleared = settings.raw(kept_x(d9x::kHomeResetC), axis_number);
-  const std::int64_t home_lu = settings.of(kept_x(d9x::kHomePosition), axis_number);
+  if (settings.is_on(stored_x(d9x::kHomeErc), axis_number)) pins_.give_erc(axis_number);
+  const std::int32_t cleared = settings.raw(stored_x(d9x::kHomeResetC), axis_number);
+  const std::int64_t home_lu = settings.of(stored_x(d9x::kHomePosition), axis_number);
   const motion::UnitScale scale = settings.scale(axis_number);
   if ((cleared & 1) != 0) {
     parameters_.set_counter(axis_number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));

@@ -26,10 +26,11 @@ constexpr int kModeNegative = 0x08;  // added for the negative direction
 
 motion::SpeedLaw Jogs::jog_law(int axis) const {
   const Settings settings = registers();
-  const std::array<Kept, 3> speeds{kept_x(d9x::kJogLow), kept_x(d9x::kJogMedium), kept_x(d9x::kJogHigh)};
+  const std::array<StoredRegister, 3> speeds{stored_x(d9x::kJogLow), stored_x(d9x::kJogMedium),
+                                             stored_x(d9x::kJogHigh)};
   const bool is_medium = chose(option("jog_selector", "always_medium"));
-  const Kept chosen =
-      is_medium ? speeds[1] : speeds[static_cast<std::size_t>(settings.of(kept_d(d8::kUserData2)))];
+  const StoredRegister chosen =
+      is_medium ? speeds[1] : speeds[static_cast<std::size_t>(settings.of(stored_d(d8::kUserData2)))];
   return settings.law(axis, static_cast<double>(settings.of(chosen, axis)));
 }
 

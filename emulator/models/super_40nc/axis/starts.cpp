@@ -52,19 +52,19 @@ void Starts::prepare(int axis_number, bool homes) {
   AxisState& state = axis(axis_number);
   motion::AxisSettings settings = parameters_.motor_settings(axis_number, homes);
   constexpr Value kSlip = 2;
-  const Value correction = parameters.of(kept_x(d9x::kCorrectMode), axis_number);
-  settings.backlash_pulses = correction != 0 ? parameters.of(kept_x(d9x::kBacklash), axis_number) : 0;
+  const Value correction = parameters.of(stored_x(d9x::kCorrectMode), axis_number);
+  settings.backlash_pulses = correction != 0 ? parameters.of(stored_x(d9x::kBacklash), axis_number) : 0;
   settings.slips = correction == kSlip;
   const bool is_first = chip(axis_number).last_direction == 0;
   if (is_first && chose(option("backlash_first_move", "as_behind_a_positive_one"))) {
     chip(axis_number).last_direction = +1;
   }
   settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
-  const auto creep_rpm = static_cast<double>(parameters.of(kept_x(d9x::kCreepSpeed), axis_number));
+  const auto creep_rpm = static_cast<double>(parameters.of(stored_x(d9x::kCreepSpeed), axis_number));
   settings.backlash_speed_pps =
       std::min(parameters.pps(axis_number, creep_rpm), parameters.top_pps(axis_number));
   chip(axis_number).set(settings);
-  state.masked = parameters.is_on(kept_x(d9x::kPulseMask), axis_number);
+  state.masked = parameters.is_on(stored_x(d9x::kPulseMask), axis_number);
   // Signals that have come in this tick count; the DOG's edge is left for the latch.
   motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
@@ -73,7 +73,7 @@ void Starts::prepare(int axis_number, bool homes) {
   // A host may have written the high half alone, as the manual's wrong example does: the low half counts.
   const bool is_whole = chose(option("motor_direction", "whole_value"));
   const std::int32_t direction =
-      parameters.raw(kept_x(d9x::kPulseMode), axis_number) & (is_whole ? -1 : 0xFFFF);
+      parameters.raw(stored_x(d9x::kPulseMode), axis_number) & (is_whole ? -1 : 0xFFFF);
   const bool inverted = direction == 3 || direction == 6;
   if (inverted != chip(axis_number).inverted) {
     chip(axis_number).inverted = inverted;
@@ -129,7 +129,7 @@ void Starts::mirror_start(int axis_number, int mode, std::int64_t distance_pulse
     return in_32_bits(std::clamp(std::round(step * kClock / (4 * ramp.acceleration_u_s2)) - 1, 1.0, 65535.0));
   };
   const double creep_pps =
-      settings.pps(axis_number, static_cast<double>(settings.of(kept_x(d9x::kCreepSpeed), axis_number)));
+      settings.pps(axis_number, static_cast<double>(settings.of(stored_x(d9x::kCreepSpeed), axis_number)));
   struct Shown {
     int offset;  // from PRCMD
     std::int32_t value;
@@ -144,11 +144,11 @@ void Starts::mirror_start(int axis_number, int mode, std::int64_t distance_pulse
                          {7, 0},
                          {8, mode},
                          {9, 0},
-                         {10, settings.raw(kept_x(d9x::kSAcceleration), axis_number)},
-                         {11, settings.raw(kept_x(d9x::kSDeceleration), axis_number)}};
-  static constexpr Kept kFirst = kept_d(d8x::kPrcmd);
-  static constexpr Kept kFirstWorking = kept_d(d8x::kRmv);  // RMV; the other registers follow
-  const auto show = [&](Kept first, int offset, std::int32_t value) {
+                         {10, settings.raw(stored_x(d9x::kSAcceleration), axis_number)},
+                         {11, settings.raw(stored_x(d9x::kSDeceleration), axis_number)}};
+  static constexpr StoredRegister kFirst = stored_d(d8x::kPrcmd);
+  static constexpr StoredRegister kFirstWorking = stored_d(d8x::kRmv);  // RMV; the other registers follow
+  const auto show = [&](StoredRegister first, int offset, std::int32_t value) {
     const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + axis_number);
     ground_.state().image[slot] = static_cast<std::uint32_t>(value);
   };
@@ -156,10 +156,10 @@ void Starts::mirror_start(int axis_number, int mode, std::int64_t distance_pulse
     show(kFirst, each.offset, each.value);
     if (each.offset > 0) show(kFirstWorking, each.offset - 1, each.value);
   }
-  show(kept_d(d8x::kRfa), 0, in_32_bits(creep_pps / step));
-  show(kept_d(d8x::kPrci), 0, 0);
-  show(kept_d(d8x::kRcmp5), 0, settings.raw(kept_d(d8x::kPrcmp5), axis_number));
-  show(kept_d(d8x::kRci), 0, 0);
+  show(stored_d(d8x::kRfa), 0, in_32_bits(creep_pps / step));
+  show(stored_d(d8x::kPrci), 0, 0);
+  show(stored_d(d8x::kRcmp5), 0, settings.raw(stored_d(d8x::kPrcmp5), axis_number));
+  show(stored_d(d8x::kRci), 0, 0);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -67,7 +67,7 @@ void TickEdges::latch(const motion::SharedTick& tick, int axis_number) {
 void TickEdges::at_edge(motion::SharedTick& tick, std::size_t number, motion::Events events) {
   const int axis_number = static_cast<int>(number);
   constexpr Value kDog = 1;
-  const motion::Events latches = registers().of(kept_x(d9x::kLatchOfCounters), axis_number) == kDog
+  const motion::Events latches = registers().of(stored_x(d9x::kLatchOfCounters), axis_number) == kDog
                                      ? motion::bit(motion::Event::mark_on)
                                      : axis(axis_number).latching;
   if ((events & latches) == 0) return;
@@ -128,7 +128,7 @@ std::int64_t TickEdges::number(const Question& of, const Sample& sample) const {
   const motion::Axis& motor = chip(of.axis);
   switch (of.source) {
     case kCounter1: {
-      const bool with_backlash = is_bit(settings.raw(kept_x(d9x::kCountCorrect), of.axis), 0);
+      const bool with_backlash = is_bit(settings.raw(stored_x(d9x::kCountCorrect), of.axis), 0);
       return state.command.at(sample.place.travel_pulses) + (with_backlash ? sample.since.backlash : 0);
     }
     case kRemaining: {
@@ -187,10 +187,10 @@ std::optional<double> TickEdges::first_speed(motion::SharedTick& tick, const Que
     if (at_s <= begin.at_s || at_s > to.at_s) continue;
     const Sample end = is_last ? to : sample(tick, of, at_s);
     if (is_answered(of, begin.number, end.number)) {
-      const auto is_there = [&](double between_s) {
+      const auto is_present = [&](double between_s) {
         return is_answered(of, begin.number, sample(tick, of, between_s).number);
       };
-      return motion::turnover(begin.at_s, end.at_s, is_there).after;
+      return motion::turnover(begin.at_s, end.at_s, is_present).after;
     }
     begin = end;
   }
@@ -227,10 +227,10 @@ std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, C
   }
   if (place == begin) return from_s;
   if (end >= begin ? end < place : end > place) return std::nullopt;
-  const auto is_there = [&](double at_s) {
+  const auto is_present = [&](double at_s) {
     return end >= begin ? travel_at(at_s) >= place : travel_at(at_s) <= place;
   };
-  return motion::turnover(from_s, to_s, is_there).after;
+  return motion::turnover(from_s, to_s, is_present).after;
 }
 
 std::optional<motion::Instant> TickEdges::next_moment(motion::SharedTick& tick,

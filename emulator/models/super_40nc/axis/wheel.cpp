@@ -23,19 +23,19 @@ namespace understudy::emulator::models::super_40nc {
 
 std::int64_t Wheel::wheel_lu_per_count(int axis_number) const {
   const Settings settings = registers();
-  if (settings.is_on(kept_x(d9x::kMpgDisable), axis_number)) return 0;
+  if (settings.is_on(stored_x(d9x::kMpgDisable), axis_number)) return 0;
   switch (axis(axis_number).wheel) {
     case WheelSource::none: return 0;
     case WheelSource::mpg_line: return axis(axis_number).wheel_lu;
-    case WheelSource::contact_1: return settings.of(kept_x(d9x::kMpg1Rate), axis_number);
-    case WheelSource::contact_10: return settings.of(kept_x(d9x::kMpg10Rate), axis_number);
-    case WheelSource::contact_100: return settings.of(kept_x(d9x::kMpg100Rate), axis_number);
+    case WheelSource::contact_1: return settings.of(stored_x(d9x::kMpg1Rate), axis_number);
+    case WheelSource::contact_10: return settings.of(stored_x(d9x::kMpg10Rate), axis_number);
+    case WheelSource::contact_100: return settings.of(stored_x(d9x::kMpg100Rate), axis_number);
     case WheelSource::selector: break;
   }
-  switch (settings.raw(kept_d(d8::kUserData1))) {
-    case 0: return settings.of(kept_x(d9x::kMpg1Rate), axis_number);
-    case 1: return settings.of(kept_x(d9x::kMpg10Rate), axis_number);
-    case 2: return settings.of(kept_x(d9x::kMpg100Rate), axis_number);
+  switch (settings.raw(stored_d(d8::kUserData1))) {
+    case 0: return settings.of(stored_x(d9x::kMpg1Rate), axis_number);
+    case 1: return settings.of(stored_x(d9x::kMpg10Rate), axis_number);
+    case 2: return settings.of(stored_x(d9x::kMpg100Rate), axis_number);
     default: return 0;
   }
 }
@@ -45,7 +45,7 @@ void Wheel::follow_ratio(int axis) {
   motion::Follower& follower = chip(axis).follower;
   const Settings settings = registers();
   const motion::UnitScale scale = settings.scale(axis);
-  const int sense = settings.is_on(kept_x(d9x::kMpgDirection), axis) ? -1 : +1;
+  const int sense = settings.is_on(stored_x(d9x::kMpgDirection), axis) ? -1 : +1;
   constexpr std::int64_t kMax = INT32_MAX;
   follower.numerator =
       std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMax, kMax) * sense;
@@ -84,7 +84,7 @@ void Wheel::feed_wheel(std::int32_t edges) {
     follow_ratio(number);
     static constexpr std::array<std::int32_t, 4> kEdgesOfACount{4, 2, 1, 1};
     const bool is_decoded = chose(option("wheel_input", "counts"));
-    const auto decoding = static_cast<std::size_t>(registers().of(kept_x(d9x::kMpgMode), number));
+    const auto decoding = static_cast<std::size_t>(registers().of(stored_x(d9x::kMpgMode), number));
     const std::int32_t each = is_decoded ? 1 : kEdgesOfACount[decoding];
     const std::int64_t sum = std::int64_t{state.wheel_edges} + edges;
     const std::int64_t counts = (sum - ((sum % each) + each) % each) / each;

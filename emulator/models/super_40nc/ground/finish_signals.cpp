@@ -15,19 +15,19 @@ namespace {
 
 /// The time of each signal; its output is Y of the same number.
 struct FinishSignal {
-  Kept time;
+  StoredRegister time;
   int axis = 0;
 };
-constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_x(d9x::kFinishSignalTime), 0},
-                                                           {kept_x(d9x::kFinishSignalTime), 1},
-                                                           {kept_x(d9x::kFinishSignalTime), 2},
-                                                           {kept_x(d9x::kFinishSignalTime), 3},
-                                                           {kept_x(d9x::kEndSignalTime), 0},
-                                                           {kept_x(d9x::kEndSignalTime), 1},
-                                                           {kept_x(d9x::kEndSignalTime), 2},
-                                                           {kept_x(d9x::kEndSignalTime), 3},
-                                                           {kept_d(d9::kFinishSignalTime), 0},
-                                                           {kept_d(d9::kEndSignalTime), 0}}};
+constexpr std::array<FinishSignal, kSignalCount> kSignals{{{stored_x(d9x::kFinishSignalTime), 0},
+                                                           {stored_x(d9x::kFinishSignalTime), 1},
+                                                           {stored_x(d9x::kFinishSignalTime), 2},
+                                                           {stored_x(d9x::kFinishSignalTime), 3},
+                                                           {stored_x(d9x::kEndSignalTime), 0},
+                                                           {stored_x(d9x::kEndSignalTime), 1},
+                                                           {stored_x(d9x::kEndSignalTime), 2},
+                                                           {stored_x(d9x::kEndSignalTime), 3},
+                                                           {stored_d(d9::kFinishSignalTime), 0},
+                                                           {stored_d(d9::kEndSignalTime), 0}}};
 
 }  // namespace
 

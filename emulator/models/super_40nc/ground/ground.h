@@ -88,7 +88,7 @@ class Ground {
   // --- registers and contacts
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
   /// Writes a register without its effect, as the device itself does.
-  void put(Kept kept, std::int32_t value, int axis = 0);
+  void put(StoredRegister kept, std::int32_t value, int axis = 0);
   /// Keeps the image's value in memory, if it is retentive.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
   bool contact(int number) const { return state_.image[relay_slot(number)] != 0; }

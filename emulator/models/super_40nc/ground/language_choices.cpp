@@ -79,7 +79,7 @@ constexpr LanguageChoice kLanguageChoices[] = {
     {option("plc_moves_axes_of_c", "never"),
      [](Options& made) { made.plc_moves = Options::PlcMoves::only_others; }},
     {option("missing_label", "refused_at_load"), [](Options& made) { made.labels_must_exist = true; }},
-    {option("kept_timers", "keep_their_value"), [](Options& made) { made.kept_timers_hold = true; }},
+    {option("kept_timers", "keep_their_value"), [](Options& made) { made.retentive_timers_hold = true; }},
     {option("timer_first_scan", "counts"), [](Options& made) { made.timers_count_at_once = true; }},
     {option("run_contact_edges", "those_that_are_on_rise"),
      [](Options& made) { made.contacts_rise_at_run = true; }},

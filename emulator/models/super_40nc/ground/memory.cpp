@@ -68,15 +68,15 @@ bool Ground::keeps(const RegisterRow& row) const {
 
 Eeprom Ground::factory_memory() const {
   std::array<std::uint32_t, kSlotCount> factory{};
-  std::array<bool, kSlotCount> is_kept{};
-  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+  std::array<bool, kSlotCount> is_persistent{};
+  for_each_slot([&](std::size_t slot, const RegisterRow& row) {
     factory[slot] = factory_bits(row);
-    is_kept[slot] = keeps(row);
+    is_persistent[slot] = keeps(row);
   });
-  return Eeprom(factory, is_kept, is_kept);
+  return Eeprom(factory, is_persistent, is_persistent);
 }
 
-void Ground::put(Kept kept, std::int32_t value, int axis) {
+void Ground::put(StoredRegister kept, std::int32_t value, int axis) {
   const std::size_t slot = kept.slot + static_cast<std::size_t>(axis);
   state_.image[slot] = static_cast<std::uint32_t>(value);
   keep_slot(slot);
@@ -95,16 +95,16 @@ void Ground::take_parameters() {
 /// Puts X14 and C0 into effect as they are at power-up.
 void Ground::take_power_up_parameters() {
   const Settings settings = registers();
-  state_.logo_ms = static_cast<std::int32_t>(settings.of(kept_d(d9::kLogoTime)));
+  state_.logo_ms = static_cast<std::int32_t>(settings.of(stored_d(d9::kLogoTime)));
   for (int number = 0; number < kAxisCount; ++number) {
     state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
-        static_cast<std::int32_t>(settings.of(kept_x(d9x::kDefaultSpeed), number));
+        static_cast<std::int32_t>(settings.of(stored_x(d9x::kDefaultSpeed), number));
   }
 }
 
 void Ground::load_image() {
-  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
-    state_.image[slot] = keeps(row) ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
+  for_each_slot([&](std::size_t slot, const RegisterRow& row) {
+    state_.image[slot] = keeps(row) ? state_.eeprom.content()[slot] : static_cast<std::uint32_t>(row.factory);
   });
 }
 

@@ -28,7 +28,7 @@ constexpr WheelSource kWheelSources[] = {WheelSource::contact_1, WheelSource::co
 }  // namespace
 
 /// Starts the axes of one order together, and the next order when all of them have finished.
-void HandMoves::follow_order(OrderKey& key, Activity holder, Kept order_of_axis,
+void HandMoves::follow_order(OrderKey& key, Activity holder, StoredRegister order_of_axis,
                              void (Homes::*start)(int, int)) {
   const auto is_under_way = [&](const AxisState& state) {
     return state.holder == holder && state.order != 0;
@@ -65,8 +65,8 @@ void HandMoves::apply_order_keys() {
   if (is_home_key && !axes_.homing_by_key.runs && !keys_.is_locked(as_home))
     axes_.homing_by_key = {.runs = true};
   press(axes_.zeroing_by_key, KeyDoes::zero_by_order);
-  follow_order(axes_.homing_by_key, Activity::home, kept_x(d9x::kHomeSequence), &Homes::start_home);
-  follow_order(axes_.zeroing_by_key, Activity::zero, kept_x(d9x::kZeroSequence), &Homes::start_zero);
+  follow_order(axes_.homing_by_key, Activity::home, stored_x(d9x::kHomeSequence), &Homes::start_home);
+  follow_order(axes_.zeroing_by_key, Activity::zero, stored_x(d9x::kZeroSequence), &Homes::start_zero);
 }
 
 void HandMoves::apply_jogs(int axis) {
@@ -92,7 +92,7 @@ void HandMoves::apply_wheel() {
   }
   if (!state_.wheel_selected) return;
   state_.wheel_selected = false;
-  const std::int32_t selected = registers().raw(kept_d(d8::kUserCommand)) - 1;
+  const std::int32_t selected = registers().raw(stored_d(d8::kUserCommand)) - 1;
   for (int number = 0; number < kAxisCount; ++number) {
     const bool is_left = number != selected && axis(number).wheel == WheelSource::selector;
     if (is_left) moves_.handle(number, ManualEvent::contact_off);

@@ -21,7 +21,8 @@ class HandMoves : protected Chips {
 
  private:
   void apply_order_keys();
-  void follow_order(OrderKey& key, Activity holder, Kept order_of_axis, void (Homes::*start)(int, int));
+  void follow_order(OrderKey& key, Activity holder, StoredRegister order_of_axis,
+                    void (Homes::*start)(int, int));
   void apply_jogs(int axis);
   void apply_wheel();
 

@@ -32,14 +32,14 @@ int jog_contact(int axis, int direction) {
 bool PressedKeys::is_wheel_locked(int axis) const {
   constexpr int kWheelDigit = 1;
   return chose(option("lock_scope", "keys_and_d8020")) &&
-         has_digit(registers().raw(kept_x(d9x::kKeyLock), axis), kAxisLockDigits, kWheelDigit);
+         has_digit(registers().raw(stored_x(d9x::kKeyLock), axis), kAxisLockDigits, kWheelDigit);
 }
 
 bool PressedKeys::is_locked(const Key& key) const {
   if (chose(option("lock_scope", "nothing"))) return false;
   const Settings settings = registers();
-  return key.axis < 0 ? has_digit(settings.raw(kept_d(d9::kKeyLock)), kMainLockDigits, key.lock)
-                      : has_digit(settings.raw(kept_x(d9x::kKeyLock), key.axis), kAxisLockDigits, key.lock);
+  return key.axis < 0 ? has_digit(settings.raw(stored_d(d9::kKeyLock)), kMainLockDigits, key.lock)
+                      : has_digit(settings.raw(stored_x(d9x::kKeyLock), key.axis), kAxisLockDigits, key.lock);
 }
 
 /// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
@@ -47,7 +47,7 @@ bool PressedKeys::is_locked(const Key& key) const {
 void PressedKeys::read_jog_keys() {
   const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
-    const int sense = registers().is_on(kept_x(d9x::kJogDirection), number) ? -1 : +1;
+    const int sense = registers().is_on(stored_x(d9x::kJogDirection), number) ? -1 : +1;
     auto& driven = axis(number).jog_keys;
     for (std::size_t i = 0; i < driven.size(); ++i) {
       const int direction = i == 0 ? +1 : -1;
@@ -92,7 +92,7 @@ void PressedKeys::read_keys() {
       case KeyDoes::set_zero:
         if (key.contact == kOriginKey && is_origin_the_home_key()) break;
         for (int number = 0; number < kAxisCount; ++number) {
-          if (registers().raw(kept_x(d9x::kZeroSetEnable), number) == enabled)
+          if (registers().raw(stored_x(d9x::kZeroSetEnable), number) == enabled)
             press(of_axis(m8x::kZeroSet, number));
         }
         break;

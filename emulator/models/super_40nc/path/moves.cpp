@@ -80,7 +80,7 @@ void Moves::break_program(Mover mover, int but_for) {
         state.holder == Activity::wheel) {
       continue;
     }
-    const bool ramp = registers().is_on(kept_x(d9x::kOtStop), number) && state.holder != Activity::rest;
+    const bool ramp = registers().is_on(stored_x(d9x::kOtStop), number) && state.holder != Activity::rest;
     state.is_held = state.awaited = state.shows_finish = false;
     if (ramp) {
       chip(number).slow_down(now());

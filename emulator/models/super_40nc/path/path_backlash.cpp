@@ -109,9 +109,9 @@ void PathBacklash::step_arc_backlash(const std::array<std::int8_t, kAxisCount>& 
     motion::Axis& motor = chip(number);
     const std::int8_t direction = motor.last_direction;
     const bool turns = is_on_path(number) && ways_before[n] != 0 && direction != ways_before[n];
-    if (turns && settings.of(kept_x(d9x::kCorrectMode), number) == kBacklash) {
+    if (turns && settings.of(stored_x(d9x::kCorrectMode), number) == kBacklash) {
       state.arc_backlash =
-          direction * (settings.of(kept_x(d9x::kBacklash), number) - std::abs(state.arc_backlash));
+          direction * (settings.of(stored_x(d9x::kBacklash), number) - std::abs(state.arc_backlash));
       state.arc_backlash_part = 0;
     }
     if (state.arc_backlash == 0) continue;

@@ -48,7 +48,7 @@ double Paths::feed_scale(const motion::Path& path) const {
   static constexpr std::array<double, 4> kUnits{0.001, 0.01, 0.1, 1};
   const bool goes_by_decimals = chose(option("feed_unit", "0_001_mm_by_the_decimals_of_x"));
   const double unit =
-      goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(kept_x(d9x::kDotPosition)))] : 1.0;
+      goes_by_decimals ? kUnits[static_cast<std::size_t>(registers().of(stored_x(d9x::kDotPosition)))] : 1.0;
   const motion::Point travel = path.end - path.begin;
   const double of_xyz = travel.head<3>().norm();
   const bool carries_u = travel[3] != 0 && of_xyz > 0 && chose(option("vector_feed", "u_is_carried_along"));
@@ -86,7 +86,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
   double longest = 0;  // the most pulses of an axis per LU of the path
-  const auto number_of = [&](Kept kept) { return static_cast<double>(settings.of(kept)); };
+  const auto number_of = [&](StoredRegister kept) { return static_cast<double>(settings.of(kept)); };
   const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;
   const motion::Point direction = motion::greatest_direction(plan.path);
@@ -100,7 +100,7 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
     max[number] = settings.top_pps(number) / ppu;
     const double share = direction[number];
     if (share <= 0) continue;
-    const double slope_lu_s = settings.pps(number, number_of(kept_d(d9::kTargetSpeed))) / ppu;
+    const double slope_lu_s = settings.pps(number, number_of(stored_d(d9::kTargetSpeed))) / ppu;
     if (!goes_by_longest) target_lu_s = std::min(target_lu_s, slope_lu_s);
     if (goes_by_longest && share * ppu > longest) target_lu_s = slope_lu_s;
     longest = std::max(longest, share * ppu);
@@ -113,10 +113,11 @@ motion::SpeedLaw Paths::prepare_axes(const PathPlan& plan, motion::Coordinated& 
   state_.path_limit_lu_s = motion::speed_within(plan.path, max);
   const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
-  return law_by(
-      0, top, target_lu_s, number_of(kept_d(d9::kAccelerationTime)),
-      settings.down_ms(number_of(kept_d(d9::kDecelerationTime)), number_of(kept_d(d9::kAccelerationTime))),
-      number_of(kept_d(d9::kSAcceleration)) * step_lu_s, number_of(kept_d(d9::kSDeceleration)) * step_lu_s);
+  return law_by(0, top, target_lu_s, number_of(stored_d(d9::kAccelerationTime)),
+                settings.down_ms(number_of(stored_d(d9::kDecelerationTime)),
+                                 number_of(stored_d(d9::kAccelerationTime))),
+                number_of(stored_d(d9::kSAcceleration)) * step_lu_s,
+                number_of(stored_d(d9::kSDeceleration)) * step_lu_s);
 }
 
 /// Returns true if a limit or an alarm forbids the path to one of its axes.
@@ -153,7 +154,7 @@ void Paths::take_axis(int number, const PathPlan& plan, const motion::Coordinate
 
 bool Paths::begin_path(const PathPlan& plan) {
   const bool takes_default = plan.feed_lu_per_s <= 0 && chose(option("feed_not_positive", "default_feed"));
-  state_.path_feed_lu_s = takes_default ? registers().raw(kept_d(d9::kSystemSpeed)) : plan.feed_lu_per_s;
+  state_.path_feed_lu_s = takes_default ? registers().raw(stored_d(d9::kSystemSpeed)) : plan.feed_lu_per_s;
   state_.path_feed_scale = feed_scale(plan.path);
   motion::Coordinated path;
   const motion::SpeedLaw law = prepare_axes(plan, path);
@@ -174,7 +175,7 @@ bool Paths::begin_path(const PathPlan& plan) {
 
 bool Paths::joins_paths() const {
   return ground_.language_options().joins_paths && axes_.path.engaged &&
-         registers().is_on(kept_d(d9::kContinuousPath));
+         registers().is_on(stored_d(d9::kContinuousPath));
 }
 
 bool Paths::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {

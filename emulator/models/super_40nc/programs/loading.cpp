@@ -66,7 +66,7 @@ void Programs::make_programs_ready() {
 }
 
 void Programs::load_program(std::string_view text) {
-  if (ground_.powered() && registers().is_on(kept_d(d9::kEditLock)) &&
+  if (ground_.powered() && registers().is_on(stored_d(d9::kEditLock)) &&
       chose(option("edit_lock", "d9021_refuses_programs"))) {
     throw ProgramError(0, 0, "D9021 (C15) locks programs; expected it to be 0");
   }
@@ -110,18 +110,18 @@ void Programs::give_up_program(language::Area area) {
 
 void Programs::change_file(std::int32_t number) {
   if (chose(option("file_number_range", "nearest_one"))) {
-    number = std::clamp(number, 0, std::max(registers().raw(kept_d(d9::kFileCount)) - 1, 0));
-    ground_.put(kept_d(d9::kFileNumber), number);
+    number = std::clamp(number, 0, std::max(registers().raw(stored_d(d9::kFileCount)) - 1, 0));
+    ground_.put(stored_d(d9::kFileNumber), number);
   }
-  if (number < 0 || number >= registers().raw(kept_d(d9::kFileCount))) {
-    ground_.put(kept_d(d9::kFileNumber), state_.file);
+  if (number < 0 || number >= registers().raw(stored_d(d9::kFileCount))) {
+    ground_.put(stored_d(d9::kFileNumber), state_.file);
     report(Code::no_such_file);
     return;
   }
   if (number == state_.file) return;
   const bool c_runs = state_.steps.programs[0].phase != language::Phase::idle;
   if (c_runs && chose(option("file_change_running", "refused"))) {
-    ground_.put(kept_d(d9::kFileNumber), state_.file);
+    ground_.put(stored_d(d9::kFileNumber), state_.file);
     report(Code::no_such_file);
     return;
   }
@@ -144,17 +144,17 @@ void Programs::restored() {
 
 void Programs::take_user_command(std::int32_t number) {
   if (number < kFirstCommand || !chose(option("user_table", "on"))) return;
-  ground_.put(kept_d(d8::kUserCommand), 0);
+  ground_.put(stored_d(d8::kUserCommand), 0);
   if (state_.steps.programs[0].phase != language::Phase::idle) return report(Code::axis_taken);
   const bool is_table = number == kFirstCommand;
   const auto image = std::span<const std::uint32_t>(ground_.state().image);
   std::vector<std::uint32_t> words;
   if (is_table) {
     const auto lines =
-        image.subspan(kept_at(Table::holding, kFirstUserAddress).slot, kTableLines * kWordsOfATableLine);
+        image.subspan(stored_at(Table::holding, kFirstUserAddress).slot, kTableLines * kWordsOfATableLine);
     words.assign(lines.begin(), lines.end());
   } else {
-    const auto data = image.subspan(kept_d(d8::kUserData1).slot, kWordsOfATableLine - 1);
+    const auto data = image.subspan(stored_d(d8::kUserData1).slot, kWordsOfATableLine - 1);
     words.push_back(static_cast<std::uint32_t>(number - kFirstCommand));
     words.insert(words.end(), data.begin(), data.end());
   }
@@ -163,16 +163,16 @@ void Programs::take_user_command(std::int32_t number) {
   put_table_in_place();
   const language::StepState before = state_.steps.programs[0];
   const Settings settings = registers();
-  const std::int32_t feed = settings.raw(kept_d(d8::kFeed));
-  const std::int32_t plane = settings.raw(kept_d(d8::kPlane));
+  const std::int32_t feed = settings.raw(stored_d(d8::kFeed));
+  const std::int32_t plane = settings.raw(stored_d(d8::kPlane));
   handle(language::Event::start, language::Area::c);
   if (!is_table && before.has_modes) {  // F and RPM apply to later commands
     language::StepState& program = state_.steps.programs[0];
     program.targets = before.targets;
     program.rpm = before.rpm;
     program.waits_for_drive = before.waits_for_drive;
-    ground_.put(kept_d(d8::kFeed), feed);
-    ground_.put(kept_d(d8::kPlane), plane);
+    ground_.put(stored_d(d8::kFeed), feed);
+    ground_.put(stored_d(d8::kPlane), plane);
   }
   ground_.touch();
   leave_table();  // if it did not start

@@ -65,7 +65,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
   const bool swaps = chose(option("x52_scope", "pjg_and_mjg_as_well"));
   for (int axis = 0; axis < kAxisCount; ++axis) {
     AxisState& state = state_of(axis);
-    const bool is_swapped = swaps && registers().is_on(kept_x(d9x::kJogDirection), axis);
+    const bool is_swapped = swaps && registers().is_on(stored_x(d9x::kJogDirection), axis);
     const bool positive = ((is_swapped ? jogs.negative : jogs.positive) >> axis & 1) != 0;
     const bool negative = ((is_swapped ? jogs.positive : jogs.negative) >> axis & 1) != 0;
     const int running = state.asked_by_plc ? chip(axis).last_direction : 0;

@@ -49,8 +49,8 @@ void Programs::plc_to_stop() {
 /// Clears values and contacts of timers that are not latched.
 void Programs::clear_timers() {
   for (int i = 0; i < kTimers; ++i) {
-    ground_.put({.slot = kept_at(Table::coil, kFirstTimerContact).slot + static_cast<std::size_t>(i)}, 0);
-    ground_.put({.slot = kept_at(Table::holding, kFirstTimerValue).slot + static_cast<std::size_t>(i)}, 0);
+    ground_.put({.slot = stored_at(Table::coil, kFirstTimerContact).slot + static_cast<std::size_t>(i)}, 0);
+    ground_.put({.slot = stored_at(Table::holding, kFirstTimerValue).slot + static_cast<std::size_t>(i)}, 0);
   }
 }
 

@@ -30,7 +30,7 @@ using language::Begun;
 
 namespace {
 
-constexpr std::uint32_t cell_of_slot(Kept kept) { return static_cast<std::uint32_t>(kept.slot); }
+constexpr std::uint32_t cell_of_slot(StoredRegister kept) { return static_cast<std::uint32_t>(kept.slot); }
 
 Mover mover_of(Area area) { return static_cast<Mover>(area); }
 
@@ -42,23 +42,23 @@ language::CellLayout ProgramMachine::layout() const {
   return {.x = cell_of_slot(kFirstX),
           .y = cell_of_slot(kFirstY),
           .m = cell_of_slot(kFirstM),
-          .t = cell_of_slot(kept_at(Table::coil, kFirstTimerContact)),
-          .c = cell_of_slot(kept_at(Table::coil, kFirstCounterContact)),
-          .t_value = cell_of_slot(kept_at(Table::holding, kFirstTimerValue)),
-          .c_value = cell_of_slot(kept_at(Table::holding, kFirstCounterValue)),
+          .t = cell_of_slot(stored_at(Table::coil, kFirstTimerContact)),
+          .c = cell_of_slot(stored_at(Table::coil, kFirstCounterContact)),
+          .t_value = cell_of_slot(stored_at(Table::holding, kFirstTimerValue)),
+          .c_value = cell_of_slot(stored_at(Table::holding, kFirstCounterValue)),
           .d = cell_of_slot(kFirstD)};
 }
 
-void ProgramMachine::kept_cell_written(std::uint32_t cell) { ground_.keep_slot(cell); }
+void ProgramMachine::retentive_cell_written(std::uint32_t cell) { ground_.keep_slot(cell); }
 
 bool ProgramMachine::special_contact(int number) const {
-  if (const std::size_t slot = relay_slot(number); slot != kNotKept) return ground_.state().image[slot] != 0;
+  if (const std::size_t slot = relay_slot(number); slot != kNoSlot) return ground_.state().image[slot] != 0;
   return read_value(controls_.bank, controls_.bank.at(Table::coil, relay_address(number))) != 0;
 }
 
 bool ProgramMachine::set_special_contact(int number, bool on) {
   const std::size_t slot = relay_slot(number);
-  if (slot == kNotKept || special_contact(number) == on) return false;
+  if (slot == kNoSlot || special_contact(number) == on) return false;
   if (kIsUnlisted[slot] && !ground_.keeps_unlisted()) return false;
   ground_.set_contact(number, on);
   ground_.state().contacts.overwrite(number);

@@ -29,7 +29,7 @@ class ProgramMachine final : public language::Machine, protected Chips {
 
   language::CellLayout layout() const override;
   std::span<std::uint32_t> cells() override { return ground_.state().image; }
-  void kept_cell_written(std::uint32_t cell) override;
+  void retentive_cell_written(std::uint32_t cell) override;
   bool special_contact(int number) const override;
   bool set_special_contact(int number, bool on) override;
   std::int32_t special_register(int number) const override;

@@ -147,7 +147,8 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
 
 /// Returns the turn in a plane, which C24 to C26 swap. Seen from the third axis, Z comes before X.
 motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
-  const std::array<Kept, 3> swaps{kept_d(d9::kSwapXy), kept_d(d9::kSwapXz), kept_d(d9::kSwapYz)};
+  const std::array<StoredRegister, 3> swaps{stored_d(d9::kSwapXy), stored_d(d9::kSwapXz),
+                                            stored_d(d9::kSwapYz)};
   const bool is_seen_from_behind =
       plane == language::Plane::xz && chose(option("arc_axes", "seen_from_the_third_axis"));
   const bool is_swapped_by_parameter = !chose(option("plane_swap_registers", "none")) &&

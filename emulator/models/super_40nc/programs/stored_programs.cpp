@@ -52,8 +52,9 @@ std::vector<ProgramMistake> mistakes_of(const language::Checked& checked) {
 
 void StoredPrograms::show_line_counts() {
   if (!shows_line_counts()) return;
-  const Kept shown[] = {kept_d(d9::kLinesOfC), kept_d(d9::kLinesOfX), kept_d(d9::kLinesOfY),
-                        kept_d(d9::kLinesOfZ), kept_d(d9::kLinesOfU), kept_d(d9::kLinesOfPlc)};
+  const StoredRegister shown[] = {stored_d(d9::kLinesOfC), stored_d(d9::kLinesOfX),
+                                  stored_d(d9::kLinesOfY), stored_d(d9::kLinesOfZ),
+                                  stored_d(d9::kLinesOfU), stored_d(d9::kLinesOfPlc)};
   for (const language::AreaRow& row : language::kAreas) {
     const auto program = area(kPrograms, row.name, row.area);
     std::int32_t count = 0;
@@ -67,7 +68,8 @@ void StoredPrograms::show_line_counts() {
 /// Returns the options with the capacity of C and of each file.
 language::Options StoredPrograms::options_with_room() const {
   language::Options options = options_;
-  if (registers().raw(kept_d(d9::kLinesOfAFile)) > 0) options.c_capacity = room_of_c();  // 0 before power-up
+  if (registers().raw(stored_d(d9::kLinesOfAFile)) > 0)
+    options.c_capacity = room_of_c();  // 0 before power-up
   return options;
 }
 
@@ -209,7 +211,7 @@ int StoredPrograms::first_of_recipe() const {
 void StoredPrograms::take_recipe(std::int32_t number) {
   const int first = first_of_recipe();
   const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
-  const std::size_t slot = kept_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
+  const std::size_t slot = stored_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
   const SharedText* const stored = state_.blocks.find(kRecipes, recipe_name(number));
   std::array<std::uint32_t, kRecipeRegisters> fresh{};
   if (stored != nullptr) read_recipe(stored->text(), fresh, first);
@@ -229,14 +231,14 @@ void StoredPrograms::read_files_again() {
 
 void StoredPrograms::change_recipe(std::int32_t number) {
   if (number < 0 || number >= kRecipeCount) {
-    ground_.put(kept_d(d9::kRecipeNumber), state_.recipe);
+    ground_.put(stored_d(d9::kRecipeNumber), state_.recipe);
     report(Code::no_such_file);
     return;
   }
   if (number == state_.recipe) return;
   const int first = first_of_recipe();
   const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
-  const std::size_t slot = kept_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
+  const std::size_t slot = stored_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
   const std::string text = recipe_text(std::span(ground_.state().image).subspan(slot, count), first);
   if (text.empty()) {
     state_.blocks.erase(kRecipes, recipe_name(state_.recipe));
@@ -250,21 +252,21 @@ void StoredPrograms::change_recipe(std::int32_t number) {
 
 void StoredPrograms::show_capacities() {
   constexpr std::int32_t kAllSteps = 30000;
-  const auto lines = static_cast<std::int32_t>(registers().of(kept_d(d9::kLinesOfAFile)));
+  const auto lines = static_cast<std::int32_t>(registers().of(stored_d(d9::kLinesOfAFile)));
   constexpr std::int32_t kLinesOfAPage = 256;
   if (chose(option("flash_pages", "lines_by_256"))) {
-    ground_.put(kept_d(d9::kPagesOfAFile), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
+    ground_.put(stored_d(d9::kPagesOfAFile), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
   }
   if (chose(option("file_layout", "always_20_files"))) return;
-  if (!shows_line_counts()) ground_.put(kept_d(d9::kLinesOfC), room_of_c());
-  ground_.put(kept_d(d9::kFileCount), kAllSteps / lines);
+  if (!shows_line_counts()) ground_.put(stored_d(d9::kLinesOfC), room_of_c());
+  ground_.put(stored_d(d9::kFileCount), kAllSteps / lines);
 }
 
 /// Returns the capacity of C and of each file, in steps or, by choice, in lines.
 std::int32_t StoredPrograms::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;
-  return std::min(static_cast<std::int32_t>(registers().of(kept_d(d9::kLinesOfAFile))), kStepsOfC);
+  return std::min(static_cast<std::int32_t>(registers().of(stored_d(d9::kLinesOfAFile))), kStepsOfC);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -21,13 +21,13 @@ inline constexpr auto kElementRows = section("接點元件編號一覽表", kPlc
     discrete(0, "X{}").means("input {}", "輸入繼電器").times(kInputCount, 1, 0),
     coil(0, "Y{}").means("output {}", "輸出繼電器").times(kOutputCount, 1, 0).may(Hazards::output),
     coil(200, "S{}").means("step contact {}", "步進繼電器").times(80, 1, 0),
-    coil(280, "S{}").means("step contact {}, persistent", "停電保持步進繼電器").times(48, 1, 80).kept_at_once(),
+    coil(280, "S{}").means("step contact {}, persistent", "停電保持步進繼電器").times(48, 1, 80).persists_at_once(),
     coil(kFirstTimerContact, "T{}").means("contact of timer {}", "計時器").times(kTimers, 1, 0),
-    coil(kFirstTimerContact + kTimers, "T{}").means("contact of timer {}, persistent", "計時器").times(8, 1, kTimers).kept_at_once(),
+    coil(kFirstTimerContact + kTimers, "T{}").means("contact of timer {}, persistent", "計時器").times(8, 1, kTimers).persists_at_once(),
     coil(kFirstCounterContact, "C{}").means("contact of counter {}", "計數器").times(16, 1, 0),
-    coil(kFirstCounterContact + 16, "C{}").means("contact of counter {}, persistent", "計數器").times(16, 1, 16).kept_at_once(),
+    coil(kFirstCounterContact + 16, "C{}").means("contact of counter {}, persistent", "計數器").times(16, 1, 16).persists_at_once(),
     relays(0, 399).means("auxiliary contact", "一般輔助接點"),
-    relays(400, 511).means("auxiliary contact, persistent", "停電保持輔助接點").kept_at_once(),
+    relays(400, 511).means("auxiliary contact, persistent", "停電保持輔助接點").persists_at_once(),
 });
 
 inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(一般用途)", kPlc, {
@@ -126,8 +126,8 @@ inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", kPr
 });
 
 inline constexpr auto kKeptPanelContactRows = section("M86x 人機對應接點", kPlc, {
-    relay(8600).means("key of the panel: once, or repeatedly", "單動/連動選擇鍵").kept_at_once(),
-    relays(8601, 8699).means("no function in the manual, plain storage, persistent").kept_at_once(),
+    relay(8600).means("key of the panel: once, or repeatedly", "單動/連動選擇鍵").persists_at_once(),
+    relays(8601, 8699).means("no function in the manual, plain storage, persistent").persists_at_once(),
 });
 // clang-format on
 

@@ -19,12 +19,12 @@ inline constexpr int kUserRegisters = 2000;
 // clang-format off
 inline constexpr auto kDataRows = section("暫存器元件編號一覽表", kValue, {
     data(0, 499).means("data register", "一般暫存器"),
-    data(500, 799).means("data register, persistent", "停電保持暫存器").kept_at_once(),
-    data(800, 999).means("data register of the recipe, persistent", "停電保持配方暫存器").kept_at_once(),
+    data(500, 799).means("data register, persistent", "停電保持暫存器").persists_at_once(),
+    data(800, 999).means("data register of the recipe, persistent", "停電保持配方暫存器").persists_at_once(),
     reg(kFirstTimerValue, "T{}", s32, RW).means("present time of timer {}", "計時暫存器").times(kTimers, 2, 0).in("ms").may(kPlc),
-    reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).means("present time of timer {}, persistent", "停電保持計時暫存器").times(8, 2, kTimers).in("ms").kept_at_once().may(kPlc),
+    reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).means("present time of timer {}, persistent", "停電保持計時暫存器").times(8, 2, kTimers).in("ms").persists_at_once().may(kPlc),
     reg(kFirstCounterValue, "C{}", s32, RW).means("present count of counter {}", "計數暫存器").times(16, 2, 0).in("count").may(kPlc),
-    reg(kFirstCounterValue + 32, "C{}", s32, RW).means("present count of counter {}, persistent", "停電保持計數暫存器").times(16, 2, 16).in("count").kept_at_once().may(kPlc),
+    reg(kFirstCounterValue + 32, "C{}", s32, RW).means("present count of counter {}, persistent", "停電保持計數暫存器").times(16, 2, 16).in("count").persists_at_once().may(kPlc),
     reg(kFirstUserAddress, "USER{}", s32, RW).means("buffer of the user program, 10 words a step", "USER 程式執行緩衝區").times(kUserRegisters, 2, 0),
 });
 

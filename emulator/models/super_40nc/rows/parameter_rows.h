@@ -15,44 +15,44 @@ inline constexpr Meaning kSwappedArcs[] = {  // D9017 to D9019
     {"swaps CW and CCW in YZ", ""},
 };
 inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功用(一般用)", kMemory, {
-    data(d9::kStation).means("station number on the line", "工作站號(Station)").kept_at_once().range(0, 15).may(kMemory | Hazards::stops_answering),
-    data(d9::kFileNumber).means("file of the path program", "運動路徑程式號碼選取(File number)").kept_at_once().range(0, 29999).does<select_file>().may(kProgram),
-    data(d9::kRecipeNumber).means("file of the recipe", "配方暫存器檔案號碼(D file num.)").kept_at_once().range(0, 99).does<select_recipe>().may(kProgram),
-    data(9003).means("axes of the common coordinate system", "共用座標系軸數").kept_at_once().range(0, 4).in("axes").may(kMemory | kMotion),  // C21
-    data(d9::kSystemSpeed).means("default feed", "預設速度(Sys. speed)").kept_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000).may(kMemory | kMotion),  // C10
-    data(d9::kContinuousPath).means("1: continuous path", "連續路徑(Cont. path)").kept_at_once().range(0, 1).may(kMemory | kMotion),
-    data(9006).means("0 absolute, 1 relative", "系統初始為絕對座標或相對座標(Inc. or Abs.)").kept_at_once().range(0, 1),  // C20
-    data(d9::kLogoTime).means("time of the logo", "首頁商標畫面顯示時間(Logo time)").kept_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
-    data(9008, 9009).means("no function in the manual, plain storage").kept_at_once(),
-    data(9010).means("lines that the panel shows", "設定顯示行數").kept_at_once().not_modelled("the panel's lines"),
-    data(d9::kTargetSpeed).means("speed that acceleration times refer to", "加速時間目標速度").kept_at_once().range(1, 10000).in("RPM").from_factory(5000).may(kMemory | kMotion),  // C22
-    data(d9::kSAcceleration).means("S section of acceleration", "預設 S 曲線加速度").kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C11
-    data(d9::kSDeceleration).means("S section of deceleration", "預設 S 曲線減速度").kept_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C12
-    data(d9::kAccelerationTime).means("acceleration time", "預設加速時間").kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C13
-    data(d9::kDecelerationTime).means("deceleration time", "預設減速時間").kept_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C14
-    data(d9::kArcPlane).means("arc plane: 0 XY, 1 XZ, 2 YZ", "做圓平面").kept_at_once().range(0, 2).from_factory(2).may(kMemory | kMotion),  // C23
-    data(9017, 9019).means_each(kSwappedArcs).kept_at_once().may(kMemory | kMotion),  // C24 to C26
-    data(9020).means("no function in the manual, plain storage").kept_at_once(),
-    data(d9::kEditLock).means("lock of the edit page", "編輯鍵上鎖").kept_at_once().not_modelled("the panel's edit page"),  // C15
-    data(9022, 9024).means("no function in the manual, plain storage").kept_at_once(),
-    data(d9::kKeyLock).means("lock of the main page", "按鍵上鎖(Key Lock)").kept_at_once().range(0, 111111),  // C16
-    data(d9::kPassword).means("password", "密碼(Password)").kept_at_once().from_factory(1234).not_modelled("the panel's password"),  // C3
-    data(9027).means("no function in the manual, plain storage").kept_at_once(),
-    data(d9::kFinishSignalTime).means("time of the finish signal Y8", "完成信號時間(Finish Signal Tmr.)").kept_at_once().range(0, 9999).in("ms"),  // C4
-    data(d9::kEndSignalTime).means("time of the end signal Y9", "結束信號時間(End Signal Timer)").kept_at_once().range(0, 9999).in("ms"),  // C5
-    data(9030, 9034).means("no function in the manual, plain storage").kept_at_once(),
-    data(9035, R).means("reserved", "僅讀保留").kept_at_once(),
-    data(9036, R).means("lines of the PLC program", "PLC 程式行數").kept_at_once().in("lines").from_factory(1000),
-    data(9037, R).means("lines of the program X", "XM 程式行數").kept_at_once().in("lines").from_factory(500),
-    data(9038, R).means("lines of the program Y", "YM 程式行數").kept_at_once().in("lines").from_factory(500),
-    data(9039, R).means("lines of the program Z", "ZM 程式行數").kept_at_once().in("lines").from_factory(500),
-    data(9040, R).means("lines of the program U", "UM 程式行數").kept_at_once().in("lines").from_factory(500),
-    data(9041, R).means("lines of the program GM", "GM 程式行數").kept_at_once().in("lines"),
-    data(9042, R).means("lines of the path program C", "MC 程式行數").kept_at_once().in("lines").from_factory(1500),
-    data(9043, R).means("number of files of path programs", "可使用的檔案數量").kept_at_once().in("files").from_factory(20),
-    data(9044, R).means("pages of a file", "每檔案需要的頁數").kept_at_once().in("pages"),
-    data(d9::kLinesOfAFile).means("lines of a file of path programs", "每個路徑程式佔用行數").kept_at_once().range(1, 30000).in("lines").from_factory(1500).does<lay_out_files>(),
-    data(9046, 9099).means("no function in the manual, plain storage").kept_at_once(),
+    data(d9::kStation).means("station number on the line", "工作站號(Station)").persists_at_once().range(0, 15).may(kMemory | Hazards::stops_answering),
+    data(d9::kFileNumber).means("file of the path program", "運動路徑程式號碼選取(File number)").persists_at_once().range(0, 29999).does<select_file>().may(kProgram),
+    data(d9::kRecipeNumber).means("file of the recipe", "配方暫存器檔案號碼(D file num.)").persists_at_once().range(0, 99).does<select_recipe>().may(kProgram),
+    data(9003).means("axes of the common coordinate system", "共用座標系軸數").persists_at_once().range(0, 4).in("axes").may(kMemory | kMotion),  // C21
+    data(d9::kSystemSpeed).means("default feed", "預設速度(Sys. speed)").persists_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000).may(kMemory | kMotion),  // C10
+    data(d9::kContinuousPath).means("1: continuous path", "連續路徑(Cont. path)").persists_at_once().range(0, 1).may(kMemory | kMotion),
+    data(9006).means("0 absolute, 1 relative", "系統初始為絕對座標或相對座標(Inc. or Abs.)").persists_at_once().range(0, 1),  // C20
+    data(d9::kLogoTime).means("time of the logo", "首頁商標畫面顯示時間(Logo time)").persists_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
+    data(9008, 9009).means("no function in the manual, plain storage").persists_at_once(),
+    data(9010).means("lines that the panel shows", "設定顯示行數").persists_at_once().not_modelled("the panel's lines"),
+    data(d9::kTargetSpeed).means("speed that acceleration times refer to", "加速時間目標速度").persists_at_once().range(1, 10000).in("RPM").from_factory(5000).may(kMemory | kMotion),  // C22
+    data(d9::kSAcceleration).means("S section of acceleration", "預設 S 曲線加速度").persists_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C11
+    data(d9::kSDeceleration).means("S section of deceleration", "預設 S 曲線減速度").persists_at_once().range(1, 32767).in("multiplier pps").from_factory(1).may(kMemory | kMotion),  // C12
+    data(d9::kAccelerationTime).means("acceleration time", "預設加速時間").persists_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C13
+    data(d9::kDecelerationTime).means("deceleration time", "預設減速時間").persists_at_once().range(1, 10000).in("ms").from_factory(500).may(kMemory | kMotion),  // C14
+    data(d9::kArcPlane).means("arc plane: 0 XY, 1 XZ, 2 YZ", "做圓平面").persists_at_once().range(0, 2).from_factory(2).may(kMemory | kMotion),  // C23
+    data(9017, 9019).means_each(kSwappedArcs).persists_at_once().may(kMemory | kMotion),  // C24 to C26
+    data(9020).means("no function in the manual, plain storage").persists_at_once(),
+    data(d9::kEditLock).means("lock of the edit page", "編輯鍵上鎖").persists_at_once().not_modelled("the panel's edit page"),  // C15
+    data(9022, 9024).means("no function in the manual, plain storage").persists_at_once(),
+    data(d9::kKeyLock).means("lock of the main page", "按鍵上鎖(Key Lock)").persists_at_once().range(0, 111111),  // C16
+    data(d9::kPassword).means("password", "密碼(Password)").persists_at_once().from_factory(1234).not_modelled("the panel's password"),  // C3
+    data(9027).means("no function in the manual, plain storage").persists_at_once(),
+    data(d9::kFinishSignalTime).means("time of the finish signal Y8", "完成信號時間(Finish Signal Tmr.)").persists_at_once().range(0, 9999).in("ms"),  // C4
+    data(d9::kEndSignalTime).means("time of the end signal Y9", "結束信號時間(End Signal Timer)").persists_at_once().range(0, 9999).in("ms"),  // C5
+    data(9030, 9034).means("no function in the manual, plain storage").persists_at_once(),
+    data(9035, R).means("reserved", "僅讀保留").persists_at_once(),
+    data(9036, R).means("lines of the PLC program", "PLC 程式行數").persists_at_once().in("lines").from_factory(1000),
+    data(9037, R).means("lines of the program X", "XM 程式行數").persists_at_once().in("lines").from_factory(500),
+    data(9038, R).means("lines of the program Y", "YM 程式行數").persists_at_once().in("lines").from_factory(500),
+    data(9039, R).means("lines of the program Z", "ZM 程式行數").persists_at_once().in("lines").from_factory(500),
+    data(9040, R).means("lines of the program U", "UM 程式行數").persists_at_once().in("lines").from_factory(500),
+    data(9041, R).means("lines of the program GM", "GM 程式行數").persists_at_once().in("lines"),
+    data(9042, R).means("lines of the path program C", "MC 程式行數").persists_at_once().in("lines").from_factory(1500),
+    data(9043, R).means("number of files of path programs", "可使用的檔案數量").persists_at_once().in("files").from_factory(20),
+    data(9044, R).means("pages of a file", "每檔案需要的頁數").persists_at_once().in("pages"),
+    data(d9::kLinesOfAFile).means("lines of a file of path programs", "每個路徑程式佔用行數").persists_at_once().range(1, 30000).in("lines").from_factory(1500).does<lay_out_files>(),
+    data(9046, 9099).means("no function in the manual, plain storage").persists_at_once(),
 });
 
 /// The chip's counters, among which D9x27 to D9x30 and D9x55 choose.

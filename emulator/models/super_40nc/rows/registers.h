@@ -38,7 +38,7 @@ inline constexpr std::size_t kSlotCount = [] {
 
 /// Calls visit(slot, row) for every register with a slot.
 template <typename Visit>
-void for_each_kept_slot(Visit visit) {
+void for_each_slot(Visit visit) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && !row.is_view; ++i) visit(next++, row);
@@ -46,14 +46,14 @@ void for_each_kept_slot(Visit visit) {
 }
 
 /// A register as the code uses it: where its value is stored, and its limits.
-struct Kept {
+struct StoredRegister {
   std::size_t slot = 0;
   Value min = INT32_MIN;
   Value max = INT32_MAX;
   bool on_axes = false;  // the first of one register for each axis, with adjacent values
 };
 
-consteval Kept kept_at(Table table, int address) {
+consteval StoredRegister stored_at(Table table, int address) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     const int beyond = address - row.address;
@@ -61,7 +61,7 @@ consteval Kept kept_at(Table table, int address) {
         row.table == table && beyond >= 0 && beyond % row.stride == 0 && beyond / row.stride < row.count;
     if (is_in && row.is_view) throw "a view of other state";
     if (is_in) {
-      Kept found{.slot = next + static_cast<std::size_t>(beyond / row.stride)};
+      StoredRegister found{.slot = next + static_cast<std::size_t>(beyond / row.stride)};
       if (row.ranged) {
         found.min = row.min;
         found.max = row.max;
@@ -76,10 +76,10 @@ consteval Kept kept_at(Table table, int address) {
 
 /// Where the special contacts M8000 to M8699 are stored; views of other state are not stored.
 inline constexpr int kFirstSpecialContact = m8::kStartOfC;
-inline constexpr std::size_t kNotKept = SIZE_MAX;
+inline constexpr std::size_t kNoSlot = SIZE_MAX;
 inline constexpr auto kSpecialContactSlots = [] {
   std::array<std::size_t, 700> slots{};
-  slots.fill(kNotKept);
+  slots.fill(kNoSlot);
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && row.table == Table::coil; ++i) {
@@ -132,13 +132,13 @@ inline constexpr auto kIsUnlisted = [] {
 }();
 
 /// Find a register by number; an unknown number is a compile error.
-consteval Kept kept_d(int number) { return kept_at(Table::holding, data_address(number)); }
+consteval StoredRegister stored_d(int number) { return stored_at(Table::holding, data_address(number)); }
 /// Finds D9x00 + number, for the first axis.
-consteval Kept kept_x(int number) { return kept_d(of_x(number)); }
+consteval StoredRegister stored_x(int number) { return stored_d(of_x(number)); }
 
-inline constexpr Kept kFirstX = kept_at(Table::discrete, 0);
-inline constexpr Kept kFirstY = kept_at(Table::coil, 0);
-inline constexpr Kept kFirstM = kept_at(Table::coil, relay_address(0));
-inline constexpr Kept kFirstD = kept_d(0);
+inline constexpr StoredRegister kFirstX = stored_at(Table::discrete, 0);
+inline constexpr StoredRegister kFirstY = stored_at(Table::coil, 0);
+inline constexpr StoredRegister kFirstM = stored_at(Table::coil, relay_address(0));
+inline constexpr StoredRegister kFirstD = stored_d(0);
 
 }  // namespace understudy::emulator::models::super_40nc

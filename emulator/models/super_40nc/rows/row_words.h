@@ -69,7 +69,7 @@ constexpr RegisterRow axis_data(int first_of_x, int last_of_x, int axis) {
 /// Returns the number of a parameter D9x00 + number of X.
 constexpr int of_x(int number) { return 9100 + number; }
 /// Makes a row of D9x00 + number of each axis.
-constexpr RegisterRow parameter(int number) { return axis_data(of_x(number)).kept_at_once(); }
+constexpr RegisterRow parameter(int number) { return axis_data(of_x(number)).persists_at_once(); }
 
 template <std::size_t N>
 constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards hazards,

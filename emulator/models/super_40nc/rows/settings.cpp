@@ -44,25 +44,25 @@ double Settings::multiplier(int axis, double pps) const {
 }
 
 motion::SpeedLaw Settings::law(int axis, double rpm) const {
-  const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
+  const auto number = [&](StoredRegister kept) { return static_cast<double>(of(kept, axis)); };
   return law_with(axis, rpm,
-                  {number(kept_x(d9x::kAccelerationTime)), number(kept_x(d9x::kDecelerationTime)),
-                   number(kept_x(d9x::kSAcceleration)), number(kept_x(d9x::kSDeceleration))});
+                  {number(stored_x(d9x::kAccelerationTime)), number(stored_x(d9x::kDecelerationTime)),
+                   number(stored_x(d9x::kSAcceleration)), number(stored_x(d9x::kSDeceleration))});
 }
 
 motion::SpeedLaw Settings::law_of_c(int axis, double rpm) const {
-  const auto number = [&](Kept kept) { return static_cast<double>(of(kept)); };
+  const auto number = [&](StoredRegister kept) { return static_cast<double>(of(kept)); };
   return law_with(axis, rpm,
-                  {number(kept_d(d9::kAccelerationTime)), number(kept_d(d9::kDecelerationTime)),
-                   number(kept_d(d9::kSAcceleration)), number(kept_d(d9::kSDeceleration))});
+                  {number(stored_d(d9::kAccelerationTime)), number(stored_d(d9::kDecelerationTime)),
+                   number(stored_d(d9::kSAcceleration)), number(stored_d(d9::kSDeceleration))});
 }
 
 motion::SpeedLaw Settings::law_with(int axis, double rpm, const Ramps& ramps) const {
-  const auto start_rpm = static_cast<double>(of(kept_x(d9x::kBiasSpeed), axis));
+  const auto start_rpm = static_cast<double>(of(stored_x(d9x::kBiasSpeed), axis));
   const double min_rpm = readings_.starts_as_fast ? start_rpm : 1.0;
   const double top = std::min(pps(axis, std::max(rpm, min_rpm)), top_pps(axis));
   const double step = multiplier(axis, top);
-  return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(kept_d(d9::kTargetSpeed)))),
+  return law_by(pps(axis, start_rpm), top, pps(axis, static_cast<double>(of(stored_d(d9::kTargetSpeed)))),
                 ramps.up_ms, down_ms(ramps.down_ms, ramps.up_ms), ramps.up_steps * step,
                 ramps.down_steps * step);
 }

@@ -21,7 +21,7 @@ inline constexpr double kFastestPps = 6'553'500;
 using Image = std::array<std::uint32_t, kSlotCount>;
 
 /// The registers from D9000 on are the last of the image.
-inline constexpr std::size_t kFirstParameterSlot = kept_d(d9::kStation).slot;
+inline constexpr std::size_t kFirstParameterSlot = stored_d(d9::kStation).slot;
 inline constexpr std::size_t kParameterCount = kSlotCount - kFirstParameterSlot;
 
 /// The choices that affect numbers.
@@ -42,26 +42,28 @@ class Settings {
         readings_(readings) {}
 
   /// Returns the stored value; for a parameter the value in effect.
-  std::int32_t raw(Kept kept, int axis = 0) const {
+  std::int32_t raw(StoredRegister kept, int axis = 0) const {
     const std::size_t slot = kept.slot + static_cast<std::size_t>(axis);
     return static_cast<std::int32_t>(slot < kFirstParameterSlot ? image_[slot]
                                                                 : parameters_[slot - kFirstParameterSlot]);
   }
   /// Returns the value limited to its range, as motion uses it.
-  Value of(Kept kept, int axis = 0) const { return std::clamp<Value>(raw(kept, axis), kept.min, kept.max); }
-  bool is_on(Kept kept, int axis = 0) const { return raw(kept, axis) != 0; }
+  Value of(StoredRegister kept, int axis = 0) const {
+    return std::clamp<Value>(raw(kept, axis), kept.min, kept.max);
+  }
+  bool is_on(StoredRegister kept, int axis = 0) const { return raw(kept, axis) != 0; }
 
   motion::UnitScale scale(int axis) const {
-    return {.multiplier = of(kept_x(d9x::kCmx), axis),
-            .divider = of(kept_x(d9x::kCdv), axis),
+    return {.multiplier = of(stored_x(d9x::kCmx), axis),
+            .divider = of(stored_x(d9x::kCdv), axis),
             .truncates = readings_.truncates};
   }
   double pps(int axis, double rpm) const {
-    return rpm * static_cast<double>(of(kept_x(d9x::kPpr), axis)) / 60.0;
+    return rpm * static_cast<double>(of(stored_x(d9x::kPpr), axis)) / 60.0;
   }
   /// Returns the highest speed of any motion of the axis.
   double top_pps(int axis) const {
-    return std::min(pps(axis, static_cast<double>(of(kept_x(d9x::kMaxSpeed), axis))), kFastestPps);
+    return std::min(pps(axis, static_cast<double>(of(stored_x(d9x::kMaxSpeed), axis))), kFastestPps);
   }
   /// Returns the chip's speed multiplier for a motion with the top speed `pps`.
   double multiplier(int axis, double pps) const;

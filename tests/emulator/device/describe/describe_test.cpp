@@ -279,10 +279,10 @@ TEST(Describe, JsonSaysTheSameAsCsv) {
     for (std::size_t i = 0; i < csv.rows.size(); ++i) {
       for (const auto& [column, cell] : csv.rows[i]) {
         const auto& value = json[i].at(column);
-        const std::string said = value.is_null()     ? ""
-                                 : value.is_string() ? value.get<std::string>()
-                                                     : value.dump();
-        EXPECT_EQ(said, cell) << what << " " << column;
+        const std::string message = value.is_null()     ? ""
+                                    : value.is_string() ? value.get<std::string>()
+                                                        : value.dump();
+        EXPECT_EQ(message, cell) << what << " " << column;
       }
     }
   }

@@ -22,7 +22,7 @@ constexpr Tick kErasure = 500;
 /// An image and its EEPROM. Slots 0 to 5 are persistent, 6 and 7 are not. The factory value of each is 100 +
 /// slot.
 struct Memory {
-  Memory() : eeprom(image, kIsKept) {}
+  Memory() : eeprom(image, kIsPersistent) {}
 
   void write(std::size_t slot, std::uint32_t bits, Tick takes = kWord) {
     image[slot] = bits;
@@ -31,9 +31,9 @@ struct Memory {
   void run_to(Tick tick) {
     while (now < tick) eeprom.step(++now, image);
   }
-  Image kept() const { return {eeprom.kept().begin(), eeprom.kept().end()}; }
+  Image content() const { return {eeprom.content().begin(), eeprom.content().end()}; }
 
-  static constexpr std::array<bool, 8> kIsKept{true, true, true, true, true, true, false, false};
+  static constexpr std::array<bool, 8> kIsPersistent{true, true, true, true, true, true, false, false};
   Image image{100, 101, 102, 103, 104, 105, 106, 107};
   Eeprom eeprom;
   Tick now = 0;
@@ -41,7 +41,7 @@ struct Memory {
 
 TEST(Eeprom, BeginsWithTheFactorysValuesAndAtRest) {
   const Memory memory;
-  EXPECT_EQ(memory.kept(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
   EXPECT_FALSE(memory.eeprom.writing());
   EXPECT_EQ(memory.eeprom.next_active_tick(), kNever);
   EXPECT_EQ(memory.eeprom.revision(), 0u);
@@ -55,11 +55,11 @@ TEST(Eeprom, KeepsAWordFiveTicksAfterTheNextOne) {
   EXPECT_EQ(memory.eeprom.next_active_tick(), 46) << "40 + 1 + 5";
   memory.run_to(45);
   EXPECT_TRUE(memory.eeprom.writing());
-  EXPECT_EQ(memory.kept()[2], 102u);
+  EXPECT_EQ(memory.content()[2], 102u);
   EXPECT_EQ(memory.eeprom.revision(), 0u);
   memory.run_to(46);
   EXPECT_FALSE(memory.eeprom.writing());
-  EXPECT_EQ(memory.kept()[2], 7u);
+  EXPECT_EQ(memory.content()[2], 7u);
   EXPECT_EQ(memory.eeprom.revision(), 1u);
 }
 
@@ -70,14 +70,14 @@ TEST(Eeprom, KeepsOneAfterTheOtherInTheOrderTheyWereWritten) {
   memory.write(5, 3);
   // 4 at 0 + 1 + 5 = 6, the pair 0 at 6 + 10 = 16, 5 at 16 + 5 = 21.
   memory.run_to(5);
-  EXPECT_EQ(memory.kept(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
   memory.run_to(15);
-  EXPECT_EQ(memory.kept(), (Image{100, 101, 102, 103, 1, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{100, 101, 102, 103, 1, 105, 106, 107}));
   memory.run_to(20);
-  EXPECT_EQ(memory.kept(), (Image{2, 101, 102, 103, 1, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{2, 101, 102, 103, 1, 105, 106, 107}));
   EXPECT_TRUE(memory.eeprom.writing());
   memory.run_to(21);
-  EXPECT_EQ(memory.kept(), (Image{2, 101, 102, 103, 1, 3, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{2, 101, 102, 103, 1, 3, 106, 107}));
   EXPECT_FALSE(memory.eeprom.writing());
 }
 
@@ -88,9 +88,9 @@ TEST(Eeprom, WhatIsWrittenLaterWaitsForWhatIsBeingDone) {
   memory.write(2, 8);  // starts at 6, done at 11
   memory.run_to(10);
   EXPECT_TRUE(memory.eeprom.writing());
-  EXPECT_EQ(memory.kept()[2], 102u);
+  EXPECT_EQ(memory.content()[2], 102u);
   memory.run_to(11);
-  EXPECT_EQ(memory.kept()[2], 8u);
+  EXPECT_EQ(memory.content()[2], 8u);
   EXPECT_FALSE(memory.eeprom.writing());
 }
 
@@ -103,9 +103,9 @@ TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   memory.write(2, 80);
   memory.write(2, 81);
   memory.run_to(6);
-  EXPECT_EQ(memory.kept()[1], 70u);
+  EXPECT_EQ(memory.content()[1], 70u);
   memory.run_to(11);
-  EXPECT_EQ(memory.kept()[2], 81u);
+  EXPECT_EQ(memory.content()[2], 81u);
   EXPECT_FALSE(memory.eeprom.writing()) << "five writes became two";
   EXPECT_EQ(memory.eeprom.revision(), 2u);
 }
@@ -128,7 +128,7 @@ TEST(Eeprom, AWaitingValueThatIsRevertedTakesTimeButNoEffect) {
   EXPECT_TRUE(memory.eeprom.writing());
   memory.run_to(6);
   EXPECT_FALSE(memory.eeprom.writing());
-  EXPECT_EQ(memory.kept()[3], 103u);
+  EXPECT_EQ(memory.content()[3], 103u);
   EXPECT_EQ(memory.eeprom.revision(), 0u);
 }
 
@@ -138,7 +138,7 @@ TEST(Eeprom, WhatIsNotKeptIsNotWritten) {
   memory.write(7, 9);
   EXPECT_FALSE(memory.eeprom.writing());
   memory.eeprom.settle(memory.image);
-  EXPECT_EQ(memory.kept(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
 }
 
 TEST(Eeprom, APowerCutLosesWhatWaitsAndWhatIsBeingWritten) {
@@ -151,11 +151,11 @@ TEST(Eeprom, APowerCutLosesWhatWaitsAndWhatIsBeingWritten) {
   EXPECT_FALSE(memory.eeprom.writing());
   EXPECT_EQ(memory.eeprom.next_active_tick(), kNever);
   memory.run_to(1000);
-  EXPECT_EQ(memory.kept(), (Image{1, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{1, 101, 102, 103, 104, 105, 106, 107}));
   // It can be written again, including what was lost.
   memory.write(1, 2, kPair);
   memory.run_to(1011);
-  EXPECT_EQ(memory.kept()[1], 2u);
+  EXPECT_EQ(memory.content()[1], 2u);
 }
 
 TEST(Eeprom, RewritingEverythingIsOneJobInPlaceOfWhatWaits) {
@@ -167,9 +167,9 @@ TEST(Eeprom, RewritingEverythingIsOneJobInPlaceOfWhatWaits) {
   memory.eeprom.rewrite(memory.image, kErasure, memory.now);
   EXPECT_EQ(memory.eeprom.next_active_tick(), 503) << "2 + 1 + 500";
   memory.run_to(502);
-  EXPECT_EQ(memory.kept(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{100, 101, 102, 103, 104, 105, 106, 107}));
   memory.run_to(503);
-  EXPECT_EQ(memory.kept(), (Image{0, 0, 0, 0, 0, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{0, 0, 0, 0, 0, 105, 106, 107}));
   EXPECT_FALSE(memory.eeprom.writing());
   EXPECT_EQ(memory.eeprom.revision(), 5u) << "each value that changed";
 }
@@ -183,13 +183,13 @@ TEST(Eeprom, WhatIsWrittenDuringARewriteWaitsBehindIt) {
   memory.write(4, 44);  // 511
   memory.write(5, 0);   // as the rewrite will leave it
   memory.run_to(501);
-  EXPECT_EQ(memory.kept(), (Image{0, 0, 0, 0, 0, 0, 106, 107})) << "the erasure whole, and nothing else";
+  EXPECT_EQ(memory.content(), (Image{0, 0, 0, 0, 0, 0, 106, 107})) << "the erasure whole, and nothing else";
   memory.run_to(506);
-  EXPECT_EQ(memory.kept(), (Image{0, 0, 0, 33, 0, 0, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{0, 0, 0, 33, 0, 0, 106, 107}));
   memory.run_to(510);
   EXPECT_TRUE(memory.eeprom.writing());
   memory.run_to(511);
-  EXPECT_EQ(memory.kept(), (Image{0, 0, 0, 33, 44, 0, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{0, 0, 0, 33, 44, 0, 106, 107}));
   EXPECT_FALSE(memory.eeprom.writing());
 }
 
@@ -199,9 +199,9 @@ TEST(Eeprom, WritingTheOldValueDuringARewriteBringsItBack) {
   memory.eeprom.rewrite(memory.image, kErasure, memory.now);
   memory.write(1, 101);  // stored at this moment, but no longer at 501
   memory.run_to(501);
-  EXPECT_EQ(memory.kept()[1], 0u);
+  EXPECT_EQ(memory.content()[1], 0u);
   memory.run_to(506);
-  EXPECT_EQ(memory.kept()[1], 101u);
+  EXPECT_EQ(memory.content()[1], 101u);
 }
 
 TEST(Eeprom, APowerCutDuringARewriteLeavesEverythingAsItWas) {
@@ -213,7 +213,7 @@ TEST(Eeprom, APowerCutDuringARewriteLeavesEverythingAsItWas) {
   memory.write(2, 22);
   memory.run_to(506);
   memory.eeprom.lose_power();
-  EXPECT_EQ(memory.kept(), (Image{1, 101, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{1, 101, 102, 103, 104, 105, 106, 107}));
   EXPECT_FALSE(memory.eeprom.writing());
 }
 
@@ -223,20 +223,20 @@ TEST(Eeprom, SettlingKeepsEverythingAtOnce) {
   memory.write(1, 2, kPair);
   memory.eeprom.settle(memory.image);
   EXPECT_FALSE(memory.eeprom.writing());
-  EXPECT_EQ(memory.kept(), (Image{1, 2, 102, 103, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{1, 2, 102, 103, 104, 105, 106, 107}));
   EXPECT_EQ(memory.eeprom.revision(), 2u);
   memory.image[2] = 5;
   memory.eeprom.rewrite(memory.image, kErasure, memory.now);
   memory.write(3, 6);
   memory.eeprom.settle(memory.image);
-  EXPECT_EQ(memory.kept(), (Image{1, 2, 5, 6, 104, 105, 106, 107}));
+  EXPECT_EQ(memory.content(), (Image{1, 2, 5, 6, 104, 105, 106, 107}));
   EXPECT_EQ(memory.eeprom.next_active_tick(), kNever);
 }
 
 TEST(Eeprom, WhatIsPutFromOutsideIsThereAtOnce) {
   Memory memory;
   memory.eeprom.put(4, 9);
-  EXPECT_EQ(memory.kept()[4], 9u);
+  EXPECT_EQ(memory.content()[4], 9u);
   EXPECT_EQ(memory.eeprom.revision(), 1u);
   memory.eeprom.put(4, 9);
   EXPECT_EQ(memory.eeprom.revision(), 1u);
@@ -355,7 +355,7 @@ TEST(Eeprom, MatchesASlowModelAndNeedsSteppingOnlyWhenDue) {
         ASSERT_EQ(memory.eeprom.writing(), slow.writing()) << kSeed << " " << sequence << " " << operation;
       }
       ASSERT_TRUE(memory.eeprom == leaping) << kSeed << " " << sequence << " " << operation;
-      ASSERT_TRUE(std::equal(slow.kept.begin(), slow.kept.begin() + 6, memory.eeprom.kept().begin()))
+      ASSERT_TRUE(std::equal(slow.kept.begin(), slow.kept.begin() + 6, memory.eeprom.content().begin()))
           << kSeed << " " << sequence << " " << operation;
     }
   }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "emulator/device/device.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/models/simple2_r3/model.h"
 

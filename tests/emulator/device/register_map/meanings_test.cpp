@@ -36,11 +36,12 @@ TEST(Meanings, EveryRegisterHasOneAndAHeadingOfTheManual) {
       ASSERT_TRUE(row.axis_names.empty() || static_cast<int>(row.axis_names.size()) == row.count) << row.name;
       for (int index = 0; index < row.count; ++index, ++registers) {
         const std::string what = std::string(name) + " " + RegisterMap::name_of(row, index);
-        const std::string told = meaning_of(row, index);
-        EXPECT_FALSE(told.empty()) << what;
-        EXPECT_EQ(told.find("{}"), std::string::npos) << what << ": " << told;
-        EXPECT_LE(told.size(), 110U) << what << ": " << told;
-        for (const char letter : told) EXPECT_TRUE(letter >= ' ' && letter <= '~') << what << ": " << told;
+        const std::string reported = meaning_of(row, index);
+        EXPECT_FALSE(reported.empty()) << what;
+        EXPECT_EQ(reported.find("{}"), std::string::npos) << what << ": " << reported;
+        EXPECT_LE(reported.size(), 110U) << what << ": " << reported;
+        for (const char letter : reported)
+          EXPECT_TRUE(letter >= ' ' && letter <= '~') << what << ": " << reported;
         // What the manual does not name stands at least in one of its sections.
         EXPECT_FALSE(heading_of(row, index).empty() && row.section.empty()) << what;
       }

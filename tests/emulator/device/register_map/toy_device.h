@@ -93,7 +93,7 @@ struct Toy {
               .terminals = {},
               .axes = {},
               .state_registers = {},
-              .gaps = {},
+              .known_limitations = {},
               .line = {.protocol = kModbusRtu, .ports = kToyPorts},
               .rtu = RtuRules{.functions = kToyFunctions},
               .make = nullptr},

@@ -211,11 +211,11 @@ TEST(DescribedAxis, ShowsItsEncoder) {
 std::map<std::string, std::vector<std::string>> printed_answers() {
   std::ifstream page(PROJECT_FOLDER "/docs/import.md");
   std::map<std::string, std::vector<std::string>> rows;
-  bool is_there = false;
+  bool is_present = false;
   for (std::string line; std::getline(page, line);) {
-    if (line.starts_with("| command |")) is_there = true;
-    if (line.empty()) is_there = false;
-    if (!is_there || !line.starts_with("| `")) continue;
+    if (line.starts_with("| command |")) is_present = true;
+    if (line.empty()) is_present = false;
+    if (!is_present || !line.starts_with("| `")) continue;
     std::vector<std::string> cells;
     std::istringstream parts(line.substr(2));
     for (std::string cell; std::getline(parts, cell, '|');) {

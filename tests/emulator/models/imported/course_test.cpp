@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/imported/one_described.h"
 #include "tests/emulator/world/same_world.h"

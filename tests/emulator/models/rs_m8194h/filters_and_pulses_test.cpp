@@ -138,7 +138,7 @@ TEST(RsM8194hPulses, AreCountedAtTheirTwoTerminalsAlone) {
 TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreReportedOnce) {
   struct Case {
     const char* command;
-    const char* told;  // begins like this; nothing there if it is empty
+    const char* reported;  // begins like this; nothing there if it is empty
   };
   constexpr Case kCases[] = {
       {"RSM_SET_FILTER XY 1 2", "rsm: a filter below 1.024 ms is not modelled: "},
@@ -152,14 +152,14 @@ TEST(RsM8194hUnmodelled, MeaningsOfCommandsAreReportedOnce) {
   };
   for (const Case& each : kCases) {
     OneRsm rsm;
-    std::vector<std::string> told;
-    rsm.device().set_log([&](const std::string& text) { told.push_back(text); });
+    std::vector<std::string> reported;
+    rsm.device().set_log([&](const std::string& text) { reported.push_back(text); });
     rsm.send({each.command, each.command});
     rsm.run(3);
-    const bool is_told = each.told[0] != 0;
-    ASSERT_EQ(told.size(), is_told ? 1U : 0U) << each.command;
+    const bool is_told = each.reported[0] != 0;
+    ASSERT_EQ(reported.size(), is_told ? 1U : 0U) << each.command;
     if (is_told) {
-      EXPECT_TRUE(told[0].starts_with(each.told)) << told[0];
+      EXPECT_TRUE(reported[0].starts_with(each.reported)) << reported[0];
     }
   }
 }

@@ -35,7 +35,7 @@ struct MarkedRsm : OneRsm {
     }
     run(20);
   }
-  bool is_there() const {
+  bool is_present() const {
     const AxisUnit& unit = state().units[0];
     if (mark == Mark::paused_drive) return unit.paused_drive.what != Drive::What::none;
     if (mark == Mark::external_drive) {
@@ -101,10 +101,10 @@ TEST(RsM8194hMarks, AreTakenOffAsTheTableSays) {
     for (const Event& event : events()) {
       SCOPED_TRACE(std::to_string(m) + ", " + std::to_string(&event - events().data()));
       MarkedRsm rsm(mark);
-      ASSERT_TRUE(rsm.is_there());
+      ASSERT_TRUE(rsm.is_present());
       event.happen(rsm);
       rsm.run(3);
-      EXPECT_EQ(rsm.is_there(), !takes_off(event.event, mark));
+      EXPECT_EQ(rsm.is_present(), !takes_off(event.event, mark));
       is_tried[static_cast<std::size_t>(event.event)] = true;
     }
     for (const bool tried : is_tried) EXPECT_TRUE(tried);
@@ -112,7 +112,7 @@ TEST(RsM8194hMarks, AreTakenOffAsTheTableSays) {
       MarkedRsm rsm(mark);
       if (is_power) rsm.world().switch_power(0, false);
       if (!is_power) rsm.send("RSM_RESET_CARD");
-      EXPECT_FALSE(rsm.is_there());
+      EXPECT_FALSE(rsm.is_present());
     }
   }
 }

@@ -131,7 +131,7 @@ TEST(RsM8194hPathKinds, AHelixBeyondTheKernelIsVoidAndToldOnce) {
   struct Case {
     const char* turns_and_pitch;
     bool runs;
-    std::size_t told;
+    std::size_t reported;
   };
   const Case kCases[] = {
       {"159154 100", true, 0},      {"-159154 100", true, 0},      {"159155 100", false, 1},
@@ -140,15 +140,15 @@ TEST(RsM8194hPathKinds, AHelixBeyondTheKernelIsVoidAndToldOnce) {
   };
   for (const Case& each : kCases) {
     OneRsm rsm;
-    std::vector<std::string> told;
-    rsm.device().set_log([&](const std::string& text) { told.push_back(text); });
+    std::vector<std::string> reported;
+    rsm.device().set_log([&](const std::string& text) { reported.push_back(text); });
     for (int i = 0; i < 2; ++i) {
       rsm.send("RSM_HELIX_3D X Y Z 1 1000 0 100 " + std::string(each.turns_and_pitch));
       rsm.run(3);
       EXPECT_EQ(rsm.get("DRIVING_AXIS"), each.runs ? 7 : 0) << each.turns_and_pitch;
       EXPECT_EQ(rsm.get("RINT_STATE_ALL"), each.runs ? 0 : 0x80) << each.turns_and_pitch;
     }
-    EXPECT_EQ(told.size(), each.told) << each.turns_and_pitch;
+    EXPECT_EQ(reported.size(), each.reported) << each.turns_and_pitch;
   }
   // Another one that cannot be drawn: its centre is its start.
   OneRsm rsm;

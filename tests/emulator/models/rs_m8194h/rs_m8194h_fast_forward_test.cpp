@@ -109,11 +109,11 @@ class Course {
         return {[=](OneRsm& rsm) { rsm.world().switch_power(0, on); }, "power"};
       default: break;
     }
-    const std::string said = command();
+    const std::string message = command();
     return {[=](OneRsm& rsm) {
-              if (rsm.device().powered()) (void)rsm.exception(said);
+              if (rsm.device().powered()) (void)rsm.exception(message);
             },
-            said};
+            message};
   }
 
   SimTime pause() {

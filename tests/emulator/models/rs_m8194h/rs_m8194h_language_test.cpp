@@ -30,8 +30,8 @@ DeviceSettings settings_with(std::map<std::string, std::string> choices = {}) {
   return settings;
 }
 
-std::vector<std::string> told(const std::string& text,
-                              const std::map<std::string, std::string>& choices = {}) {
+std::vector<std::string> reported(const std::string& text,
+                                  const std::map<std::string, std::string>& choices = {}) {
   std::vector<std::string> texts;
   for (const ProgramMistake& mistake : language().check(text, settings_with(choices))) {
     texts.push_back(in_text(mistake));
@@ -81,7 +81,7 @@ TEST(RsM8194hLanguage, LoadingSaysWhatCheckingSays) {
        "clear_stop"},
   };
   for (const std::vector<std::string>& one : kWrong) {
-    EXPECT_EQ(told(one[0]), std::vector<std::string>(one.begin() + 1, one.end()));
+    EXPECT_EQ(reported(one[0]), std::vector<std::string>(one.begin() + 1, one.end()));
     OneRsm rsm;
     try {
       rsm.device().user_program()->load_program(one[0]);
@@ -94,7 +94,7 @@ TEST(RsM8194hLanguage, LoadingSaysWhatCheckingSays) {
 }
 
 TEST(RsM8194hLanguage, TextOfADeviceIsWhatItTakes) {
-  EXPECT_EQ(told(kMacros + "\n" + kTriggers), std::vector<std::string>{});
+  EXPECT_EQ(reported(kMacros + "\n" + kTriggers), std::vector<std::string>{});
   OneRsm rsm;
   rsm.device().user_program()->load_program(kTriggers + kMacros);
   EXPECT_EQ(rsm.device().user_program()->program_text(), kMacros + "\n" + kTriggers);
@@ -103,8 +103,8 @@ TEST(RsM8194hLanguage, TextOfADeviceIsWhatItTakes) {
 TEST(RsM8194hLanguage, ChoicesDecideWhatFits) {
   std::string text = "MP 1\n";
   for (int i = 0; i < 8; ++i) text += "RSM_MACRO_SET_VAR VAR1 1\n";
-  EXPECT_EQ(told(text), std::vector<std::string>{});
-  EXPECT_EQ(told(text, {{"close_line", "one_line"}}),
+  EXPECT_EQ(reported(text), std::vector<std::string>{});
+  EXPECT_EQ(reported(text, {{"close_line", "one_line"}}),
             std::vector<std::string>{
                 "line 9, column 1: RSM_MACRO_SET_VAR: more lines than this macro has room for"});
 }

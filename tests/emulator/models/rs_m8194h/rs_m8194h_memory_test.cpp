@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/state/state_error.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 

@@ -136,7 +136,7 @@ const Row kRows[] = {
 };
 // clang-format on
 
-std::string told(const OneRsm& rsm, bool moved_soon) {
+std::string reported(const OneRsm& rsm, bool moved_soon) {
   const AxisUnit& unit = rsm.state().units[0];
   std::string text(moved_soon ? "M" : "S");
   text += (rsm.get("DRIVING_AXIS") & 1) != 0 ? "M" : "S";
@@ -172,7 +172,7 @@ std::string walk(const Row& row, const Situation& state) {
   rsm.run(2);
   const bool moved_soon = (rsm.get("DRIVING_AXIS") & 1) != 0;
   rsm.run(3000);
-  return told(rsm, moved_soon);
+  return reported(rsm, moved_soon);
 }
 
 TEST(RsM8194hMatrix, EachCellIsAsItsRowSays) {

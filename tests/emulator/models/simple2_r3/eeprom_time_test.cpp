@@ -1,6 +1,6 @@
 // EEPROM_Writing over time, to the millisecond: 5 ms a word, one value after the other, an erasure 500 ms
 // (choices eeprom_time, eeprom_erasure). A write after tick n begins with tick n + 1.
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -128,7 +128,7 @@ TEST(EepromTime, RepeatedWritesOfAValueAreMergedWhileOneIsBusy) {
     feeder.set("Parms_Speed1", 100 + tick);
   }
   // Written at 0, job 1 to 6 with what was written until tick 5; the next is written at 6: 7 to 12; at 12.
-  EXPECT_EQ(feeder.device().memory()->kept_revision(), 2u);
+  EXPECT_EQ(feeder.device().memory()->memory_revision(), 2u);
   EXPECT_EQ(feeder.kept("Parms_Speed1"), 111);
   feeder.run_to(18);
   EXPECT_EQ(feeder.kept("Parms_Speed1"), 117);
@@ -141,7 +141,7 @@ TEST(EepromTime, OfAProgramThatCountsInMemoryIsCoalesced) {
   feeder.write(0x4000, {0x6B, 0, 0, 1, 0x03, 1, 0, 0});
   feeder.run_to(100);
   ASSERT_FALSE(feeder.writing());
-  const std::uint64_t before = feeder.device().memory()->kept_revision();
+  const std::uint64_t before = feeder.device().memory()->memory_revision();
   feeder.set("PROG_MAIN_RunTime_START", 0);
   // Counts in ticks 102, 106, ... A line that runs in tick k begins to be written in it: 102 to 112 keeps
   // what was counted until then, 102, 106 and 110. The next count, in 114, begins the next job: 114 to 124,
@@ -153,7 +153,7 @@ TEST(EepromTime, OfAProgramThatCountsInMemoryIsCoalesced) {
     ASSERT_EQ(feeder.get("PROG_MEM0"), counted) << tick;
     ASSERT_EQ(feeder.kept("PROG_MEM0"), 3 * jobs) << tick;
     ASSERT_EQ(feeder.writing(), tick >= 102 && (tick - 102) % 12 < 10) << tick;
-    ASSERT_EQ(feeder.device().memory()->kept_revision(), before + static_cast<std::uint64_t>(jobs)) << tick;
+    ASSERT_EQ(feeder.device().memory()->memory_revision(), before + static_cast<std::uint64_t>(jobs)) << tick;
   }
 }
 

@@ -1,6 +1,6 @@
 // The program's password (manual, 附錄 C; firmware 1.51 and later): while PROG_UNLOCK is 0, every cell of the
 // program reads as 0, so a backup of it is empty, and NEW_PWD is void.
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 #include "tests/emulator/world/stations/pdus.h"
 

@@ -2,7 +2,7 @@
 // restarts as if it had only kept its memory.
 #include <functional>
 
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "tests/emulator/device/register_map/register_facts.h"
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 #include "tests/emulator/world/stations/pdus.h"

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <random>
 
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/terminals.h"
 #include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/two_devices.h"

@@ -8,9 +8,9 @@ namespace dialogue_options_test {
 TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
   const auto all_said = [](DialogueScript& script, const std::string& line) {
     script.send(line + "\r");
-    std::string said;
-    for (std::string next = script.next(); next != "(nothing)"; next = script.next()) said += next + "|";
-    return said;
+    std::string message;
+    for (std::string next = script.next(); next != "(nothing)"; next = script.next()) message += next + "|";
+    return message;
   };
   {
     DialogueScript script(2, {{"query_reply", "name_and_value"}, {"acknowledgement", "ok"}});
@@ -50,15 +50,15 @@ TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
 }
 
 TEST(SlimDialogue, ReportsOnceWhatIsNotModelled) {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   world::World world(slim_bench(2), world::WorldOptions{},
-                     [&](const std::string& text) { told.push_back(text); });
+                     [&](const std::string& text) { reported.push_back(text); });
   auto& device = dynamic_cast<Slim&>(world.device(0));
   for (const char* line : {"?AC", "?AC", "EL=5", "T1EL=6", "FT 100", "?PE"}) device.receive_line(line);
-  ASSERT_EQ(told.size(), 3u);
-  EXPECT_EQ(told[0].rfind("robot: AC is not modelled: ", 0), 0u) << told[0];
-  EXPECT_EQ(told[1].rfind("robot: EL is not modelled: ", 0), 0u) << told[1];
-  EXPECT_EQ(told[2].rfind("robot: FT is not modelled: ", 0), 0u) << told[2];
+  ASSERT_EQ(reported.size(), 3u);
+  EXPECT_EQ(reported[0].rfind("robot: AC is not modelled: ", 0), 0u) << reported[0];
+  EXPECT_EQ(reported[1].rfind("robot: EL is not modelled: ", 0), 0u) << reported[1];
+  EXPECT_EQ(reported[2].rfind("robot: FT is not modelled: ", 0), 0u) << reported[2];
 }
 
 TEST(SlimDialogue, ToleratesWhatTerminalsDo) {

@@ -98,8 +98,8 @@ inline std::string script_of(const std::string& step) {
   std::string script = "> " + typed_by(step);
   const std::size_t arrow = step.find(" -> ");
   if (arrow == std::string::npos) return script;
-  std::istringstream said(step.substr(arrow + 4));
-  for (std::string line; std::getline(said, line, '|');) script += "\n< " + line;
+  std::istringstream message(step.substr(arrow + 4));
+  for (std::string line; std::getline(message, line, '|');) script += "\n< " + line;
   return script;
 }
 

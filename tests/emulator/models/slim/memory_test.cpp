@@ -1,5 +1,5 @@
 // SLIM's persistent memory, and the memory as an image.
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 

@@ -60,7 +60,7 @@ TEST(SlimNumbers, RealsAreWrittenWithoutAnExponent) {
 }
 
 TEST(SlimNumbers, NoDigitsAreMadeUp) {
-  for (const auto& [typed, said] : std::initializer_list<std::pair<std::string, std::string>>{
+  for (const auto& [typed, message] : std::initializer_list<std::pair<std::string, std::string>>{
            {"3.4028235e38", "340282350" + std::string(30, '0')},
            {"-3.4028235e38", "-340282350" + std::string(30, '0')},
            {"1e38", "1" + std::string(38, '0')},
@@ -72,7 +72,7 @@ TEST(SlimNumbers, NoDigitsAreMadeUp) {
            {"0.1", "0.1"}}) {
     DialogueScript script;
     script.type("R0=" + typed);
-    EXPECT_EQ(script.ask("?R0"), said);
+    EXPECT_EQ(script.ask("?R0"), message);
   }
 }
 
@@ -88,9 +88,9 @@ TEST(SlimNumbers, WhatIsSaidCanBeTypedAgain) {
     DialogueScript script(1, {{"real_format", form}});
     for (const std::string typed : {"3.4028235e38", "-3.4028234e38", "1e-45", "16777217"}) {
       ASSERT_EQ(script.ask("R0=" + typed), "(nothing)") << typed;
-      const std::string said = script.ask("?R0");
-      ASSERT_EQ(script.ask("R1=" + said), "(nothing)") << said;
-      EXPECT_EQ(script.ask("?R1"), said);
+      const std::string message = script.ask("?R0");
+      ASSERT_EQ(script.ask("R1=" + message), "(nothing)") << message;
+      EXPECT_EQ(script.ask("?R1"), message);
     }
     EXPECT_EQ(script.ask("R0=3.4028236e38"), "ERR 2");
   }

@@ -1,6 +1,6 @@
 // Points on which the maker's two lists differ, or one is incomplete: each option compared with the default,
 // also tick by tick and on a device that is restored at each step.
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "tests/emulator/models/slim/motion_option_script.h"
 
 namespace understudy::emulator::models::slim {

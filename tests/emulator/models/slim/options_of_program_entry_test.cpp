@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/state/state_error.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/user_program.h"
 #include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/slim/dialogue_script.h"

@@ -291,7 +291,7 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
     DialogueScript bulk(1, choices);
     DialogueScript single(1, choices);
     single.world().set_bulk_ticks(false);
-    std::string said[2];
+    std::string sent[2];
     int moment = 0;
     const auto drain = [](DialogueScript& script, std::string& all_said) {
       for (std::string line = script.next(); line != "(nothing)"; line = script.next())
@@ -303,9 +303,9 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
       for (const Tick span : {Tick{1}, Tick{2}, Tick{43}, Tick{151 + 3 * moment}}) {
         bulk.pass(span);
         single.pass(span);
-        drain(bulk, said[0]);
-        drain(single, said[1]);
-        ASSERT_EQ(said[0], said[1]);
+        drain(bulk, sent[0]);
+        drain(single, sent[1]);
+        ASSERT_EQ(sent[0], sent[1]);
         ASSERT_TRUE(saves_the_same(bulk.device(), single.device())) << "moment " << moment;
         const std::vector<std::byte> saved = bulk.device().save_state();
         bulk.device().restore_state(saved);
@@ -316,8 +316,8 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
       single.play(what);
       ++moment;
     }
-    EXPECT_NE(said[0].find("E|"), std::string::npos) << said[0];
-    EXPECT_NE(said[0].find("12|"), std::string::npos) << said[0];
+    EXPECT_NE(sent[0].find("E|"), std::string::npos) << sent[0];
+    EXPECT_NE(sent[0].find("12|"), std::string::npos) << sent[0];
     skipped += bulk.world().ticks_skipped();
   }
   EXPECT_GT(skipped, 1000u);

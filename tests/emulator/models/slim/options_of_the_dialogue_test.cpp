@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "emulator/device/axes.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -131,8 +131,8 @@ TEST(SlimDialogueOptions, FailedLinesOfAProgram) {
   play_all({
       {"remembered", {}, 1, (program + "@ 20\n> ?ERC\n< 5\n").c_str()},
   });
-  DialogueScript said(1, {{"unasked_text", "errors_of_a_program_too"}});
-  said.play(program + "@ 20\n< ERR 5\n> ?ERC\n< 5\n");
+  DialogueScript message(1, {{"unasked_text", "errors_of_a_program_too"}});
+  message.play(program + "@ 20\n< ERR 5\n> ?ERC\n< 5\n");
   DialogueScript passed(1, {{"unasked_text", "errors_of_a_program_too"}, {"failed_line", "is_passed_over"}});
   passed.play(program + "@ 20\n< ERR 5\n< ON\n");
   DialogueScript quiet(1, {{"unasked_text", "errors_of_a_program_too"}, {"error_reply", "nothing"}});

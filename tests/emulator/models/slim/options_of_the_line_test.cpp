@@ -1,6 +1,6 @@
 // Options about SLIM's line: where lines end, how long they can be, and flow control.
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/user_program.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/slim/dialogue_script.h"

@@ -182,16 +182,16 @@ TEST(SlimPrograms, PrintsNoFasterThanItsLineCarries) {
   const pty::Line& line = world.line(0).line;
   const std::string typed = "PG\r$A\rOUT \"" + std::string(98, 'x') + "\"\rJP $A\r\rG\r";
   world.receive(0, {reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()});
-  std::size_t said = 0;
+  std::size_t sent = 0;
   for (int second = 1; second <= 20; ++second) {
     world.advance_to(std::chrono::seconds(second));
-    said += line.output().size();
+    sent += line.output().size();
     world.take_output(0, line.output().size());
     EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().output.size(), 2 * 1024u);
   }
   // 960 characters per second, except for the typed commands and for pauses of a tick between texts.
-  EXPECT_GT(said, 17'000U);
-  EXPECT_LE(said, 20U * 960U);
+  EXPECT_GT(sent, 17'000U);
+  EXPECT_LE(sent, 20U * 960U);
 }
 
 TEST(SlimPrograms, HomesAndSetsItsCoordinate) {

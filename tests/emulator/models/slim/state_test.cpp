@@ -5,7 +5,7 @@
 
 #include "base/state/state_error.h"
 #include "emulator/device/axes.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
 #include "tests/emulator/device/same_state.h"

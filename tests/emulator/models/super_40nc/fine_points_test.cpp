@@ -39,10 +39,11 @@ TEST(Super40ncFinePoints, PanelParametersAreTheManuals) {
       EXPECT_EQ(row.max, fact.at("most")) << number;
       // If the table of D9 has another value, the meaning decides for the panel's; otherwise the factory
       // value is the panel's.
-      const std::string told = "on the panel's page ";
-      const std::size_t place = row.meaning.find(told);
+      const std::string reported = "on the panel's page ";
+      const std::size_t place = row.meaning.find(reported);
       const bool is_told = place != std::string_view::npos;
-      EXPECT_EQ(is_told ? row.meaning.substr(place + told.size()) : row.factory, fact.at("panel")) << number;
+      EXPECT_EQ(is_told ? row.meaning.substr(place + reported.size()) : row.factory, fact.at("panel"))
+          << number;
       EXPECT_TRUE(!is_told || row.factory != fact.at("panel")) << number << " " << row.factory;
       rows.erase(number);
     }
@@ -51,11 +52,11 @@ TEST(Super40ncFinePoints, PanelParametersAreTheManuals) {
 }
 
 TEST(Super40ncFinePoints, InstructionsAreReportedFromTheFirst) {
-  const auto told = model().language->instructions();
-  ASSERT_EQ(told.size(), interpreter::super_40nc::kInstructions.size());
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    EXPECT_EQ(told[i].mnemonic, interpreter::super_40nc::kInstructions[i].mnemonic);
-    EXPECT_EQ(told[i].meaning, interpreter::super_40nc::kInstructions[i].meaning);
+  const auto reported = model().language->instructions();
+  ASSERT_EQ(reported.size(), interpreter::super_40nc::kInstructions.size());
+  for (std::size_t i = 0; i < reported.size(); ++i) {
+    EXPECT_EQ(reported[i].mnemonic, interpreter::super_40nc::kInstructions[i].mnemonic);
+    EXPECT_EQ(reported[i].meaning, interpreter::super_40nc::kInstructions[i].meaning);
   }
 }
 

@@ -21,8 +21,8 @@ TEST(Super40ncPins, AreThereWhereTheyAreChosen) {
     OneSuper40nc one({.choices = {kChosen[chosen]}});
     for (std::size_t i = 0; i < kNames.size(); ++i) {
       for (const char* const name : kNames[i]) {
-        const bool is_there = one.device().terminals()->has_terminal(find_terminal(model(), name));
-        EXPECT_EQ(is_there, i == chosen) << name << " with " << kChosen[chosen].first;
+        const bool is_present = one.device().terminals()->has_terminal(find_terminal(model(), name));
+        EXPECT_EQ(is_present, i == chosen) << name << " with " << kChosen[chosen].first;
       }
     }
     EXPECT_TRUE(one.device().terminals()->has_terminal(find_terminal(model(), "PLC_RUN")));

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/models/super_40nc/programs/files.h"
 #include "tests/emulator/models/super_40nc/listings.h"
 
@@ -22,7 +22,7 @@ constexpr const char* kRecipe[] = {"D500", "D777", "D999"};
 std::string program(int number) { return "AREA C\nMOV K" + std::to_string(number) + " D0\nEND\n"; }
 
 /// The expected contents after a power cut.
-struct Kept {
+struct StoredRegister {
   std::map<std::string, Value> latched;
   std::map<Value, std::map<std::string, Value>> recipes;
   std::map<Value, int> files;  // except the one in memory
@@ -46,7 +46,7 @@ struct Kept {
   }
 };
 
-void expect_kept(OneSuper40nc& one, Kept& kept, const std::string& when) {
+void expect_kept(OneSuper40nc& one, StoredRegister& kept, const std::string& when) {
   for (const char* name : kLatched) ASSERT_EQ(one.get(name), kept.latched[name]) << name << when;
   for (const char* name : kForgotten) ASSERT_EQ(one.get(name), 0) << name << when;
   ASSERT_EQ(one.get("D9001"), kept.file) << when;
@@ -60,7 +60,7 @@ void expect_kept(OneSuper40nc& one, Kept& kept, const std::string& when) {
 }
 
 /// The contents of a memory file make the same controller.
-void expect_same_by_its_file(OneSuper40nc& one, Kept kept, const std::string& when) {
+void expect_same_by_its_file(OneSuper40nc& one, StoredRegister kept, const std::string& when) {
   const std::string text = to_json(one.device().memory()->nv_image());
   OneSuper40nc other;
   other.world().switch_power(0, false);
@@ -89,7 +89,7 @@ TEST(Super40ncPowerCut, LeavesWhatIsKeptWhole) {
     const auto below = [&](int max) { return std::uniform_int_distribution<int>(0, max - 1)(random); };
     // X moves all the time, so that motion is interrupted.
     OneSuper40nc one({.program = "AREA X\nLAB K1\nDRV K9000\nDRV K0\nJMP K1\nEND\n"});
-    Kept kept;
+    StoredRegister kept;
     for (int acts = 0; acts < 60; ++acts) {
       const std::string when = ", seed " + std::to_string(seed) + ", act " + std::to_string(acts);
       switch (below(8)) {

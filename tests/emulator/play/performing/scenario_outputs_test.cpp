@@ -153,16 +153,16 @@ TEST_F(ScenarioOutputs, AReferenceToAnotherKindOfFileSaysWhichItIs) {
   folder_.write("play.yaml", ScenarioFolder::scenario_of("  - advance: 1ms\n"));
   folder_.write("bench.yaml", kTwoStations);
   folder_.write("model.yaml", "understudy: 1\nmodel: m\nregisters: feeder.yaml\n");
-  const auto told = [&](const std::string& bench, const std::string& step) {
+  const auto reported = [&](const std::string& bench, const std::string& step) {
     return folder_.diagnostic("understudy: 1\nbench: " + bench + "\nsteps: [ " + step + " ]\n");
   };
-  EXPECT_EQ(told("model.yaml", "advance: 1ms"),
+  EXPECT_EQ(reported("model.yaml", "advance: 1ms"),
             "scenario.yaml:2: bench: model.yaml is a model file; expected a bench");
-  EXPECT_EQ(told("feeder.yaml", "include: bench.yaml"),
+  EXPECT_EQ(reported("feeder.yaml", "include: bench.yaml"),
             "scenario.yaml:3: steps[0].include: bench.yaml is a bench; expected a file of steps");
-  EXPECT_EQ(told("feeder.yaml", "include: play.yaml"),
+  EXPECT_EQ(reported("feeder.yaml", "include: play.yaml"),
             "scenario.yaml:3: steps[0].include: play.yaml is a scenario; expected a file of steps");
-  EXPECT_EQ(told("feeder.yaml", "include: model.yaml"),
+  EXPECT_EQ(reported("feeder.yaml", "include: model.yaml"),
             "scenario.yaml:3: steps[0].include: model.yaml is a model file; expected a file of steps");
 }
 

@@ -40,7 +40,7 @@ std::function<Play()> players(const std::vector<Scenario>& scenarios, const RunO
   };
 }
 
-std::string told(const std::vector<Scenario>& scenarios, int jobs) {
+std::string reported(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<ScenarioResult> all;
   std::string text;
   const RunOptions options{.with_hash = true};
@@ -58,14 +58,14 @@ std::string told(const std::vector<Scenario>& scenarios, int jobs) {
 
 TEST(Suite, OneJobAndEightTellTheSameInTheSameOrder) {
   const auto scenarios = many();
-  const std::string of_one = told(scenarios, 1);
+  const std::string of_one = reported(scenarios, 1);
   EXPECT_NE(of_one.find("40 passed, 8 failed; "), std::string::npos) << of_one;
   EXPECT_LT(of_one.find("move 0"), of_one.find("move 1"));
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(told(scenarios, 8), of_one);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(reported(scenarios, 8), of_one);
 }
 
 TEST(Suite, WithoutScenariosNothingIsReported) {
-  EXPECT_EQ(told({}, 8), junit_text({}) + "0 passed, 0 failed; 0s simulated");
+  EXPECT_EQ(reported({}, 8), junit_text({}) + "0 passed, 0 failed; 0s simulated");
 }
 
 TEST(Suite, AMissingExecutorIsThrownAfterWhatCameBefore) {
@@ -92,13 +92,13 @@ TEST(Suite, AMissingExecutorIsThrownAfterWhatCameBefore) {
 
 TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsReported) {
   std::uint64_t taken = 0;
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   std::uint64_t farthest = 0;
   std::mutex mutex;
   const auto next = [&]() -> std::optional<CaseId> {
     const std::lock_guard lock(mutex);
     if (taken == 20'000) return std::nullopt;
-    farthest = std::max(farthest, taken - told);
+    farthest = std::max(farthest, taken - reported);
     return CaseId{.file = 0, .number = taken++};
   };
   const auto make_play = []() -> Play {
@@ -111,9 +111,9 @@ TEST(Suite, ThreadsAreNeverFarAheadOfWhatIsReported) {
   run_suite(next, make_play, 3, [&](const CaseId& which_case, const std::vector<ScenarioResult>& results) {
     const std::lock_guard lock(mutex);
     EXPECT_EQ(results.front().name, std::to_string(which_case.number));
-    EXPECT_EQ(which_case.number, told++);
+    EXPECT_EQ(which_case.number, reported++);
   });
-  EXPECT_EQ(told, 20'000U);
+  EXPECT_EQ(reported, 20'000U);
   EXPECT_LE(farthest, 300U);
 }
 
@@ -126,14 +126,14 @@ TEST(Suite, WhatNextThrowsComesOutInItsTurn) {
   const auto make_play = []() -> Play {
     return [](const CaseId&) { return std::vector<ScenarioResult>(1); };
   };
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   try {
-    run_suite(next, make_play, 3, [&](const CaseId&, const std::vector<ScenarioResult>&) { ++told; });
+    run_suite(next, make_play, 3, [&](const CaseId&, const std::vector<ScenarioResult>&) { ++reported; });
     ADD_FAILURE() << "expected it to throw";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "the file is gone");
   }
-  EXPECT_EQ(told, 7U);
+  EXPECT_EQ(reported, 7U);
 }
 
 }  // namespace suite_test

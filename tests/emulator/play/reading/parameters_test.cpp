@@ -73,7 +73,7 @@ TEST_F(ParametersTest, ComplainOfWhatTheyAreNot) {
        "number, a duration or a voltage"},
       {"${speed / 0}", "column 7 of 'speed / 0': division by zero  (speed is 200)"},
   };
-  for (const auto& [written, said] : rows) EXPECT_EQ(diagnostic(written), said) << written;
+  for (const auto& [written, message] : rows) EXPECT_EQ(diagnostic(written), message) << written;
   EXPECT_NE(diagnostic("${speed + takes}").find("duration"), std::string::npos)
       << diagnostic("${speed + takes}");
   EXPECT_EQ(Parameters().names(), std::vector<std::string>());

@@ -15,9 +15,9 @@ class Vary : public testing::Test {
  protected:
   /// A scenario that uses each of the parameters.
   static std::string text(const std::string& more, const Strings& names) {
-    std::string said;
-    for (const std::string& name : names) said += "${" + name + "} ";
-    return "understudy: 1\nbench: feeder.yaml\n" + more + "steps: [ say: \"" + said + "\" ]\n";
+    std::string message;
+    for (const std::string& name : names) message += "${" + name + "} ";
+    return "understudy: 1\nbench: feeder.yaml\n" + more + "steps: [ say: \"" + message + "\" ]\n";
   }
   std::unique_ptr<ScenarioFile> open(const std::string& text, std::optional<std::uint64_t> seed = {}) {
     return std::make_unique<ScenarioFile>(text, folder_.path("scenario.yaml"),

@@ -96,13 +96,13 @@ TEST(Break, TellsLogpointsAsEventsAlone) {
           {{"do", "break"}, {"device", "feeder"}, {"line", 3}, {"log", "now {feeder.PROG_VAR0}"}})["ok"],
       true);
   EXPECT_FALSE(debugged.ask({{"do", "advance"}, {"by", "300ms"}}).contains("stop"));
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   Json reply = debugged.ask({{"do", "events"}, {"since", 1}});
   for (const Json& event : reply["events"]) {
-    if (event["what"] == "logpoint") told.push_back(event["text"]);
+    if (event["what"] == "logpoint") reported.push_back(event["text"]);
   }
-  ASSERT_GT(told.size(), 2U);
-  EXPECT_EQ(told[0].substr(0, 4), "now ");
+  ASSERT_GT(reported.size(), 2U);
+  EXPECT_EQ(reported[0].substr(0, 4), "now ");
 }
 
 TEST(DebugMessages, GiveTheTextInWhoseLinesTheyCount) {

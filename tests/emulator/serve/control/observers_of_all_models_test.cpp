@@ -106,20 +106,20 @@ TEST(AxisTarget, IsWhereTheMoveEnds) {
     OneDevice bench(one.model, settings_of(one));
     for (const std::string& axis : one.axes) EXPECT_EQ(bench.value("d." + axis + ".target"), 0);
     for (const std::string& act : one.acts) bench.act(act);
-    std::map<std::string, std::int64_t> told;
+    std::map<std::string, std::int64_t> reported;
     for (const std::string& axis : one.axes) {
       const std::string name = "d." + axis;
       ASSERT_NE(bench.value(name + ".speed"), 0.0) << axis;
-      told[axis] = bench.value(name + ".target");
-      EXPECT_NE(told[axis], bench.value(name + ".pulses").get<std::int64_t>()) << axis;
+      reported[axis] = bench.value(name + ".target");
+      EXPECT_NE(reported[axis], bench.value(name + ".pulses").get<std::int64_t>()) << axis;
     }
     bench.run(60'000);
     for (std::size_t i = 0; i < one.axes.size(); ++i) {
       const std::string name = "d." + one.axes[i];
-      EXPECT_EQ(bench.value(name + ".pulses"), told[one.axes[i]]) << name;
-      EXPECT_EQ(bench.value(name + ".target"), told[one.axes[i]]) << name;
+      EXPECT_EQ(bench.value(name + ".pulses"), reported[one.axes[i]]) << name;
+      EXPECT_EQ(bench.value(name + ".target"), reported[one.axes[i]]) << name;
       if (!one.ends.empty()) {
-        EXPECT_EQ(told[one.axes[i]], one.ends[i]) << name;
+        EXPECT_EQ(reported[one.axes[i]], one.ends[i]) << name;
       }
     }
   }

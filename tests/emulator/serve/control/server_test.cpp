@@ -41,13 +41,13 @@ struct Client {
   }
   /// Returns what has arrived so far; sets `is_over` if the server has hung up.
   std::string hear() {
-    std::string heard;
+    std::string received;
     char bytes[4096];
     while (true) {
       const ssize_t count = recv(descriptor, bytes, sizeof(bytes), 0);
       if (count == 0 || (count < 0 && errno == ECONNRESET)) is_over = true;
-      if (count <= 0) return heard;
-      heard.append(bytes, static_cast<std::size_t>(count));
+      if (count <= 0) return received;
+      received.append(bytes, static_cast<std::size_t>(count));
     }
   }
 
@@ -62,7 +62,7 @@ struct ServerRig {
   void serve(const std::string& at) {
     server = std::make_unique<ControlServer>(loop, at,
                                              [this](const std::string& line, ControlServer::Reply reply) {
-                                               heard.push_back(line);
+                                               received.push_back(line);
                                                if (answers) reply("you said: " + line);
                                                replies.push_back(std::move(reply));
                                              });
@@ -76,7 +76,7 @@ struct ServerRig {
   TestFolder folder;
   std::string path = folder.path + "/control";
   EventLoop loop;
-  std::vector<std::string> heard;
+  std::vector<std::string> received;
   std::vector<ControlServer::Reply> replies;
   bool answers = true;
   std::unique_ptr<ControlServer> server;
@@ -211,7 +211,7 @@ TEST(ControlServer, AClientThatLeavesInTheMiddleIsForgotten) {
     rig.settle();
   }
   rig.settle();
-  EXPECT_EQ(rig.heard, std::vector<std::string>{"tell me later"});
+  EXPECT_EQ(rig.received, std::vector<std::string>{"tell me later"});
   rig.replies.at(0)("too late");  // to nobody
   rig.server.reset();
   rig.replies.at(0)("even later");
@@ -236,7 +236,7 @@ TEST(ControlServer, MessagesOfOneClientAreAnsweredInTheirOrder) {
   Client client(rig.path);
   client.say("advance\nget\n");
   rig.settle();
-  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next client waits";
+  EXPECT_EQ(rig.received, std::vector<std::string>{"advance"}) << "the next client waits";
   rig.answers = true;
   rig.replies.at(0)("there");
   rig.settle();
@@ -252,18 +252,18 @@ TEST(ControlServer, ManyMessagesMayWaitBehindOneAndEachIsAnswered) {
   rig.settle();
   std::string waiting;  // more than the maximum length of a message
   for (int i = 0; i < 10'000; ++i) waiting += "get number " + std::to_string(i) + "\n";
-  std::size_t said = 0;
-  std::string heard;
+  std::size_t printed = 0;
+  std::string received;
   rig.answers = true;
-  for (int round = 0; round < 1000 && heard.find("number 9999\n") == std::string::npos; ++round) {
-    said += client.say(waiting.substr(said));
+  for (int round = 0; round < 1000 && received.find("number 9999\n") == std::string::npos; ++round) {
+    printed += client.say(waiting.substr(printed));
     rig.settle();
     if (round == 10) rig.replies.at(0)("there");
-    heard += client.hear();
+    received += client.hear();
   }
-  EXPECT_TRUE(heard.starts_with("there\nyou said: get number 0\n")) << heard.substr(0, 100);
-  EXPECT_NE(heard.find("number 9999\n"), std::string::npos);
-  EXPECT_EQ(rig.heard.size(), 10'001U);
+  EXPECT_TRUE(received.starts_with("there\nyou said: get number 0\n")) << received.substr(0, 100);
+  EXPECT_NE(received.find("number 9999\n"), std::string::npos);
+  EXPECT_EQ(rig.received.size(), 10'001U);
 }
 
 TEST(ControlServer, AClientThatHasSaidAllStillGetsItsReply) {
@@ -291,15 +291,15 @@ TEST(ControlServer, ALineThatNeverEndsIsRefusedAndTheClientDropped) {
   for (int i = 0; i < kMaxPieces + 40 && !endless.is_over; ++i) {
     endless.say(piece);
     rig.settle();
-    const std::string heard = endless.hear();
-    if (heard.empty()) continue;
+    const std::string received = endless.hear();
+    if (received.empty()) continue;
     EXPECT_EQ(
-        heard,
+        received,
         "{\"ok\":false,\"error\":\"the message is too long; expected a line of at most 4194304 bytes\"}\n");
     EXPECT_GE(i, kMaxPieces);
   }
   EXPECT_TRUE(endless.is_over);
-  EXPECT_TRUE(rig.heard.empty());
+  EXPECT_TRUE(rig.received.empty());
   other.say("and I?\n");
   rig.settle();
   EXPECT_EQ(other.hear(), "you said: and I?\n");
@@ -317,7 +317,7 @@ TEST(ControlServer, ALongMessageBelowTheLimitIsHeardWhole) {
   }
   client.say("\n");
   rig.settle();
-  EXPECT_EQ(rig.heard, std::vector<std::string>{message});
+  EXPECT_EQ(rig.received, std::vector<std::string>{message});
 }
 
 TEST(ControlServer, AClientThatNeverReadsIsDroppedBeforeMemoryFills) {
@@ -329,13 +329,13 @@ TEST(ControlServer, AClientThatNeverReadsIsDroppedBeforeMemoryFills) {
   rig.settle();
   const std::string megabyte(1 << 20, 'r');
   for (int i = 0; i < 16; ++i) rig.replies.at(0)(megabyte);
-  std::size_t heard = 0;
+  std::size_t received = 0;
   for (int i = 0; i < 100; ++i) {
-    heard += lazy.hear().size();
+    received += lazy.hear().size();
     rig.settle();
   }
   EXPECT_TRUE(lazy.is_over);
-  EXPECT_LT(heard, std::size_t{12} << 20);
+  EXPECT_LT(received, std::size_t{12} << 20);
 }
 
 TEST(AskControl, ComplainsWhenNobodyAnswers) {
@@ -374,9 +374,9 @@ TEST(ControlServer, ClientsTakeTurnsHoweverMuchOneHasToSay) {
   busy.say(much);
   other.say("a word\n");
   rig.settle();
-  const auto turn = std::find(rig.heard.begin(), rig.heard.end(), "a word") - rig.heard.begin();
+  const auto turn = std::find(rig.received.begin(), rig.received.end(), "a word") - rig.received.begin();
   EXPECT_LE(turn, 3) << "after one message of the other client, not after all";
-  while (rig.heard.size() < 201) rig.loop.wait(wall_now() + std::chrono::seconds(5));
+  while (rig.received.size() < 201) rig.loop.wait(wall_now() + std::chrono::seconds(5));
 }
 
 /// While this object exists, no more descriptors are available than now.
@@ -412,11 +412,11 @@ TEST(ControlServer, WithoutDescriptorsItRestsUntilAClientHasGone) {
     EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100));
     served->say("third\n");
     rig.settle();
-    EXPECT_EQ(rig.heard, (std::vector<std::string>{"first", "third"}));
+    EXPECT_EQ(rig.received, (std::vector<std::string>{"first", "third"}));
   }
   served.reset();
   rig.settle();
-  EXPECT_EQ(rig.heard.back(), "second");
+  EXPECT_EQ(rig.received.back(), "second");
   EXPECT_EQ(waiting.hear(), "you said: second\n");
 }
 
@@ -431,8 +431,8 @@ TEST(ControlServer, WithoutDescriptorsItTriesAgainByItself) {
     const NoMoreDescriptors none;
     rig.settle();
   }
-  EXPECT_TRUE(rig.heard.empty());
-  for (const WallTime end = wall_now() + std::chrono::seconds(10); rig.heard.empty() && wall_now() < end;)
+  EXPECT_TRUE(rig.received.empty());
+  for (const WallTime end = wall_now() + std::chrono::seconds(10); rig.received.empty() && wall_now() < end;)
     rig.loop.wait(wall_now() + std::chrono::milliseconds(50));
   EXPECT_EQ(waiting.hear(), "you said: is there room?\n");
 }

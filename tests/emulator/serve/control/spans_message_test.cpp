@@ -74,13 +74,13 @@ TEST_F(SpansMessage, KeepsTheLastWaits) {
   EXPECT_EQ(last["of"], 3) << last;
   EXPECT_EQ(last["left_out"], 10);
   EXPECT_EQ(ask(R"(,"to_ns":9000000,"dots":4000)")["spans"], Json::array()) << "they are no longer kept";
-  std::size_t told = 0;
-  for (Json page{{"next", 0}}; page.contains("next"); told += page["spans"].size()) {
+  std::size_t reported = 0;
+  for (Json page{{"next", 0}}; page.contains("next"); reported += page["spans"].size()) {
     page = ask(R"(,"dots":4000,"from":)" + page["next"].dump());
     EXPECT_LE(page["spans"].size(), 2000U);
     EXPECT_EQ(page["of"], KeptWaits::kMax);
   }
-  EXPECT_EQ(told, KeptWaits::kMax);
+  EXPECT_EQ(reported, KeptWaits::kMax);
 }
 
 TEST_F(SpansMessage, RefusesWhatIsNoStretch) {

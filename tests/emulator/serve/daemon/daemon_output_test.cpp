@@ -68,7 +68,7 @@ std::string program() {
 }
 
 /// The expected text, up to that length.
-std::string said(std::size_t bytes) {
+std::string printed(std::size_t bytes) {
   std::string text;
   for (int number = 0; text.size() < bytes; ++number) text += text_of_line(number % kLines) + "\r\n";
   return text.substr(0, bytes);
@@ -77,7 +77,7 @@ std::string said(std::size_t bytes) {
 /// Reports the first difference, not all of both texts.
 void expect_said(const pty::Bytes& received, std::size_t bytes) {
   const std::string text(received.begin(), received.end());
-  const std::string expected = said(bytes);
+  const std::string expected = printed(bytes);
   ASSERT_EQ(text.size(), bytes) << text.substr(0, 200);
   const auto [differs, wanted] = std::ranges::mismatch(text, expected);
   EXPECT_EQ(differs, text.end()) << "byte " << differs - text.begin() << ": "

@@ -56,24 +56,24 @@ class HostWaitLogTest : public testing::Test {
     wait(message, length);
   }
   void host_writes(std::uint64_t bytes) { lines_[0].bytes_in += bytes; }
-  const std::vector<HostWait>& told() {
+  const std::vector<HostWait>& reported() {
     log_.finish(lines_);
-    return told_;
+    return reported_;
   }
   std::vector<HostWait> under_way() const { return log_.under_way(waits_, lines_); }
-  const std::vector<HostWait>& told_before() const { return told_; }
+  const std::vector<HostWait>& reported_before() const { return reported_; }
 
  private:
   HostWaits waits_{[](int, HostAnswer, const HostWaits::Thread&) {}};
-  std::vector<HostWait> told_;
+  std::vector<HostWait> reported_;
   HostWaitLog log_{[](int terminal) { return std::size_t{terminal == kTerminal ? 0U : 1U}; },
-                   [this](const HostWait& wait) { told_.push_back(wait); }};
+                   [this](const HostWait& wait) { reported_.push_back(wait); }};
   HostWaitLog::Lines lines_{{.name = "rs485"}};
   std::uint32_t sequence_ = 0;
   SimTime now_{0};
 };
 
-HostWait told_wait(milliseconds begin, milliseconds end, const char* text) {
+HostWait reported_wait(milliseconds begin, milliseconds end, const char* text) {
   return {.thread = 1, .begin = begin, .end = end, .text = text};
 }
 
@@ -83,10 +83,10 @@ TEST_F(HostWaitLogTest, TellsTheBytesOfAReplyAsOneWait) {
   wait_for_line(milliseconds(1), 1);
   wait_for_line(milliseconds(1), 1);
   sleep(milliseconds(20));
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        told_wait(milliseconds(0), milliseconds(7), "waits for a reply"),
-                        told_wait(milliseconds(7), milliseconds(27), "sleeps"),
-                    }));
+  EXPECT_EQ(reported(), (std::vector<HostWait>{
+                            reported_wait(milliseconds(0), milliseconds(7), "waits for a reply"),
+                            reported_wait(milliseconds(7), milliseconds(27), "sleeps"),
+                        }));
 }
 
 TEST_F(HostWaitLogTest, TellsTimeoutsApart) {
@@ -96,10 +96,10 @@ TEST_F(HostWaitLogTest, TellsTimeoutsApart) {
     message.until_ns = SimTime(milliseconds(300 * (attempt + 1))).count();
     wait(message, milliseconds(300));
   }
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        told_wait(milliseconds(0), milliseconds(300), "waits for a reply in vain"),
-                        told_wait(milliseconds(300), milliseconds(600), "waits for a reply in vain"),
-                    }));
+  EXPECT_EQ(reported(), (std::vector<HostWait>{
+                            reported_wait(milliseconds(0), milliseconds(300), "waits for a reply in vain"),
+                            reported_wait(milliseconds(300), milliseconds(600), "waits for a reply in vain"),
+                        }));
 }
 
 TEST_F(HostWaitLogTest, TellsRequestsApart) {
@@ -108,10 +108,10 @@ TEST_F(HostWaitLogTest, TellsRequestsApart) {
   host_writes(8);
   wait_for_line(milliseconds(4), 7);
   wait_for_line(milliseconds(3));
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        told_wait(milliseconds(0), milliseconds(500), "waits for a reply in vain"),
-                        told_wait(milliseconds(500), milliseconds(507), "waits for a reply"),
-                    }));
+  EXPECT_EQ(reported(), (std::vector<HostWait>{
+                            reported_wait(milliseconds(0), milliseconds(500), "waits for a reply in vain"),
+                            reported_wait(milliseconds(500), milliseconds(507), "waits for a reply"),
+                        }));
 }
 
 // A host that asks again as soon as it has the reply, without a pause.
@@ -120,10 +120,10 @@ TEST_F(HostWaitLogTest, TellsRequestsWithoutAPauseApart) {
     host_writes(8);
     wait_for_line(milliseconds(4), 7);
   }
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        told_wait(milliseconds(0), milliseconds(4), "waits for a reply"),
-                        told_wait(milliseconds(4), milliseconds(8), "waits for a reply"),
-                    }));
+  EXPECT_EQ(reported(), (std::vector<HostWait>{
+                            reported_wait(milliseconds(0), milliseconds(4), "waits for a reply"),
+                            reported_wait(milliseconds(4), milliseconds(8), "waits for a reply"),
+                        }));
 }
 
 TEST_F(HostWaitLogTest, TellsSleepsApartAndWaitsByTheirKind) {
@@ -142,14 +142,15 @@ TEST_F(HostWaitLogTest, TellsSleepsApartAndWaitsByTheirKind) {
   message.has_others = 1;
   wait(message, milliseconds(4));
   wait(message, milliseconds(0));
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        told_wait(milliseconds(0), milliseconds(10), "sleeps"),
-                        told_wait(milliseconds(10), milliseconds(20), "sleeps"),
-                        told_wait(milliseconds(20), milliseconds(21), "waits for data"),
-                        told_wait(milliseconds(21), milliseconds(23), "waits for another thread"),
-                        told_wait(milliseconds(23), milliseconds(26), "waits until its bytes are sent"),
-                        told_wait(milliseconds(26), milliseconds(30), "waits"),
-                    }));
+  EXPECT_EQ(reported(),
+            (std::vector<HostWait>{
+                reported_wait(milliseconds(0), milliseconds(10), "sleeps"),
+                reported_wait(milliseconds(10), milliseconds(20), "sleeps"),
+                reported_wait(milliseconds(20), milliseconds(21), "waits for data"),
+                reported_wait(milliseconds(21), milliseconds(23), "waits for another thread"),
+                reported_wait(milliseconds(23), milliseconds(26), "waits until its bytes are sent"),
+                reported_wait(milliseconds(26), milliseconds(30), "waits"),
+            }));
 }
 
 // A new connection gets the lowest free descriptor, often that of a thread that has just ended.
@@ -158,10 +159,11 @@ TEST_F(HostWaitLogTest, NumbersAThreadAnewThatHasADescriptorOfBefore) {
   leave();
   greet();
   sleep(milliseconds(10));
-  EXPECT_EQ(told(), (std::vector<HostWait>{
-                        {.thread = 1, .begin = milliseconds(0), .end = milliseconds(10), .text = "sleeps"},
-                        {.thread = 2, .begin = milliseconds(10), .end = milliseconds(20), .text = "sleeps"},
-                    }));
+  EXPECT_EQ(reported(),
+            (std::vector<HostWait>{
+                {.thread = 1, .begin = milliseconds(0), .end = milliseconds(10), .text = "sleeps"},
+                {.thread = 2, .begin = milliseconds(10), .end = milliseconds(20), .text = "sleeps"},
+            }));
 }
 
 TEST_F(HostWaitLogTest, TellsTheWaitThatIsUnderWay) {
@@ -170,16 +172,17 @@ TEST_F(HostWaitLogTest, TellsTheWaitThatIsUnderWay) {
   host_writes(8);
   wait_for_line(milliseconds(5));
   EXPECT_EQ(under_way(), (std::vector<HostWait>{
-                             told_wait(milliseconds(10), milliseconds(15), "waits for a reply"),
+                             reported_wait(milliseconds(10), milliseconds(15), "waits for a reply"),
                          }));
-  EXPECT_EQ(told_before(), (std::vector<HostWait>{told_wait(milliseconds(0), milliseconds(10), "sleeps")}));
+  EXPECT_EQ(reported_before(),
+            (std::vector<HostWait>{reported_wait(milliseconds(0), milliseconds(10), "sleeps")}));
   Message message = message_for_line();
   message.until_ns = SimTime(milliseconds(315)).count();
   wait(message, milliseconds(300));
   EXPECT_EQ(under_way().at(0).text, "waits for a reply");
   time_out();
   EXPECT_EQ(under_way().at(0).text, "waits for a reply in vain");
-  told();
+  reported();
   EXPECT_EQ(under_way(), std::vector<HostWait>{}) << "it has ended";
 }
 

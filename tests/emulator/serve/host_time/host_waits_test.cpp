@@ -15,11 +15,11 @@ namespace host_waits_test {
 using host_time::Message;
 using host_time::MessageKind;
 
-struct Told {
+struct Reported {
   int number;
   HostAnswer answer;
   std::uint32_t sequence;
-  bool operator==(const Told&) const = default;
+  bool operator==(const Reported&) const = default;
 };
 
 class HostWaitsTest : public testing::Test {
@@ -44,9 +44,9 @@ class HostWaitsTest : public testing::Test {
   }
 
   Message wait_{};
-  std::vector<Told> told_;
+  std::vector<Reported> reported_;
   HostWaits waits_{[this](int number, HostAnswer answer, const HostWaits::Thread& thread) {
-    told_.push_back({number, answer, thread.wait.sequence});
+    reported_.push_back({number, answer, thread.wait.sequence});
   }};
 };
 
@@ -115,7 +115,7 @@ TEST_F(HostWaitsTest, EndAtTheFirstOfTheirTimes) {
   EXPECT_EQ(waits_.next_end(), SimTime{200});
   EXPECT_FALSE(waits_.time_is(SimTime{199}));
   EXPECT_TRUE(waits_.time_is(SimTime{200}));
-  EXPECT_EQ(told_, (std::vector<Told>{{2, HostAnswer::go, 1}}));
+  EXPECT_EQ(reported_, (std::vector<Reported>{{2, HostAnswer::go, 1}}));
   EXPECT_EQ(waits_.next_end(), SimTime{300});
   EXPECT_TRUE(waits_.time_is(SimTime{300}));
   EXPECT_EQ(waits_.next_end(), std::nullopt);
@@ -131,7 +131,7 @@ TEST_F(HostWaitsTest, EndByNewsOfTheirOwnLine) {
   hear(3, MessageKind::wait, 1);
   EXPECT_TRUE(waits_.is_line_waited_for(9)) << "by the one that waits for any line";
   EXPECT_TRUE(waits_.line_has_news(8));
-  EXPECT_EQ(told_, (std::vector<Told>{{2, HostAnswer::go, 1}, {3, HostAnswer::go, 1}}));
+  EXPECT_EQ(reported_, (std::vector<Reported>{{2, HostAnswer::go, 1}, {3, HostAnswer::go, 1}}));
   EXPECT_FALSE(waits_.is_line_waited_for(8));
   EXPECT_FALSE(waits_.line_has_news(8));
   EXPECT_EQ(state(1), HostState::waiting);
@@ -154,7 +154,7 @@ TEST_F(HostWaitsTest, AreTakenUpAgainAfterASignalHandler) {
   wait_.until_ns = 500;
   hear(1, MessageKind::wait, 1);
   EXPECT_EQ(waits_.next_end(), SimTime{500});
-  EXPECT_EQ(told_, (std::vector<Told>{{1, HostAnswer::go, 2}}));
+  EXPECT_EQ(reported_, (std::vector<Reported>{{1, HostAnswer::go, 2}}));
 }
 
 TEST_F(HostWaitsTest, CountThreadsThatWaitElsewhere) {

@@ -338,13 +338,13 @@ bench.yaml:12:22: lines.a.stations[0].program: operand 1: 'x' is not a number; e
 }
 
 /// Of the steps on the two stations.
-std::string told_of(const std::string& steps) {
+std::string diagnostics_of(const std::string& steps) {
   return play::ScenarioFolder().diagnostic("understudy: 1\nbench: feeder.yaml\nsteps:\n" + steps);
 }
 
 TEST(AllDiagnostics, OfStepsOnALine) {
   EXPECT_EQ(
-      told_of(R"(  - write: { feeder.Nosuch: 1, turner.HW_Code: 1 }
+      diagnostics_of(R"(  - write: { feeder.Nosuch: 1, turner.HW_Code: 1 }
     exception: many
     within: soon
     via: c
@@ -377,7 +377,7 @@ scenario.yaml:13: steps[3].hear.within: 'x' is not a duration; expected one such
 
 TEST(AllDiagnostics, OfStepsThatCheckAndContinue) {
   EXPECT_EQ(
-      told_of(R"(  - wait: { until: feeder.Q, within: soon, poll: 1us, for: 3 }
+      diagnostics_of(R"(  - wait: { until: feeder.Q, within: soon, poll: 1us, for: 3 }
   - assert: [ feeder.Q, turner.Q == 1 ]
   - always: { what: feeder.Q, of: 3 }
   - repeat: { times: many, steps: [ advance: 1 ], with: 1 }
@@ -400,7 +400,7 @@ scenario.yaml:8: steps[4].for.with: is not a key here; expected one of each, as,
 
 TEST(AllDiagnostics, OfStepsThatActFromOutside) {
   EXPECT_EQ(
-      told_of(R"(  - input: { feeder.DIN_99: on, turner.DIN_1: maybe }
+      diagnostics_of(R"(  - input: { feeder.DIN_99: on, turner.DIN_1: maybe }
   - turn: { feeder.A: 3, turner.MPG: 3 }
   - inject: { lost_steps: q.A, one_in: none, name: all }
   - power: { feeder: maybe, q: on }
@@ -470,9 +470,9 @@ scenario.yaml:11: steps[5].expect.feeder.Cord_A: )" +
 
 TEST(AllDiagnostics, OfAFaultInAScenario) {
   const play::ScenarioFolder folder;
-  const std::string told = folder.diagnostic(play::ScenarioFolder::scenario_of(
+  const std::string reported = folder.diagnostic(play::ScenarioFolder::scenario_of(
       "  - inject: { lost_steps: feeder.A, one_in: none, when: \"feeder.A.homes\" }\n"));
-  EXPECT_EQ(told,
+  EXPECT_EQ(reported,
             "scenario.yaml:4: steps[0].inject.one_in: 'none' is not valid; expected a whole number\n"
             "scenario.yaml:4: steps[0].inject.when: column 1 of 'feeder.A.homes': axis A has no 'homes'; the "
             "nearest is 'home'");

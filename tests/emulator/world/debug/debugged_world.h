@@ -37,7 +37,7 @@ struct DebuggedWorld {
     debugger.end_step();
     return text;
   }
-  std::vector<std::string> told(std::string_view what) {
+  std::vector<std::string> reported(std::string_view what) {
     std::vector<std::string> texts;
     for (const Event& event : events.since(1, SIZE_MAX)) {
       if (event.what == what) texts.push_back(event.text);

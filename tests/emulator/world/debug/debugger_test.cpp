@@ -40,7 +40,7 @@ TEST(Breakpoint, StopsAtTheEndOfTheTickInWhichItsLineBegins) {
     EXPECT_EQ(counting.run(1000), "breakpoint 1: m line 3: Delay_mSec 5");
     EXPECT_EQ(get(counting.world, "PROG_VAR0"), i);
   }
-  EXPECT_EQ(counting.told("stop").size(), 4U);
+  EXPECT_EQ(counting.reported("stop").size(), 4U);
   EXPECT_TRUE(counting.debugger.remove(1));
   EXPECT_FALSE(counting.debugger.remove(1));
   EXPECT_FALSE(counting.debugger.is_watching());
@@ -131,10 +131,10 @@ TEST(Logpoint, PrintsAndNeverStops) {
   Counting counting;
   counting.debugger.add({.line = 3, .log = "PROG_VAR0 is {PROG_VAR0}, {1 / (PROG_VAR0 - 1)}!"});
   EXPECT_EQ(counting.run(20), "");
-  const std::vector<std::string> told = counting.told("logpoint");
-  ASSERT_GT(told.size(), 1U);
-  EXPECT_EQ(told[0].substr(0, 17), "PROG_VAR0 is 1, (");
-  EXPECT_EQ(told[1], "PROG_VAR0 is 2, 1!");
+  const std::vector<std::string> reported = counting.reported("logpoint");
+  ASSERT_GT(reported.size(), 1U);
+  EXPECT_EQ(reported[0].substr(0, 17), "PROG_VAR0 is 1, (");
+  EXPECT_EQ(reported[1], "PROG_VAR0 is 2, 1!");
 }
 
 TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {

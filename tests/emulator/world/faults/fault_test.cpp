@@ -202,10 +202,10 @@ TEST(FaultForm, HasEveryKindAndField) {
   for (const std::string& field : trigger_fields()) known.push_back(field);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  std::vector<std::string> told;
-  for (const Key& row : kFaultKeys) told.emplace_back(row.key);
-  std::sort(told.begin(), told.end());
-  EXPECT_EQ(told, known);
+  std::vector<std::string> reported;
+  for (const Key& row : kFaultKeys) reported.emplace_back(row.key);
+  std::sort(reported.begin(), reported.end());
+  EXPECT_EQ(reported, known);
 }
 
 TEST(FaultText, MayLeaveOutTheOnlyDevice) {

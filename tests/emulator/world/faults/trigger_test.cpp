@@ -41,8 +41,8 @@ TEST(Trigger, ChanceHitsItsShare) {
       FaultTrigger trigger;
       trigger.chance = percent * kAlways / 100;
       FaultCourse course;
-      Told told;
-      for (int i = 0; i < 10'000; ++i) strikes_frame(trigger, course, {}, told, stream);
+      Told reported;
+      for (int i = 0; i < 10'000; ++i) strikes_frame(trigger, course, {}, reported, stream);
       EXPECT_GE(course.hits, min) << percent;
       EXPECT_LE(course.hits, max) << percent;
     }
@@ -71,8 +71,8 @@ TEST(Trigger, AnAddressIsHitByARangeThatTouchesIt) {
     trigger.first_address = c.first;
     trigger.last_address = c.last;
     FaultCourse course;
-    Told told;
-    EXPECT_EQ(strikes_frame(trigger, course, {.first = c.from, .count = c.count}, told, 0), c.hit)
+    Told reported;
+    EXPECT_EQ(strikes_frame(trigger, course, {.first = c.from, .count = c.count}, reported, 0), c.hit)
         << c.first << ".." << c.last << " and " << c.from << " + " << c.count;
   }
 }
@@ -83,13 +83,13 @@ TEST(Trigger, AConditionIsAskedOnlyOfFramesThatFit) {
   trigger.when = "a";
   trigger.from = 10ms;
   FaultCourse course;
-  Told told;
-  told.is_true = true;
-  EXPECT_FALSE(strikes_frame(trigger, course, {.at = 20ms, .function = 3}, told, 0));
-  EXPECT_FALSE(strikes_frame(trigger, course, {.at = 9ms, .function = 6}, told, 0));
-  EXPECT_EQ(told.asked, 0);
-  EXPECT_TRUE(strikes_frame(trigger, course, {.at = 10ms, .function = 6}, told, 0));
-  EXPECT_EQ(told.asked, 1);
+  Told reported;
+  reported.is_true = true;
+  EXPECT_FALSE(strikes_frame(trigger, course, {.at = 20ms, .function = 3}, reported, 0));
+  EXPECT_FALSE(strikes_frame(trigger, course, {.at = 9ms, .function = 6}, reported, 0));
+  EXPECT_EQ(reported.asked, 0);
+  EXPECT_TRUE(strikes_frame(trigger, course, {.at = 10ms, .function = 6}, reported, 0));
+  EXPECT_EQ(reported.asked, 1);
   EXPECT_EQ(course.seen, 3);
   EXPECT_EQ(course.matched, 1);
 }
@@ -98,17 +98,17 @@ TEST(Trigger, AConditionIsAskedOnlyOfFramesThatFit) {
 std::vector<Tick> ticks_in_force(const FaultTrigger& trigger, const std::function<bool(Tick)>& is_true,
                                  bool skip, FaultCourse& course) {
   std::vector<Tick> ticks;
-  Told told;
+  Told reported;
   for (Tick tick = 1; tick <= 20; ++tick) {
-    told.is_true = is_true(tick);
+    reported.is_true = is_true(tick);
     const bool is_alone = is_of_time_alone(trigger);
     while (next_moment(trigger, course) <= time_of(tick)) {
       strikes_time(trigger, course,
                    next_moment(trigger, course) < SimTime{0} ? SimTime{0} : next_moment(trigger, course),
-                   told, 3);
+                   reported, 3);
     }
     if (!is_alone && (!skip || next_poll(trigger, course, tick - 1) == tick)) {
-      strikes_time(trigger, course, time_of(tick), told, 3);
+      strikes_time(trigger, course, time_of(tick), reported, 3);
     }
     if (course.in_force) ticks.push_back(tick);
   }
@@ -189,18 +189,18 @@ TEST(Trigger, ThatHasHadItsHitsNeedsNoMoreLooks) {
   trigger.times = 1;
   trigger.lasts = 5ms;
   FaultCourse course;
-  Told told;
-  told.is_true = true;
+  Told reported;
+  reported.is_true = true;
   EXPECT_EQ(next_poll(trigger, course, 0), 1);
-  strikes_time(trigger, course, 1ms, told, 0);
-  strikes_time(trigger, course, 6ms, told, 0);
+  strikes_time(trigger, course, 1ms, reported, 0);
+  strikes_time(trigger, course, 6ms, reported, 0);
   EXPECT_FALSE(course.in_force);
   EXPECT_EQ(next_poll(trigger, course, 6), kNever);
   trigger = {};
   trigger.at = 3ms;
   course = {};
   EXPECT_EQ(next_moment(trigger, course), 3ms);
-  strikes_time(trigger, course, 3ms, told, 0);
+  strikes_time(trigger, course, 3ms, reported, 0);
   EXPECT_EQ(next_moment(trigger, course), kForever);
 }
 

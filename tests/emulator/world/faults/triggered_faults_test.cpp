@@ -308,9 +308,9 @@ TEST(FaultState, IsSavedAndRestoredWithAllThatIsUnderWay) {
     for (SimTime now = from; now < to; now += 7ms) {
       world.advance_to(now);
       if (now % 49ms == 0ms) world.receive(0, frames[static_cast<std::size_t>(now / 49ms) % 7], now);
-      const auto said = world.line(0).line.output();
-      came.emplace_back(said.begin(), said.end());
-      world.take_output(0, said.size());
+      const auto printed = world.line(0).line.output();
+      came.emplace_back(printed.begin(), printed.end());
+      world.take_output(0, printed.size());
     }
     return came;
   };

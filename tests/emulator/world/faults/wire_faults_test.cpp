@@ -243,8 +243,8 @@ TEST(WireFaults, SlowDevicesCarryOutRequestsLate) {
   line.world().advance_to(SimTime{235'333'333});
   EXPECT_EQ(speed(), 200);
   line.world().advance_to(299ms);
-  const auto said = line.world().line(0).line.output();
-  EXPECT_EQ(hex(said), hex(kSetSpeed));
+  const auto sent = line.world().line(0).line.output();
+  EXPECT_EQ(hex(sent), hex(kSetSpeed));
 }
 
 TEST(WireFaults, ADroppedRequestIsNotCarriedOutADroppedReplyIs) {

@@ -119,10 +119,10 @@ TEST(History, HasEachFrameOnce) {
   std::size_t answered = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Played played(seed);
-    std::size_t told = 0;
+    std::size_t reported = 0;
     SimTime before{0};
     for (const Exchange& exchange : played.history.exchanges()) {
-      told += (exchange.request.empty() ? 0U : 1U) + (exchange.reply.empty() ? 0U : 1U);
+      reported += (exchange.request.empty() ? 0U : 1U) + (exchange.reply.empty() ? 0U : 1U);
       EXPECT_LE(before, exchange.begin);
       EXPECT_LE(exchange.begin, exchange.end);
       before = exchange.begin;
@@ -131,7 +131,7 @@ TEST(History, HasEachFrameOnce) {
       ASSERT_TRUE(exchange.latency);
       EXPECT_LE(exchange.begin + *exchange.latency, exchange.end);
     }
-    EXPECT_EQ(told, played.frames) << seed;
+    EXPECT_EQ(reported, played.frames) << seed;
     EXPECT_EQ(played.history.dropped(), 0U);
   }
   EXPECT_GT(answered, 10U);

@@ -107,10 +107,10 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
       {framed({1, 6, 0x10, 0x02, 0, 1}), framed({1, 0x86, 6}), "exception 6 (device busy)"},
   };
   for (const Case& c : cases) {
-    const std::string told = world_.line(0).reply_text(c.request, c.reply);
-    EXPECT_EQ(told.substr(0, c.text.size()), c.text);
+    const std::string reported = world_.line(0).reply_text(c.request, c.reply);
+    EXPECT_EQ(reported.substr(0, c.text.size()), c.text);
     if (c.text.ends_with(")")) {
-      EXPECT_EQ(told, c.text);
+      EXPECT_EQ(reported, c.text);
     }
   }
 }

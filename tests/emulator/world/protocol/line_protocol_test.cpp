@@ -47,7 +47,7 @@ TEST(LineProtocol, IsRefusedWhereTheWorldHasNone) {
                     .terminals = {},
                     .axes = {},
                     .state_registers = {},
-                    .gaps = {},
+                    .known_limitations = {},
                     .line = {.protocol = kSmokeSigns, .ports = kTextPort},
                     .make = nullptr};
   std::string diagnostic;

@@ -91,11 +91,11 @@ testing::AssertionResult same_worlds(World& plain, World& awake) {
     }
   }
   for (std::size_t i = 0; i < plain.line_count(); ++i) {
-    const auto said = plain.line(i).line.output();
+    const auto sent = plain.line(i).line.output();
     const auto also_said = awake.line(i).line.output();
-    if (!std::equal(said.begin(), said.end(), also_said.begin(), also_said.end()))
+    if (!std::equal(sent.begin(), sent.end(), also_said.begin(), also_said.end()))
       return testing::AssertionFailure() << "the output of a line differs";
-    const std::size_t size = said.size();
+    const std::size_t size = sent.size();
     plain.take_output(i, size);
     awake.take_output(i, size);
   }
@@ -221,11 +221,11 @@ TEST_P(Sleepers, AreWokenByAllThatMattersToThem) {
   for (std::uint64_t seed = first; seed < first + courses; ++seed) {
     const Course course = course_of(GetParam(), seed);
     Pair pair(course, seed);
-    std::string told;
+    std::string reported;
     bool is_same = true;
     for (const Act& act : course.acts) {
       testing::AssertionResult same = pair.advance(act.before);
-      told += std::to_string(act.before.count()) + "ns later: " + act.words + "\n";
+      reported += std::to_string(act.before.count()) + "ns later: " + act.words + "\n";
       if (same) {
         pair.carry_out(act);
         same = pair.advance(0ns);
@@ -233,7 +233,7 @@ TEST_P(Sleepers, AreWokenByAllThatMattersToThem) {
       if (!same) {
         ADD_FAILURE() << "UNDERSTUDY_SEED=" << seed << " UNDERSTUDY_COURSES=1, " << pair.waker() << ": "
                       << same.message() << "\n"
-                      << (courses == 1 ? course.bench_text + told : "");
+                      << (courses == 1 ? course.bench_text + reported : "");
         is_same = false;
         break;
       }

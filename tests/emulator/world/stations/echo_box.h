@@ -22,7 +22,7 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/device_of.h"
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_language.h"
 #include "emulator/device/terminals.h"
@@ -73,12 +73,12 @@ inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in,
 class EchoBox final : public DeviceOf<EchoBox>,
                       public TextProtocol,
                       public NamedValues,
-                      public KeptMemory,
+                      public PersistentMemory,
                       public UserProgram,
                       public Terminals {
  public:
   EchoBox(const Model& model, const DeviceSettings& settings)
-      : DeviceOf(model, settings), KeptMemory(model.name, settings.firmware) {}
+      : DeviceOf(model, settings), PersistentMemory(model.name, settings.firmware) {}
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
@@ -136,7 +136,7 @@ class EchoBox final : public DeviceOf<EchoBox>,
   std::vector<std::string> names() const override { return {"N0", "R0", "ECHO", "MODULES"}; }
 
   // --- memory: everything is saved at once -------------------------------------------------------
-  std::uint64_t kept_revision() const override { return revision_; }
+  std::uint64_t memory_revision() const override { return revision_; }
   void settle_memory() override {}
   void load_program(std::string_view text) override {
     std::vector<std::string> lines;
@@ -252,7 +252,7 @@ inline const Model& echo_box() {
       .terminals = kEchoTerminals,
       .axes = {},
       .state_registers = {},
-      .gaps = {},
+      .known_limitations = {},
       .line = line_of_text(),
       .max_modules = 8,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "emulator/device/describe/describe.h"
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/models/models.h"
 #include "emulator/serve/control/control_door.h"

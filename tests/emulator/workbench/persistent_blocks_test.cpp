@@ -57,7 +57,7 @@ bool eventually(const std::function<bool()>& holds) {
   return true;
 }
 
-TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
+TEST(PersistentBlocks, AFileFollowsThemAndIsBegunWith) {
   const Folder folder;
   world::Bench bench = bench_of();
   serve::read_memories(bench, folder.path());
@@ -82,7 +82,7 @@ TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
   EXPECT_EQ(blocks_of(world).find("recipes", "00"), nullptr);
 }
 
-TEST(KeptBlocks, AFileThatTheDeviceRefusesIsReportedWithItsLine) {
+TEST(PersistentBlocks, AFileThatTheDeviceRefusesIsReportedWithItsLine) {
   const Folder folder;
   std::ofstream(folder.path("it.json"))
       << "{\"understudy\": 1, \"kind\": \"nv-image\", \"model\": \"workbench\", \"firmware\": \"1.00\",\n"
@@ -98,7 +98,7 @@ TEST(KeptBlocks, AFileThatTheDeviceRefusesIsReportedWithItsLine) {
 }
 
 /// All of them, each in its place.
-TEST(KeptBlocks, ThoseOfABenchAreReportedWithTheirLines) {
+TEST(PersistentBlocks, ThoseOfABenchAreReportedWithTheirLines) {
   const std::string text =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - name: it\n        model: workbench\n"
       "        nv:\n          files:\n            \"07\": good\n            \"B\": no number\n"
@@ -109,12 +109,12 @@ TEST(KeptBlocks, ThoseOfABenchAreReportedWithTheirLines) {
     world::parse_bench(kWorkbenchModels, text, "bench.yaml", "/tmp");
     ADD_FAILURE() << "it is accepted";
   } catch (const FileError& error) {
-    std::string told;
+    std::string reported;
     for (const FileError::Diagnostic& diagnostic : error.diagnostics()) {
-      told += diagnostic.text + "\n";
+      reported += diagnostic.text + "\n";
     }
     EXPECT_EQ(
-        told,
+        reported,
         "bench.yaml:10:18: lines.rs485.stations[0].nv.files.B: is not a number; expected 00 to 99\n"
         "bench.yaml:11:19: lines.rs485.stations[0].nv.files.08: line 1: is not UTF-8; expected text\n"
         "bench.yaml:13:13: lines.rs485.stations[0].nv.fils: 'fils' is not a kind of block; the nearest "
@@ -134,13 +134,13 @@ std::string failure_of(const Folder& folder, const std::string& steps, const std
       "workbench" +
       nv + " } ] } } }\nsteps:\n" + steps;
   const auto scenario = play::parse_scenarios(kWorkbenchModels, text, folder.path("s.yaml")).front();
-  std::string told;
+  std::string reported;
   for (const std::string& line : play::failure_lines(play::run_scenario(scenario, {}).front()))
-    told += line + "\n";
-  return told;
+    reported += line + "\n";
+  return reported;
 }
 
-TEST(KeptBlocks, StepsSaveAndCompareThem) {
+TEST(PersistentBlocks, StepsSaveAndCompareThem) {
   const Folder folder;
   const std::string first = ", nv: { files: { '07': \"a\\nb\\n\" }, recipes: { '01': salt } }";
   EXPECT_EQ(failure_of(folder, "  - save: { it: kept.json }\n", first), "");
@@ -152,7 +152,7 @@ TEST(KeptBlocks, StepsSaveAndCompareThem) {
   EXPECT_NE(other.find("recipes '01' is missing; expected it"), std::string::npos) << other;
 }
 
-TEST(KeptBlocks, OutliveThePowerThatCtlSwitches) {
+TEST(PersistentBlocks, OutliveThePowerThatCtlSwitches) {
   serve::DaemonOptions options;
   options.speed.kind = serve::Speed::Kind::manual;
   options.watch_signals = false;
@@ -172,7 +172,7 @@ TEST(KeptBlocks, OutliveThePowerThatCtlSwitches) {
   EXPECT_EQ(ask({{"do", "program"}, {"device", "it"}})["text"], "FILE 07\na\nEND\nFILE 08\nb\nEND\n");
 }
 
-TEST(KeptBlocks, AndPortsAreDescribed) {
+TEST(PersistentBlocks, AndPortsAreDescribed) {
   const auto csv = [](const Model& of, const char* what) {
     return format_sheet(*describe(of, what, SheetFormat::csv), SheetFormat::csv);
   };

@@ -33,9 +33,9 @@ struct Moment {
   SimTime latest{0};
 };
 
-class BoxStage {
+class RealBox {
  public:
-  virtual ~BoxStage() = default;
+  virtual ~RealBox() = default;
 
   /// Returns why nobody answers on a line, or nothing.
   virtual std::optional<std::string> why_unreachable(std::size_t line) const = 0;

@@ -17,10 +17,10 @@ bool is_on_box(const RunArguments& arguments);
 /// A real controller shows no truths: what is recorded of them cannot be made. Throws UsageError.
 void require_flags_of_boxes(const RunArguments& arguments);
 
-class OnStage {
+class OnBox {
  public:
   /// From now on, Ctrl-C and SIGTERM stop the machine first. Throws UsageError and FileError.
-  explicit OnStage(const OnArguments& arguments, bool puts_back = false);
+  explicit OnBox(const OnArguments& arguments, bool puts_back = false);
 
   /// Opens the ports of the scenario's lines. Throws UsageError if nothing answers, and WireError.
   std::unique_ptr<play::Executor> make(const play::Scenario& scenario);

@@ -1,4 +1,4 @@
-#include "emulator/models/slim/kept_image.h"
+#include "emulator/models/slim/memory_image.h"
 
 #include <array>
 #include <cstddef>
@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/persistent_memory.h"
 #include "emulator/models/slim/error_log.h"
 #include "emulator/models/slim/memory.h"
 #include "emulator/models/slim/motor/module.h"
@@ -45,7 +45,7 @@ void read_image(State& state, const Setup& setup, const NvImage& given) {
   state.kept = std::move(memory);
   if (setup.history_is_kept()) state.errors = errors;
   state.kept_program = image.program;
-  ++state.kept_revision;
+  ++state.memory_revision;
 }
 
 }  // namespace understudy::emulator::models::slim

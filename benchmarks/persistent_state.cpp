@@ -68,7 +68,7 @@ Handing handing(bool changes_a_file) {
     device.memory()->settle_memory();
     if (changes_a_file) blocks.put("files", "07", SharedText(std::to_string(i)));
     const auto before = processor_time_here();
-    const emulator::LateImage late = device.memory()->kept_now();
+    const emulator::LateImage late = device.memory()->content_now();
     const auto between = processor_time_here();
     const std::string text = to_json(late());
     over.push_back(microseconds(between - before));

@@ -1,4 +1,4 @@
-#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/persistent_memory.h"
 
 #include <memory>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator {
 
-LateImage KeptMemory::kept_now() const {
+LateImage PersistentMemory::content_now() const {
   const TextBlocks* const texts = text_blocks();
   return [model = model_name_, firmware = firmware_, write = memory_writer(),
           blocks = texts != nullptr ? texts->shared() : nullptr] {
@@ -21,7 +21,7 @@ LateImage KeptMemory::kept_now() const {
   };
 }
 
-void KeptMemory::load_nv(const NvImage& image) {
+void PersistentMemory::load_nv(const NvImage& image) {
   if (image.model != model_name_) {
     throw NvError("model: is the memory of a " + quoted(image.model) + "; expected one of " +
                   std::string(model_name_));

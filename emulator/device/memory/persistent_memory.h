@@ -13,16 +13,16 @@
 
 namespace understudy::emulator {
 
-class KeptMemory {
+class PersistentMemory {
  public:
   /// Convert to and from the form in files. load_nv() requires that the power is off, and throws NvError for
   /// an image that the device cannot hold.
-  NvImage nv_image() const { return kept_now()(); }
+  NvImage nv_image() const { return content_now()(); }
   void load_nv(const NvImage& image);
   /// Takes the memory's content at this moment. The result can make the image later, in another thread, even
   /// when the device is gone. Taking it is quick (it copies numbers and shares texts); making the image
   /// takes time.
-  LateImage kept_now() const;
+  LateImage content_now() const;
 
   /// Returns the named texts in the memory; null for most devices, which have none. Images include them
   /// automatically.
@@ -30,14 +30,15 @@ class KeptMemory {
   virtual const TextBlocks* text_blocks() const { return nullptr; }
 
   /// Changes whenever the content that would survive a power failure may have changed.
-  virtual std::uint64_t kept_revision() const = 0;
+  virtual std::uint64_t memory_revision() const = 0;
   /// Stores all waiting writes at once, as if their time had passed.
   virtual void settle_memory() = 0;
 
  protected:
   /// The images name this model and firmware.
-  KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
-  ~KeptMemory() = default;
+  PersistentMemory(std::string_view model_name, Firmware firmware)
+      : model_name_(model_name), firmware_(firmware) {}
+  ~PersistentMemory() = default;
 
   /// Returns a function that writes the present content, except text_blocks(), into an image that already has
   /// model and firmware. The function refers to nothing in the device.

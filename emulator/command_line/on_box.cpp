@@ -1,4 +1,4 @@
-#include "emulator/command_line/on_stage.h"
+#include "emulator/command_line/on_box.h"
 
 #include <chrono>
 #include <cstddef>
@@ -109,7 +109,7 @@ void require_flags_of_boxes(const RunArguments& arguments) {
   }
 }
 
-OnStage::OnStage(const OnArguments& arguments, bool puts_back)
+OnBox::OnBox(const OnArguments& arguments, bool puts_back)
     : settings_(settings_of(arguments)), lines_(ports_of(arguments), timeout_of(arguments)) {
   of_rehearsals_ = settings_;
   of_rehearsals_.rehearses = true;
@@ -119,7 +119,7 @@ OnStage::OnStage(const OnArguments& arguments, bool puts_back)
   if (!arguments.plan) watch_for_interruption();
 }
 
-std::unique_ptr<play::Executor> OnStage::make(const play::Scenario& scenario) {
+std::unique_ptr<play::Executor> OnBox::make(const play::Scenario& scenario) {
   try {
     return std::make_unique<box::BoxExecutor>(scenario, lines_, settings_);
   } catch (const box::BoxError& error) {
@@ -127,7 +127,7 @@ std::unique_ptr<play::Executor> OnStage::make(const play::Scenario& scenario) {
   }
 }
 
-std::unique_ptr<play::Executor> OnStage::rehearse(const play::Scenario& scenario) {
+std::unique_ptr<play::Executor> OnBox::rehearse(const play::Scenario& scenario) {
   return std::make_unique<box::BoxExecutor>(scenario, lines_, of_rehearsals_);
 }
 

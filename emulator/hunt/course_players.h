@@ -13,19 +13,19 @@
 
 namespace understudy::emulator::hunt {
 
-class Stages {
+class CoursePlayers {
  public:
   /// `cases` has one file with a plan; it must outlive this object.
-  Stages(const play::CaseList& cases, ModelList models, Player player)
+  CoursePlayers(const play::CaseList& cases, ModelList models, Player player)
       : reader_(cases), models_(models), player_(std::move(player)) {}
 
   std::shared_ptr<CoursePlayer> of(std::uint64_t case_number) {
-    const auto it = stages_.find(case_number);
-    if (it != stages_.end()) return it->second;
-    if (stages_.size() >= kMax) stages_.clear();
+    const auto it = course_players_.find(case_number);
+    if (it != course_players_.end()) return it->second;
+    if (course_players_.size() >= kMax) course_players_.clear();
     auto course_player =
         std::make_shared<CoursePlayer>(reader_.read({.file = 0, .number = case_number}), models_, player_);
-    return stages_.emplace(case_number, std::move(course_player)).first->second;
+    return course_players_.emplace(case_number, std::move(course_player)).first->second;
   }
 
  private:
@@ -34,7 +34,7 @@ class Stages {
   play::CaseReader reader_;
   ModelList models_;
   Player player_;
-  std::map<std::uint64_t, std::shared_ptr<CoursePlayer>> stages_;  // by case
+  std::map<std::uint64_t, std::shared_ptr<CoursePlayer>> course_players_;  // by case
 };
 
 }  // namespace understudy::emulator::hunt
