@@ -61,7 +61,7 @@ class AxisTick {
   std::int64_t finish();
 
  private:
-  /// The next event, in the order in which they are checked.
+  /// The kinds of next event, in the order in which they are checked.
   enum class What : std::uint8_t { unknown, again, edge, backlash_ends, drive_ends, carried_edge, nothing };
 
   bool drives() const;

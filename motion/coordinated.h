@@ -27,7 +27,7 @@ struct Coordinated {
   // State.
   bool engaged = false;
   Cause cause = Cause::none;        // why the last motion ended
-  Cause slowing_for = Cause::none;  // why the axes slow down on the path, to stop; none: they do not
+  Cause slowing_for = Cause::none;  // why the axes are slowing down to stop on the path; none: they are not
 
   bool operator==(const Coordinated&) const = default;
 

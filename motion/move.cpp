@@ -40,7 +40,7 @@ bool slows_down_by_chip_rules(const SpeedLaw& law) {
   return law.slow_down_at_u || law.slow_down_reckoned_by || law.slow_down_offset_u != 0;
 }
 
-/// Slows down from `speed_u_s` and ends on `target_u`: it creeps the rest, or is cut off.
+/// Slows down from `speed_u_s` and ends on `target_u`: the profile creeps the rest of the way, or is cut off.
 void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double target_u) {
   const double start = start_speed(law);
   if (speed_u_s > start) append_ramp(profile, law.down, speed_u_s, start);

@@ -19,8 +19,8 @@ namespace understudy::motion {
 
 /// What happens when the distance is too short to reach the top speed.
 enum class Short : std::uint8_t {
-  lower_top,  // the top speed is lowered so that both ramps just fit, whole: a triangle, or its rounded form
-              // (PCL6045 with FH correction; MCX314 S-curve; every trapezoid)
+  lower_top,  // the top speed is lowered so that both complete ramps just fit: a triangle, or its rounded
+              // form (PCL6045 with FH correction; MCX314 S-curve; every trapezoid)
   keep_half,  // acceleration ends early enough for both ramps to take half the distance; the other half is
               // run at constant speed (MCX314 with AVTRI)
   cut_ramp,   // acceleration is broken off where deceleration must begin: on a rounded ramp the acceleration

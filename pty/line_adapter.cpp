@@ -26,7 +26,8 @@ void Line::set_adapter(const Adapter& adapter) {
   }
 }
 
-/// An adapter with a latency delivers its bytes at multiples of the latency, and when it is full.
+/// An adapter with a latency delivers its bytes at multiples of that latency, or as soon as its buffer is
+/// full.
 void Line::leave_wire(std::span<const std::uint8_t> bytes) {
   const SimTime latency = state_.adapter.latency;
   if (is_unplugged()) return;

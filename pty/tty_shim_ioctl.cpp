@@ -1,8 +1,7 @@
 // Adds features of a serial port that a pseudo-terminal lacks, for hosts that insist on them: modem lines,
 // RS-485 mode and low latency. A pseudo-terminal answers ENOTTY to all of them. This library answers as a
 // port whose other end is switched on and fully wired: CTS, DSR and CD are on; RTS and DTR are as the host
-// has last set them (initially on). RS-485 mode and low latency are remembered. None of it reaches the
-// emulator.
+// last set them (initially on). RS-485 mode and low latency are remembered. None of it reaches the emulator.
 //
 // It runs in another program's process, so it uses only libc and reports no errors of its own.
 #include <dlfcn.h>

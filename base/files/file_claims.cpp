@@ -23,7 +23,8 @@ std::string target_of(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
   for (int i = 0; i < kMaxLinksFollowed && fs::is_symlink(target, error); ++i) {
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces all
+    target =
+        target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces the whole path
   }
   const fs::path canonical = fs::weakly_canonical(target, error);
   return (error ? target.lexically_normal() : canonical).string();

@@ -305,7 +305,7 @@ struct CompareArguments {
   std::string inputs;           // a file: what the inputs did
   double sample_rate = 0;       // for a log that counts samples; 0: not given
   std::string format = "text";  // text, json, sarif or github
-  std::string report;           // a file: a page; empty: none
+  std::string report;           // the file for the page; empty: no page
   bool follow = false;          // a capture that grows
   std::string version;          // the version of this program
 };

@@ -70,7 +70,7 @@ struct RunCoverage {
   void empty();
   /// Returns observers that add the counts of a scenario's run.
   std::vector<play::ObserverMaker> observers(const play::Scenario& scenario);
-  /// Returns false if there is less than the minimum.
+  /// Returns false if the coverage is below the minimum.
   bool write(std::FILE* out);
   /// Returns the coverage of programs as a section of a page; empty if it was not requested.
   std::string section() const;

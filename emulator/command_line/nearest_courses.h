@@ -18,8 +18,8 @@ struct Gap {
       nearest;  // "line 2 ran with inject: { stuck: feeder.DIN_10, level: on, nth: 1 }"; empty: no course
 };
 
-/// The nearest course to a decision is one that ran its line, and to a line one that ran the closest line
-/// before it. Of several, it is the one with the fewest disturbances.
+/// The course nearest to a decision is one that ran the decision's line; the course nearest to a line is one
+/// that ran the closest line before it. If there are several, it is the one with the fewest disturbances.
 class NearestCourses {
  public:
   /// Notes what a course has run. `size` is the number of its disturbances; `text` has them in words.

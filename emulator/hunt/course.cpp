@@ -32,8 +32,8 @@ std::int64_t draw_distance(Dice& dice, std::uint64_t powers = 11) {
   return static_cast<std::int64_t>(dice.below(static_cast<std::uint64_t>(2 * max) + 1)) - max;
 }
 
-/// Draws a time between two: any millisecond, or, as often, a moment near the beginning or the end of a step,
-/// where things meet, or near one at which something new happened.
+/// Draws a time between two times. Half the time it is any millisecond; otherwise it is near the beginning or
+/// the end of a step, where things coincide, or near a moment at which something new happened.
 SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
   if (dice.one_in(2)) {
     const Undisturbed& undisturbed = ground.undisturbed;

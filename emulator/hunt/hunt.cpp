@@ -86,7 +86,7 @@ Hunt::Played Hunt::play(CoursePlayers& course_players, Course course) const {
   return played;
 }
 
-/// Counts a course, and shrinks it if it is the first that failed in its way.
+/// Counts a course, and shrinks it if it is the first to fail in this way.
 void Hunt::judge(std::uint64_t number, const Played& played,
                  const std::function<void(const Finding&)>& found) {
   const Outcome& outcome = played.outcome;

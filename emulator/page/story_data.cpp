@@ -92,7 +92,7 @@ class Listed {
  public:
   Listed(const char* word, const Json& message) : word_(word), message_(message) {}
 
-  /// Takes the entries that the daemon lists now. Returns the time from which on everything is known.
+  /// Takes the entries that the daemon lists now. Returns the time from which the list is complete.
   std::int64_t take(const Asker& ask) {
     const Json reply = require_reply(ask, message_);
     const Json& some = reply.at(word_);

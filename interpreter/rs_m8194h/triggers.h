@@ -47,7 +47,7 @@ inline constexpr auto kTriggerEvents = std::to_array<EventRow>({
 struct Trigger {
   TriggerCondition condition = TriggerCondition::none;
   TriggerEvent event = TriggerEvent::none;
-  std::uint8_t argument = 0;  // the number of an MP; an axis: 1 2 4 8
+  std::uint8_t argument = 0;  // the number of an MP, or the bit of an axis (1, 2, 4 or 8)
 
   bool operator==(const Trigger&) const = default;
 };

@@ -1,7 +1,7 @@
 // poll, select and epoll of a host in simulated time.
 //
-// Each checks first, and then waits as the bench decides and checks again. A wait only for sockets to other
-// machines happens in real time, while simulated time is stopped.
+// Each call checks first, then waits as the bench decides, and checks again. A wait for nothing but sockets
+// to other machines happens in real time, while simulated time is stopped.
 #include <errno.h>
 #include <fcntl.h>
 #include <netinet/in.h>

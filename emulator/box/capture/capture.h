@@ -36,7 +36,7 @@ struct CapturedPiece {
 struct Exchange {
   SimTime at{0};
   CapturedBytes request;
-  std::optional<SimTime> replied_at{};  // nothing: there was no reply, or the file tells no times
+  std::optional<SimTime> replied_at{};  // nothing: there was no reply, or the file gives no times
   CapturedBytes reply{};
   std::size_t place = 0;          // of the request
   bool has_broken_reply = false;  // bytes came back that belong to no frame

@@ -53,8 +53,8 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  /// Returns the stage if the controllers are real. Then the world only knows names, stations and the order
-  /// of words. Null: they are those of the world.
+  /// Returns the stage if the controllers are real, or null if the world emulates them. With real
+  /// controllers, the world supplies only names, station numbers and the word order.
   virtual RealBox* box() { return nullptr; }
 
   // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
@@ -74,9 +74,9 @@ class Executor {
   /// Sends a line, with its line end added, as soon as the gap allows. Earlier received bytes are discarded.
   /// Returns when the device has received the line.
   virtual void send_text(std::size_t line, const std::string& text) = 0;
-  /// Sends a line if `text` is given, and receives lines until the wanted ones, or others instead, have
-  /// arrived, or `within` has passed. Later lines are left to the next call; an answer is everything that
-  /// arrives without a pause. The last line may be unfinished.
+  /// Sends a line if `text` is given. Receives lines until the wanted lines, or different ones in their
+  /// place, have arrived, or until `within` has passed. Later lines are left for the next call; an answer is
+  /// everything that arrives without a pause. The last line may be unfinished.
   virtual std::vector<std::string> exchange_text(std::size_t line, const std::optional<std::string>& text,
                                                  const world::LinesWanted& wanted, SimTime within) = 0;
 

@@ -60,8 +60,8 @@ Limits limits_of(const Target& target);
 
 /// Returns a register's value as a number, which may be real. Nothing if the bits of a real are not a number.
 std::optional<world::Number> number_of(const Target& target, Value value);
-/// Returns the value for a number. Nothing for a fraction if the target is whole, or if it exceeds single
-/// precision.
+/// Returns the value for a number. Returns nothing for a fraction if the target is whole, or for a number
+/// beyond single precision if the target is real.
 std::optional<Value> value_for(const Target& target, world::Number number);
 
 /// Returns the value in the words of a target.

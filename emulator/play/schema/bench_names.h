@@ -13,7 +13,7 @@ struct NameList {
   std::vector<std::string> names;
   /// What each name stands for, if it is a register: one for each name, or none at all.
   std::vector<std::string> meanings;
-  /// Regular expressions (ECMA) for names that are too many to list, such as addresses and numbers of bits.
+  /// Regular expressions (ECMA) for names that are too numerous to list, such as addresses and bit numbers.
   std::vector<std::string> patterns;
 };
 

@@ -64,7 +64,7 @@ Json first_move_of(const Device& device) {
   const FirstFiles* const files = device.model().first_files;
   if (files == nullptr) return messages;
   std::string_view steps = files->first_move.empty() ? files->steps : files->first_move;
-  // The move of a bench whose device has a program is that program's.
+  // If the bench's device has a program, the first move is the one that the program makes.
   const UserProgram* const own = device.user_program();
   if (const std::string program = first_program(files->bench);
       !program.empty() && own != nullptr && own->program_text().empty()) {

@@ -77,7 +77,7 @@ Json go_back(Daemon& daemon, const Go& go) {
   require_way_back(daemon);
   world::Debugger& debugger = daemon.observers().debugger;
   const Before before = before_now(daemon);
-  // Daemon::restore() ends a course, because it is not part of it. This one is.
+  // Daemon::restore() ends a course, because a restore is not normally part of one. This restore is.
   std::unique_ptr<world::RecentCourse> course = std::move(daemon.observers().course);
   const SimTime from = daemon.world().now();
   Json reply;

@@ -11,8 +11,8 @@ namespace understudy::emulator::serve {
 class SimulatedTask {
  public:
   virtual ~SimulatedTask() = default;
-  /// Called while the host sleeps and it is `now`. If the task's wait is over, it acts on the world until it
-  /// waits again.
+  /// Called at time `now`, while the host sleeps. If the task's wait is over, the task acts on the world
+  /// until it waits again.
   virtual void act(SimTime now) = 0;
   /// Returns the latest end of its wait, or nothing if it does not wait for a time.
   virtual std::optional<SimTime> next_act() const = 0;

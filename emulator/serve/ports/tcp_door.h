@@ -80,7 +80,7 @@ class TcpDoor final : private Port::Guest {
   world::TcpAddress address_;
   std::function<void(const std::string&)> log_;
   bool is_on_demand_;
-  Descriptor timer_;            // ends the time for a reply, or for a client that has sent everything
+  Descriptor timer_;            // ends the wait for a reply, or for a client that has sent everything
   std::optional<SimTime> due_;  // the same on demand
   std::uint64_t news_ = 0;      // of clients that are no longer there
   std::vector<std::unique_ptr<TcpClient>> clients_;

@@ -33,7 +33,7 @@ struct Fault {
     unplug,  // the adapter is unplugged
     slow,    // it executes each request `amount` ns late
     // Faults in the way a device, or every device on a line, treats requests.
-    busy,         // they are refused as a busy device would
+    busy,         // they are refused as a busy device would refuse them
     exception,    // they are refused with exception `amount`
     early_reply,  // requests are complete with their last character, without the device's silence
     // Faults of a message on the wire (pty/wire_fault.h).

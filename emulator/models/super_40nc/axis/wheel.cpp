@@ -93,7 +93,7 @@ void Wheel::feed_wheel(std::int32_t edges) {
   }
 }
 
-/// At a limit the wheel has no effect, in that direction.
+/// At a limit, the wheel has no effect in the direction of the limit.
 void Wheel::wheel_ended(int axis) {
   const motion::Cause why = chip(axis).cause;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus ||

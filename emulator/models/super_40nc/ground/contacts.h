@@ -26,7 +26,7 @@ struct Contacts {
   }
   /// Records a press of a command key: an edge, even if the contact is ON already.
   void press(int contact) { flags[place(contact)] |= kLevel | kWasOn | kRose; }
-  /// Records a write by a program: only the level counts in the scan's step of contacts.
+  /// Records a write by a program: the scan's contact step then considers only the level.
   void overwrite(int contact) {
     std::uint8_t& flag = flags[place(contact)];
     flag = static_cast<std::uint8_t>(flag & ~kWasOn);

@@ -28,7 +28,7 @@ class StoredPrograms : protected OnGround {
   /// Returns the warnings about `text`: it loads, but something is odd.
   std::vector<ProgramMistake> warnings_about(std::string_view text) const;
   interpreter::super_40nc::Checked check(std::string_view text) const;
-  /// Returns the areas of `text`, and its files as programs of C, for observers.
+  /// Returns the areas of `text`, and its files as programs of area C, for observers.
   std::vector<ProgramPart> parts_of(std::string_view text) const;
   /// Returns the program of an area that is stored under this kind and name, or nothing.
   std::optional<interpreter::super_40nc::AreaProgram> area(std::string_view kind, std::string_view name,
