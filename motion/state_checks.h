@@ -156,7 +156,7 @@ inline void check_restored(const Path& path) {
       require_state(std::abs(coordinate) <= 1e15, "a path must be within +-1e15");
     }
   }
-  require_state(path.length_u >= 0 && path.length_u <= 1e24, "a path must have a length");
+  require_state(path.length_u >= 0 && path.length_u <= 1e24, "a path's length must be from 0 to 1e24");
   require_state(std::abs(path.begin_angle_rad) <= 7 && std::abs(path.sweep_rad) <= 1.001e6,
                 "an arc's angles must be within 1e6 rad");
   require_state(path.begin_radius_u >= 0 && path.begin_radius_u <= 1e15, "an arc must have a radius");

@@ -115,8 +115,9 @@ int verify_certificate(const CertificateArguments& arguments) {
   const std::string signature = path + ".sig";
   for (const auto& [file, what] : {std::pair{signature, "signature: "}, {arguments.signers, "signers: "}})
     if (const std::string why = why_not_readable(file); !why.empty())
-      throw FileError(file + ": " + what + why + "; expected " +
-                      (file == signature ? "one of `ssh-keygen -Y sign`" : "a file of keys that you trust"));
+      throw FileError(
+          file + ": " + what + why + "; expected " +
+          (file == signature ? "one made by `ssh-keygen -Y sign`" : "a file of keys that you trust"));
   const box::CommandAnswer answer = box::run_command(kVerify, {arguments.signers, signature, path});
   if (answer.exit_code == kNoProgram)
     throw FileError("ssh-keygen: is not installed; expected the one of OpenSSH");

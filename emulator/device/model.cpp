@@ -272,7 +272,7 @@ void set_station_number(Device& device) {
 
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
-    throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected none");
+    throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected no NV image");
   // A memory whose content a bench gives names no firmware.
   const auto& firmwares = device.model().firmwares;
   if (!image.firmware.empty() && image.model == device.model().name &&

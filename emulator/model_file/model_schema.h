@@ -73,7 +73,7 @@ inline constexpr Schema kAloneOrWholeSchema = world::words_schema(kAloneOrWhole)
 inline constexpr Schema kHighOrLowSchema = world::words_schema(kHighOrLow);
 inline constexpr std::array kMapKeys{
     Key{"holes", "Addresses without a register: refused (default), or read as zero.", &kRefusedOrZeroSchema},
-    Key{"out_of_range", "A value beyond min and max: refused (default), clamped or stored.",
+    Key{"out_of_range", "A value outside min and max: refused (default), clamped or stored.",
         &kOutOfRangeSchema},
     Key{"read_only", "A write to such a register: refused (default) or ignored.", &kRefusedOrIgnoredSchema},
     Key{"write_only", "A read of such a register: zero (default) or refused.", &kZeroOrRefusedSchema},

@@ -42,7 +42,7 @@ constexpr std::array<Guess, 9> kGuesses{
       "TARGET",
       "the target of `start`"},
      {"speed", true, {"speed", "velocity", "frequency", "rpm"}, "", "SPEED", "how fast"},
-     {"acceleration_time", true, {"acc", "ramp"}, "", "250ms", "a register of a time, or a duration"},
+     {"acceleration_time", true, {"acc", "ramp"}, "", "250ms", "a register that holds a time, or a duration"},
      {"start",
       true,
       {"start", "control", "command", "trigger"},

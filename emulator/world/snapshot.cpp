@@ -151,7 +151,8 @@ void check_fault_value(const World& world, const Fault& fault) {
 
 void check_faults(const World& world, const WorldValues& values) {
   for (const auto& [number, armed] : std::get<kFaults>(values)) {
-    require_state(number < std::get<kNextFault>(values), "a fault has a number that has not been given yet");
+    require_state(number < std::get<kNextFault>(values),
+                  "a fault has a number that has not been assigned yet");
     check_fault_value(world, armed.fault);
     const FaultCourse& course = armed.course;
     for (const std::int64_t count : {course.seen, course.matched, course.hits}) {

@@ -14,7 +14,7 @@ enum class Error : std::uint8_t {
   axis = 4,            // not assigned, or its module is reserved for an axis
   not_linked = 5,      // a module that PN50 does not name
   paused = 6,          // refused during a pause
-  unequal_speeds = 7,  // PR2 or PR3 differ between the axes of one command
+  unequal_speeds = 7,  // PR2 or PR3 differs between the axes of one command
   buffer_full = 8,     // the FIFO, or the program
   servo_off = 9,       // HOFF
   following_error = 10,

@@ -12,7 +12,7 @@ void StateOf<interpreter::super_40nc::StepState>::check(const Value& state) {
   require_reach(state.left_ms);
   require_state(state.left_ms >= 0, "a wait is negative");
   const bool can_resume = state.resumes != Phase::idle && state.resumes < Phase::paused;
-  require_state(can_resume, "a program cannot continue from this");
+  require_state(can_resume, "a program cannot resume in this phase");
   constexpr std::size_t kMaxCalls = 4096;
   require_state(state.calls.size() <= kMaxCalls, "there are too many calls");
 }

@@ -99,8 +99,8 @@ inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關"
 inline constexpr auto kIoRows = section("輸入輸出相關", kOutput, {
     reg(0x0D00, "DOUT_{}",  u16, RW).means("digital output {}", "{} 號輸出點").range(0, 1).times(7, 1, 0).reads<read_output, Varies::in_ticks>().does<write_output>(),
     reg(0x0D10, "DIN_{}",   u16, R).means("digital input {}", "{} 號輸入點").range(0, 1).times(11, 1, 0).reads<read_input, Varies::in_ticks>(),
-    reg(0x0DF0, "DOUT_ALL", u16, RW).means("all digital outputs, a bit each", "所有輸出點").range(0, 0x7F).reads<read_all_outputs, Varies::in_ticks>().does<write_all_outputs>(),
-    reg(0x0DF1, "DIN_ALL",  u16, R).means("all digital inputs, a bit each", "所有輸入點").range(0, 0x7FF).reads<read_all_inputs, Varies::in_ticks>(),
+    reg(0x0DF0, "DOUT_ALL", u16, RW).means("all digital outputs, one bit each", "所有輸出點").range(0, 0x7F).reads<read_all_outputs, Varies::in_ticks>().does<write_all_outputs>(),
+    reg(0x0DF1, "DIN_ALL",  u16, R).means("all digital inputs, one bit each", "所有輸入點").range(0, 0x7FF).reads<read_all_inputs, Varies::in_ticks>(),
 });
 
 inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入相關", kMotion, {
@@ -229,7 +229,7 @@ inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
 });
 
 inline constexpr auto kApplicationRows = section("程式應用相關", kValue, {
-    reg(0xF100, "CalcREG",        s32, RW).means("register in which programs calculate", "計算暫存器"),
+    reg(0xF100, "CalcREG",        s32, RW).means("working register for calculations in programs", "計算暫存器"),
     reg(0xF122, "Counter1_Value", u16, RW).means("count of counter 1 of programs", "1 號計數器目前值").range(0, 65535),
     reg(0xF123, "Counter2_Value", u16, RW).means("count of counter 2 of programs", "2 號計數器目前值").range(0, 65535),
     reg(0xF126, "Timer1_Value",   u32, RW).means("time of timer 1 of programs", "1 號計時器目前值").range(0, 4294967295).reads<read_timer, Varies::with_time>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
@@ -237,8 +237,8 @@ inline constexpr auto kApplicationRows = section("程式應用相關", kValue, {
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", kMemory, {
-    reg(0xFF00, "ADC_A",         u16, R).means("analog input A as converted", "類比輸入 A 原始值").reads<read_adc, Varies::in_ticks>(0),
-    reg(0xFF01, "ADC_B",         u16, R).means("analog input B as converted", "類比輸入 B 原始值").reads<read_adc, Varies::in_ticks>(1),
+    reg(0xFF00, "ADC_A",         u16, R).means("raw ADC value of analog input A", "類比輸入 A 原始值").reads<read_adc, Varies::in_ticks>(0),
+    reg(0xFF01, "ADC_B",         u16, R).means("raw ADC value of analog input B", "類比輸入 B 原始值").reads<read_adc, Varies::in_ticks>(1),
     reg(0xFF02, "ADC_10V_A",     u16, RW).means("calibration of analog input A at 10 V", "類比輸入 A 在 10V 的校正值").from_factory(4000).persists(),
     reg(0xFF03, "ADC_10V_B",     u16, RW).means("calibration of analog input B at 10 V", "類比輸入 B 在 10V 的校正值").from_factory(4000).persists(),
     reg(0xFF04, "ADC_1V_A",      u16, RW).means("calibration of analog input A at 1 V", "類比輸入 A 在 1V 的校正值").from_factory(400).persists(),

@@ -57,7 +57,7 @@ void Slim::check_restored(State& restored) const {
   settle_programs(restored, setup_.flow);
   // Further checks depend on this bench's choices.
   for (const Errors& errors : restored.errors) {
-    require_state(errors.history.size() <= setup_.history_length(), "too many errors are remembered");
+    require_state(errors.history.size() <= setup_.history_length(), "the error history is too long");
   }
   const auto check_integers = [&](const auto& integers) {
     const int min = setup_.of_programs().dialect.integer_min;

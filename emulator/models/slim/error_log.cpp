@@ -79,7 +79,7 @@ std::array<Errors, kModules> read_history(const Setup& setup, NvImage& image) {
       if (found->second < 1 || found->second > kMax) {
         throw refused_value(NvEntryError::List::registers, history_name(m, i),
                             history_name(m, i) + ": " + std::to_string(found->second) +
-                                " is not an error; expected 1 to " + std::to_string(kMax));
+                                " is not an error number; expected 1 to " + std::to_string(kMax));
       }
       errors[static_cast<std::size_t>(m)].history.push_back(static_cast<std::uint8_t>(found->second));
       image.registers.erase(found);

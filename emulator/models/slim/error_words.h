@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 14> kErrorWords{
     "that axis is not assigned, or its module belongs to an axis",
     "PN50 names no such module",
     "the chain is paused and accepts no moves",
-    "PR2 or PR3 differ between the axes of the command",
+    "PR2 or PR3 differs between the axes of the command",
     "the buffer of moves, or the program, is full",
     "the servo is off (HOFF)",
     "the following error is too large",

@@ -95,7 +95,7 @@ class VcdReader {
       if (read.ec != std::errc{} || read.ptr != word.data() + word.size()) {
         fail(quoted(word) + " is not a time; expected one such as #250");
       }
-      if (has_row_ && tick <= tick_) fail(quoted(word) + " is not later than the time before");
+      if (has_row_ && tick <= tick_) fail(quoted(word) + " is not later than the previous time");
       tick_ = tick;
       has_row_ = true;
       return;

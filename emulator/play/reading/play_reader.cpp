@@ -331,7 +331,7 @@ void PlayReader::read_command(const world::YamlFields& root, const Parameters& p
   const world::YamlFields variables = root.at("environment");
   variables.require_map();
   for (const auto& [name, value] : variables.entries()) {
-    if (name.find('=') != std::string::npos) value.fail("its name has '='; expected a variable's name");
+    if (name.find('=') != std::string::npos) value.fail("its name contains '='; expected a variable name");
     scenario.environment.emplace_back(name, value.text());
   }
 }

@@ -180,9 +180,9 @@ struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
                 field<&Value::acceleration>(), field<&Value::deceleration>(), field<&Value::jerk_up>(),
                 field<&Value::jerk_down>(),    field<&Value::offset_pulses>()};
   static void check(const Value& value) {
-    require_state(value.mode < 12, "a speed mode is not one of the manual's");
+    require_state(value.mode < 12, "a speed mode is not in the manual");
     require_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
-                  "an offset of slowing down is not one of the manual's");
+                  "a deceleration offset is outside the manual's range");
   }
 };
 

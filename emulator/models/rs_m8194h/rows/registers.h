@@ -82,14 +82,14 @@ constexpr RegisterRow with_names(RegisterRow row, std::span<const BitField> name
 
 // clang-format off
 inline constexpr auto kInputRows1 = section("12.1.1", {
-    input(0,   "FRnet DO group {}", u16).means("outputs of FRnet group {}, a bit each", "讀取 FRnet DO 群組 {}").times(8, 1, 0).shows<do_word, Varies::in_ticks>(),
-    input(8,   "FRnet DI group {}", u16).means("inputs of FRnet group {}, a bit each", "讀取 FRnet DI 群組 {}").times(8, 1, 8).shows<di_word, Varies::in_ticks>(),
+    input(0,   "FRnet DO group {}", u16).means("outputs of FRnet group {}, one bit each", "讀取 FRnet DO 群組 {}").times(8, 1, 0).shows<do_word, Varies::in_ticks>(),
+    input(8,   "FRnet DI group {}", u16).means("inputs of FRnet group {}, one bit each", "讀取 FRnet DI 群組 {}").times(8, 1, 8).shows<di_word, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows2 = section("12.1.2", {
-    with_names(input(16, "DI_ALL {}", u16).means("inputs of axis {} at the motion chip, a bit each", "{} 軸的所有 DI 狀態").also("DI_ALL_{}").each(kAxisNames, 1).shows<di_all, Varies::in_ticks>(), kDiAllBits),
+    with_names(input(16, "DI_ALL {}", u16).means("inputs of axis {} at the motion chip, one bit each", "{} 軸的所有 DI 狀態").also("DI_ALL_{}").each(kAxisNames, 1).shows<di_all, Varies::in_ticks>(), kDiAllBits),
 });
 inline constexpr auto kInputRows3 = section("12.1.3", {
-    with_names(input(20, "ERROR_CODE {}", u16).means("causes of the stop of axis {}, a bit each", "{} 軸錯誤碼").also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code, Varies::in_ticks>(), kErrorBits),
+    with_names(input(20, "ERROR_CODE {}", u16).means("causes of the stop of axis {}, one bit each", "{} 軸錯誤碼").also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code, Varies::in_ticks>(), kErrorBits),
     input(24,  "MP Call number", u16).means("number of the macro program that runs", "目前正在執行的巨集編號").also("MP_Call_number").shows<running_mp, Varies::in_ticks>(),
     input(25,  "EMERGENCY_STOP state", u16).means("1 after an emergency stop by command", "目前的緊急停止狀態").also("EMERGENCY_STOP").shows<emergency_state, Varies::in_ticks>(),
 });
@@ -110,7 +110,7 @@ inline constexpr auto kInputRows7 = section("12.1.7", {
     input(71,  "FREE_BUFFER_SIZE", u16).means("free places in the buffer of commands", "指令緩衝區的剩餘空間").shows<free_blocks, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows8 = section("12.1.8", {
-    input(72,  "RINT_STATE_ALL", u16).means("interrupts of the module, a bit each", "讀取 RINT 狀態").shows<rint_word, Varies::in_ticks>(),
+    input(72,  "RINT_STATE_ALL", u16).means("interrupts of the module, one bit each", "讀取 RINT 狀態").shows<rint_word, Varies::in_ticks>(),
     input(73,  "Line_Scan_Completed", u16).means("a line scan is complete", "RINT_STATE 的位元 0").shows<rint_bit, Varies::in_ticks>(0),
     input(74,  "MP_Completed", u16).means("a macro program has ended", "RINT_STATE 的位元 1").shows<rint_bit, Varies::in_ticks>(1),
     input(75,  "User-Defined_RINT", u16).means("interrupt that a macro has requested", "RINT_STATE 的位元 2").shows<rint_bit, Varies::in_ticks>(2),
@@ -127,13 +127,13 @@ inline constexpr auto kInputRows10 = section("4.14", {
     input(87,  "InterpolationRdyFlag", u16).means("1: the next command of an interpolation may be sent", "補間命令傳送允許旗標").shows<interpolation_ready, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows11 = section("12.1.10", {
-    with_names(input(88, "DI_SIGNAL {}", u16).means("signals of axis {} at the daughter board, a bit each", "{} 軸的所有 DI 訊號").also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),
+    with_names(input(88, "DI_SIGNAL {}", u16).means("signals of axis {} at the daughter board, one bit each", "{} 軸的所有 DI 訊號").also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),
 });
 inline constexpr auto kInputRows12 = section("4.8", {
     input(92,  "HOME_STATE {}", u16).means("state of the homing of axis {}", "{} 軸原點復歸狀態").also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows13 = section("4.13", {
-    with_names(input(96, "DRIVING_AXIS", u16).means("axes that drive, a bit each", "正在驅動(移動)的軸號").shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
+    with_names(input(96, "DRIVING_AXIS", u16).means("axes that drive, one bit each", "正在驅動(移動)的軸號").shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
 });
 inline constexpr auto kInputRows14 = section("12.1.12", {
     input(100, "RS-M8194H state", u16).means("state of the RS-M8194H: ready, or a macro is downloaded", "RS-M8194H 目前的狀態").also("RSM_STATE").shows<rsm_state, Varies::in_ticks>(),
@@ -155,27 +155,27 @@ inline constexpr auto kInputRows16 = section("12.1.14", {
     input(119, "Execution: error type", u16).means("last macro execution error: kind of error", "巨集程序的執行錯誤訊息: 錯誤類型").also("EXECUTION_ERROR").shows<execution_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows17 = section("12.1.15", {
-    with_names(input(130, "INT factor 0 PULSE", u16).means("axes with this interrupt, a bit each: a pulse has risen", "控制脈波上升時").also("INT_PULSE").shows<factor_axes, Varies::in_ticks>(0), kAxisMaskBits),
-    with_names(input(131, "INT factor 1 P>=C-", u16).means("axes with this interrupt, a bit each: the position has reached COMP-", "大於或等於比較器 COMP-").also("INT_P_GE_C-").shows<factor_axes, Varies::in_ticks>(1), kAxisMaskBits),
-    with_names(input(132, "INT factor 2 P<C-", u16).means("axes with this interrupt, a bit each: the position is below COMP-", "小於比較器 COMP-").also("INT_P_LT_C-").shows<factor_axes, Varies::in_ticks>(2), kAxisMaskBits),
-    with_names(input(133, "INT factor 3 P<C+", u16).means("axes with this interrupt, a bit each: the position is below COMP+", "小於比較器 COMP+").also("INT_P_LT_C+").shows<factor_axes, Varies::in_ticks>(3), kAxisMaskBits),
-    with_names(input(134, "INT factor 4 P>=C+", u16).means("axes with this interrupt, a bit each: the position has reached COMP+", "P>=C+ 比較器 COMP+").also("INT_P_GE_C+").shows<factor_axes, Varies::in_ticks>(4), kAxisMaskBits),
-    with_names(input(135, "INT factor 5 C-END", u16).means("axes with this interrupt, a bit each: the constant speed has ended", "等速度區段結束的時候").also("INT_C-END").shows<factor_axes, Varies::in_ticks>(5), kAxisMaskBits),
-    with_names(input(136, "INT factor 6 C-STA", u16).means("axes with this interrupt, a bit each: the constant speed has begun", "等速度區段開始的時候").also("INT_C-STA").shows<factor_axes, Varies::in_ticks>(6), kAxisMaskBits),
-    with_names(input(137, "INT factor 7 D-END", u16).means("axes with this interrupt, a bit each: the drive has ended", "驅動結束(移動完成)").also("INT_D-END").shows<factor_axes, Varies::in_ticks>(7), kAxisMaskBits),
-    with_names(input(138, "INT factor 8 HMEND", u16).means("axes with this interrupt, a bit each: the homing has ended", "自動原點復歸動作中斷").also("INT_HMEND").shows<factor_axes, Varies::in_ticks>(8), kAxisMaskBits),
-    with_names(input(139, "INT factor 9 SYNC", u16).means("axes with this interrupt, a bit each: a synchronous action has been triggered", "同步運動被觸發").also("INT_SYNC").shows<factor_axes, Varies::in_ticks>(9), kAxisMaskBits),
+    with_names(input(130, "INT factor 0 PULSE", u16).means("axes with this interrupt, one bit each: a pulse has risen", "控制脈波上升時").also("INT_PULSE").shows<factor_axes, Varies::in_ticks>(0), kAxisMaskBits),
+    with_names(input(131, "INT factor 1 P>=C-", u16).means("axes with this interrupt, one bit each: the position has reached COMP-", "大於或等於比較器 COMP-").also("INT_P_GE_C-").shows<factor_axes, Varies::in_ticks>(1), kAxisMaskBits),
+    with_names(input(132, "INT factor 2 P<C-", u16).means("axes with this interrupt, one bit each: the position is below COMP-", "小於比較器 COMP-").also("INT_P_LT_C-").shows<factor_axes, Varies::in_ticks>(2), kAxisMaskBits),
+    with_names(input(133, "INT factor 3 P<C+", u16).means("axes with this interrupt, one bit each: the position is below COMP+", "小於比較器 COMP+").also("INT_P_LT_C+").shows<factor_axes, Varies::in_ticks>(3), kAxisMaskBits),
+    with_names(input(134, "INT factor 4 P>=C+", u16).means("axes with this interrupt, one bit each: the position has reached COMP+", "P>=C+ 比較器 COMP+").also("INT_P_GE_C+").shows<factor_axes, Varies::in_ticks>(4), kAxisMaskBits),
+    with_names(input(135, "INT factor 5 C-END", u16).means("axes with this interrupt, one bit each: the constant speed has ended", "等速度區段結束的時候").also("INT_C-END").shows<factor_axes, Varies::in_ticks>(5), kAxisMaskBits),
+    with_names(input(136, "INT factor 6 C-STA", u16).means("axes with this interrupt, one bit each: the constant speed has begun", "等速度區段開始的時候").also("INT_C-STA").shows<factor_axes, Varies::in_ticks>(6), kAxisMaskBits),
+    with_names(input(137, "INT factor 7 D-END", u16).means("axes with this interrupt, one bit each: the drive has ended", "驅動結束(移動完成)").also("INT_D-END").shows<factor_axes, Varies::in_ticks>(7), kAxisMaskBits),
+    with_names(input(138, "INT factor 8 HMEND", u16).means("axes with this interrupt, one bit each: the homing has ended", "自動原點復歸動作中斷").also("INT_HMEND").shows<factor_axes, Varies::in_ticks>(8), kAxisMaskBits),
+    with_names(input(139, "INT factor 9 SYNC", u16).means("axes with this interrupt, one bit each: a synchronous action has been triggered", "同步運動被觸發").also("INT_SYNC").shows<factor_axes, Varies::in_ticks>(9), kAxisMaskBits),
 });
 inline constexpr auto kInputRows18 = section("12.1.11", {
     input(160, "Absolute Logic Position {}", s32).means("absolute position of axis {} by the pulses sent", "{} 軸的絕對邏輯位置").each(kAxisNames, 2).in("pulse").shows<absolute_position, Varies::while_moving>(),
 });
 
 inline constexpr auto kHoldingRows1 = section("12.2.1", Hazards::output, {
-    reg(0,    "FRnet DO group {}", u16, RW).means("outputs of FRnet group {}, a bit each", "設定/讀取 FRnet DO 群組 {}").times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
+    reg(0,    "FRnet DO group {}", u16, RW).means("outputs of FRnet group {}, one bit each", "設定/讀取 FRnet DO 群組 {}").times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
 });
 inline constexpr auto kHoldingRows2 = section("12.2.2", kMacro, {
     reg(8,    "CALL_MPn", u16, RW).means("calls the macro program of this number", "寫入巨集程序的編號").also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
-    reg(9,    "FRnet Event", u16, RW).means("1: inputs of FRnet trigger macro programs", "FRnet 事件觸發").also("FRNET_EVENT").range(0, 1).persists_at_once().does<enable_triggers>(),
+    reg(9,    "FRnet Event", u16, RW).means("1: FRnet inputs trigger macro programs", "FRnet 事件觸發").also("FRNET_EVENT").range(0, 1).persists_at_once().does<enable_triggers>(),
     reg(14,   "WORD Order", u16, RW).means("order of words: 0 high word first, 1 low word first", "字組順序").also("WORD_ORDER").range(0, 1).may(kMotion),
 });
 inline constexpr auto kHoldingRows3 = section("12.2.3", kNetwork, {

@@ -247,7 +247,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "error_5|silence", kProposal,
      "The manual gives no error code. With silence, no module is there to reply."},
     {"unequal_speeds", "PR2, PR3",
-     "What does a coordinated command do while PR2 or PR3 differ between its modules?",
+     "What does a coordinated command do while PR2 or PR3 differs between its modules?",
      "error_7|as_t0_has_them", kProposal,
      "The manual says that interpolation goes wrong then, but not in a way that we could compute."},
     {"axis_values", "TX", "What does TX= do with 6 or 7, or with a module that has a letter?",

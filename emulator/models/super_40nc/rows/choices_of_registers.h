@@ -59,7 +59,7 @@ inline constexpr ChoiceRow kRegisterChoices[] = {
     {"signal_outputs", "X45./X46.", "What state do Y0 to Y9 have between their signals if their time is set?",
      "off_the_system_writes_last|the_plc_has_them_between", kProposal,
      "The manual says that at 0 the output is for the user to plan, so at other times it is not."},
-    {"fsh_restart", "I/O接線圖", "What does a completion do while FSH or END is ON?",
+    {"fsh_restart", "I/O接線圖", "What happens at a completion while FSH or END is ON?",
      "time_starts_again|time_goes_on", kProposal, "The manual is silent."},
     {"positions_model", "PSET 指令", "What does D8x17 do when CMX or CDV changes?",
      "pulses_by_cmx_cdv_plus_an_offset|a_counter_that_keeps_its_value", kLikely,

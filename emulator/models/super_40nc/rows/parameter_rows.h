@@ -91,22 +91,22 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kHomeResetC).means("counters that are cleared at home", "原點結束復位計數器(Home rst. C)").range(0, 15).with_bits(kCounterBits).from_factory(15),
     parameter(d9x::kCountCorrect).means("counters that count corrections", "間隙/打滑模式操作計數器(Cnt correct)").range(0, 15).with_bits(kCounterBits),
     parameter(d9x::kDisableC2ToC4).means("counters 2 to 4 that do not count", "停止計 2-計 4 的計數(Dis. C2-4)").range(0, 7).with_bits(kCountersButTheFirst).does<change_axis>(d9x::kDisableC2ToC4),
-    parameter(d9x::kCp1Source).means("comparator 1 compares with: 0 to 3 counters 1 to 4", "比較器 1 與誰比(CP1 source)").range(0, 3).does<change_axis>(d9x::kCp1Source),
+    parameter(d9x::kCp1Source).means("source of comparator 1: 0 to 3 select counters 1 to 4", "比較器 1 與誰比(CP1 source)").range(0, 3).does<change_axis>(d9x::kCp1Source),
     parameter(d9x::kCp1Method).means("method of comparator 1: 0 never, 1 =, 2 = upward, 3 = downward, 4 >, 5 <, 6 positive soft limit", "比較器 1 的比較方式(CP1 method)").range(0, 6).from_factory(6).does<change_axis>(d9x::kCp1Method),  // X35
     parameter(d9x::kCp1Action).means("action of comparator 1: 0 none, 1 stops at once, 2 slows down, 3 loads the preregister", "比較器 1 滿足時做(CP1 action)").range(0, 3).from_factory(1).does<change_axis>(d9x::kCp1Action),  // X35
     parameter(34).means("1: counter 1 is a ring, with comparator 1", "比較器 1 配合將計數器 1 用于循環計數用(CP1->rotary)").range(0, 1).not_modelled("ring counters"),
-    parameter(d9x::kCp2Source).means("comparator 2 compares with: 0 to 3 counters 1 to 4", "比較器 2 與誰比(CP2 source)").range(0, 3).does<change_axis>(d9x::kCp2Source),
+    parameter(d9x::kCp2Source).means("source of comparator 2: 0 to 3 select counters 1 to 4", "比較器 2 與誰比(CP2 source)").range(0, 3).does<change_axis>(d9x::kCp2Source),
     parameter(d9x::kCp2Method).means("method of comparator 2: 0 never, 1 =, 2 = upward, 3 = downward, 4 >, 5 <, 6 negative soft limit", "比較器 2 的比較方式(CP2 method)").range(0, 6).from_factory(6).does<change_axis>(d9x::kCp2Method),  // X36
     parameter(d9x::kCp2Action).means("action of comparator 2: 0 none, 1 stops at once, 2 slows down, 3 loads the preregister", "比較器 2 滿足時做(CP2 action)").range(0, 3).from_factory(1).does<change_axis>(d9x::kCp2Action),  // X36
     parameter(38).means("1: counter 2 is a ring, with comparator 2", "比較器 2 將計數器 2 用于循環計數用(CP2->rotary)").range(0, 1).not_modelled("ring counters"),
-    parameter(d9x::kCp3Source).means("comparator 3 compares with: 0 to 3 counters 1 to 4", "比較器 3 與誰比(CP3 source)").range(0, 3).does<change_axis>(d9x::kCp3Source),
+    parameter(d9x::kCp3Source).means("source of comparator 3: 0 to 3 select counters 1 to 4", "比較器 3 與誰比(CP3 source)").range(0, 3).does<change_axis>(d9x::kCp3Source),
     parameter(d9x::kCp3Method).means("method of comparator 3: 0 never, 1 =, 2 = upward, 3 = downward, 4 >, 5 <", "比較器 3 的比較方式(CP3 method)").range(0, 5).does<change_axis>(d9x::kCp3Method),
     parameter(d9x::kCp3Action).means("action of comparator 3: 0 none, 1 stops at once, 2 slows down, 3 loads the preregister", "比較器 3 滿足時做(CP3 action)").range(0, 3).does<change_axis>(d9x::kCp3Action),
     parameter(42).means("IDX: 0 at comparator 4, 1 at counter 4 = 0", "計數器 4 送 IDX(C4 IDX)").range(0, 1).not_modelled("there is no IDX"),
-    parameter(d9x::kCp4Source).means("comparator 4 compares with: 0 to 3 counters 1 to 4", "比較器 4 與誰比(CP4 source)").range(0, 3).does<change_axis>(d9x::kCp4Source),
+    parameter(d9x::kCp4Source).means("source of comparator 4: 0 to 3 select counters 1 to 4", "比較器 4 與誰比(CP4 source)").range(0, 3).does<change_axis>(d9x::kCp4Source),
     parameter(d9x::kCp4Method).means("method of comparator 4: 0 never, 1 =, 2 = upward, 3 = downward, 4 >, 5 <, 8 to 10 IDX", "比較器 4 的比較方式(CP4 method)").range(0, 10).does<change_axis>(d9x::kCp4Method),
     parameter(d9x::kCp4Action).means("action of comparator 4: 0 none, 1 stops at once, 2 slows down, 3 loads the preregister", "比較器 4 滿足時做(CP4 action)").range(0, 3).does<change_axis>(d9x::kCp4Action),
-    parameter(d9x::kCp5Source).means("comparator 5 compares with: 0 to 3 counters 1 to 4, 4 the pulses left, 5 the speed", "比較器 5 與誰比(CP5 source)").range(0, 5).does<change_axis>(d9x::kCp5Source),
+    parameter(d9x::kCp5Source).means("source of comparator 5: 0 to 3 select counters 1 to 4, 4 the pulses left, 5 the speed", "比較器 5 與誰比(CP5 source)").range(0, 5).does<change_axis>(d9x::kCp5Source),
     parameter(d9x::kCp5Method).means("method of comparator 5: 0 never, 1 =, 2 = upward, 3 = downward, 4 >, 5 <", "比較器 5 的比較方式(CP5 method)").range(0, 5).does<change_axis>(d9x::kCp5Method),
     parameter(d9x::kCp5Action).means("action of comparator 5: 0 none, 1 stops at once, 2 slows down, 3 loads the preregister", "比較器 5 滿足時做(CP5 action)").range(0, 3).does<change_axis>(d9x::kCp5Action),
     parameter(49).means("pulses before an acceleration", "空轉脈沖數量(Idle pulse)").range(0, 7).in("pulse").not_modelled("idle pulses"),
