@@ -12,6 +12,7 @@
 #include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/ctl_coverage.h"
+#include "emulator/command_line/ctl_recording.h"
 #include "emulator/command_line/ctl_scope.h"
 
 namespace understudy::emulator::command_line {
@@ -342,7 +343,7 @@ bool add_look_words(const ControlArguments& arguments, Json& message) {
   } else if (verb == "send") {
     add_send_words(arguments, message);
   } else {
-    return false;
+    return add_recording_words(arguments, message);
   }
   return true;
 }
@@ -352,6 +353,8 @@ bool print_look(const Json& reply) {
     print_events(reply.at("events"));
   } else if (reply.contains("spans")) {
     print_spans(reply);
+  } else if (reply.contains("timeline")) {
+    print_timeline(reply);
   } else if (reply.contains("breakpoints")) {
     for (const Json& breakpoint : reply.at("breakpoints")) print_breakpoint(breakpoint);
   } else if (reply.contains("breakpoint")) {

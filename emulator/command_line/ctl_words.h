@@ -75,6 +75,12 @@ inline constexpr std::array kControlWords{
                 "NAME..., when=CONDITION, before=1s, after=1s; off to disarm; without words, show the state"},
     ControlWord{"send", "Send a request on a line that no host has open", "WHAT",
                 "LINE, and the bytes in hexadecimal, or text=TEXT"},
+    ControlWord{"timeline", "Show the failure and the marks of a recording", "FROM",
+                "from=500, if there are more"},
+    ControlWord{"seek", "Go to another moment of a recording", "WHERE",
+                "Such as 1.5s; or tick, frame or event, with a number [1], and back"},
+    ControlWord{"what-if", "Let commands change a recording, or go back to what was recorded", "WHAT",
+                "off to go back"},
 };
 
 }  // namespace understudy::emulator::command_line

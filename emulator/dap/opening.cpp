@@ -8,6 +8,7 @@
 #include "emulator/dap/arguments.h"
 #include "emulator/dap/bench_link.h"
 #include "emulator/dap/session.h"
+#include "emulator/serve/loop/pacer.h"
 
 namespace understudy::emulator::dap {
 
@@ -30,6 +31,10 @@ Json timeline_of(const BenchLink& link) {
 
 Json Session::launch(const Json& arguments) {
   speed_ = text_or(arguments, "speed", "manual");
+  if (!serve::parse_speed(speed_)) {
+    throw RequestError("speed: " + understudy::quoted(speed_) +
+                       " is not a speed; expected real, free, manual or a factor");
+  }
   open("launch", arguments);
   print_ports();
   return nullptr;

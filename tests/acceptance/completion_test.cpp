@@ -61,7 +61,7 @@ TEST_F(Completion, OfBashKnowsEveryCommandAndFlag) {
   EXPECT_EQ(completed("understudy ctl --port inject inject st", 5), (Words{"stall", "stuck"}));
   EXPECT_EQ(completed("understudy ctl inject stall ''", 4), Words{""}) << "an axis of a running bench";
   EXPECT_EQ(completed("understudy ctl power feeder o", 4), (Words{"on", "off"}));
-  EXPECT_EQ(completed("understudy schema ''", 2), (Words{"bench", "scenario"}));
+  EXPECT_EQ(completed("understudy schema ''", 2), (Words{"bench", "scenario", "model"}));
   EXPECT_EQ(completed("understudy exec b.yaml -- --mo", 4), Words{""}) << "the command's own words";
 }
 

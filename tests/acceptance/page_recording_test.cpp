@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "emulator/serve/control/server.h"
 #include "tests/acceptance/running_understudy.h"
 #include "tests/emulator/page/test_browser.h"
 
@@ -259,6 +260,35 @@ TEST_F(PageOfAFailure, IsAlteredOnlyWhereSomebodyAsksForIt) {
 }
 
 /// A step back plays from the keyframe before, so it could miss lines that begin near a keyframe.
+TEST_F(PageOfAFailure, IsMovedByCtlAsWell) {
+  const auto ctl = [this](Words words) {
+    words.insert(words.begin(), "ctl");
+    words.insert(words.end(), {"--control", folder_ / "control"});
+    return understudy(words);
+  };
+  const Finished timeline = ctl({"timeline"});
+  EXPECT_NE(timeline.output.find(" 3201"), std::string::npos) << timeline.output << timeline.errors;
+  EXPECT_EQ(ctl({"seek", "250ms"}).output, "simulated time 250ms\n");
+  EXPECT_EQ(ctl({"seek", "tick", "5", "back"}).output, "simulated time 245ms\n");
+  EXPECT_EQ(ctl({"seek", "tick"}).output, "simulated time 246ms\n");
+  for (const Words& wrong :
+       {Words{"seek"}, Words{"seek", "7"}, Words{"seek", "1s", "2s"}, Words{"seek", "tick", "0"},
+        Words{"seek", "tick", "back", "5"}, Words{"what-if", "on"}, Words{"timeline", "from=x"}}) {
+    const Finished refused = ctl(wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong.back();
+    EXPECT_NE(refused.errors.find("; expected "), std::string::npos) << refused.errors;
+  }
+  EXPECT_NE(ctl({"set", "feeder.Aaxis_Speed=200"}).errors.find("a recording cannot be changed"),
+            std::string::npos);
+  EXPECT_EQ(ctl({"what-if"}).exit_code, 0);
+  EXPECT_EQ(ctl({"set", "feeder.Aaxis_Speed=200"}).exit_code, 0);
+  EXPECT_EQ(ctl({"what-if", "off"}).output, "simulated time 246ms\n");
+  EXPECT_NE(ctl({"set", "feeder.Aaxis_Speed=200"}).exit_code, 0);
+  // A verb that does not exist is not called forbidden.
+  EXPECT_NE(emulator::serve::ask_control(folder_ / "control", R"({"do":"jump"})").find("'jump' is not a"),
+            std::string::npos);
+}
+
 TEST_F(PageOfALoop, StepsBackThroughTheSameLines) {
   EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 990'000'000}})["ok"], true);
   std::vector<std::int64_t> forth;

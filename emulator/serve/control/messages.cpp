@@ -1,5 +1,6 @@
 #include "emulator/serve/control/messages.h"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <functional>
@@ -36,7 +37,14 @@ struct Verb {
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
   ReplyTask (*make_reply)(Daemon& daemon, Json message) = nullptr;
 };
-constexpr std::array<Verb, 39> kVerbs{{{"status", nullptr, nullptr, status_message},
+/// Answers the verbs that only a recording has (timeline_door.h).
+Json refuse_without_recording(Daemon& /*daemon*/, const Json& message) {
+  throw MessageError(
+      message["do"].get<std::string>() +
+      ": this daemon serves no recording; expected one that `replay RECORDING --serve` started");
+}
+
+constexpr std::array<Verb, 43> kVerbs{{{"status", nullptr, nullptr, status_message},
                                        {"identify", identify_message},
                                        {"get", nullptr, nullptr, get_message},
                                        {"eval", eval_message},
@@ -74,7 +82,11 @@ constexpr std::array<Verb, 39> kVerbs{{{"status", nullptr, nullptr, status_messa
                                        {"stack", stack_message},
                                        {"source", source_message},
                                        {"variables", variables_message},
-                                       {"spans", present_spans_message}}};
+                                       {"spans", present_spans_message},
+                                       {"timeline", refuse_without_recording},
+                                       {"seek", refuse_without_recording},
+                                       {"curves", refuse_without_recording},
+                                       {"what-if", refuse_without_recording}}};
 
 const Verb& require_verb(const Json& message) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
@@ -167,6 +179,10 @@ void run_reply(Daemon& daemon, ReplyTask task, const ControlServer::Reply& reply
 }
 
 }  // namespace
+
+bool is_verb(std::string_view word) {
+  return std::any_of(kVerbs.begin(), kVerbs.end(), [&](const Verb& verb) { return verb.name == word; });
+}
 
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
   say_or_refuse(reply, [&]() -> std::optional<std::string> {

@@ -9,10 +9,14 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace understudy::emulator::serve {
 
 class Daemon;
+
+/// Returns true for the verbs of the protocol, including those that only a recording has.
+bool is_verb(std::string_view word);
 
 void handle_message(Daemon& daemon, const std::string& line,
                     const std::function<void(const std::string&)>& reply);

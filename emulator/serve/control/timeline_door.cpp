@@ -284,7 +284,7 @@ ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup given) {
     if (word == "continue" && is_recorded)
       return answer(reply, [&] { return (*travel)->stops().resume(message); });
     if (word == "step" && is_recorded) return answer(reply, [&] { return (*travel)->stops().step(message); });
-    if (!word.empty() && is_recorded && !only_looks(message, word)) {
+    if (is_verb(word) && is_recorded && !only_looks(message, word)) {
       return answer(reply, [&]() -> Json {
         throw MessageError(word +
                            ": a recording cannot be changed; expected `seek`, a command that only reads, "

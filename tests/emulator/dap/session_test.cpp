@@ -177,6 +177,19 @@ TEST(DapSession, RefusesWrongArgumentsInASentence) {
             "variables: variablesReference: expected a whole number");
 }
 
+TEST(DapSession, RefusesALaunchAtAnImpossibleSpeed) {
+  Running running;
+  Client client(running);
+  bring_to(client, 'R');
+  for (const char* const speed : {"fast", "0", "-1", "20000", "nan", ""}) {
+    EXPECT_EQ(client.refusal_of("launch", {{"speed", speed}}),
+              "launch: speed: '" + std::string(speed) +
+                  "' is not a speed; expected real, free, manual or a factor");
+    EXPECT_EQ(client.session().is_running(), false);
+  }
+  EXPECT_EQ(client.ask("launch", {{"speed", "2.5"}})["success"], true);
+}
+
 TEST(DapSession, SaysWhatIsNotARequest) {
   Running running;
   Client client(running);

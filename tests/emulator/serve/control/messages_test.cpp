@@ -189,6 +189,7 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
        "'' is not a command; expected one of status, identify, get, eval, set, input, turn, command, power, "
        "program, inject, clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
       {"{\"do\":\"jump\"}", "'jump' is not a command; expected "},
+      {"{\"do\":\"seek\",\"to_ns\":1}", "seek: this daemon serves no recording; expected one that `replay "},
       {"{\"do\":\"a\\nb\"}", "'a\\nb' is not a command; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is not a key of this message"},
       {"{\"do\":\"pause\",\"values\":{}}", "'values' is not a key of this message"},
