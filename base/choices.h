@@ -2,7 +2,12 @@
 // decision: the code asks for its value, a bench can override it, and docs/fidelity/MODEL.md is made from it.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -68,5 +73,44 @@ constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id,
     rest.remove_prefix(bar + 1);
   }
 }
+
+/// The options in effect of a table's rows, for the code of a part that knows only these rows, such as a
+/// language. By default it is the first option of each row.
+template <const auto& kRows>
+class OptionsOf {
+ public:
+  /// One option of these rows. It is no Option: that counts the rows of the model's whole table.
+  struct Named {
+    std::size_t row = 0;
+    std::uint8_t number = 0;
+  };
+  static constexpr std::size_t kCount = std::size(kRows);
+
+  OptionsOf() = default;
+  constexpr OptionsOf(std::initializer_list<Named> options) {
+    for (const Named& option : options) choose(option);
+  }
+  /// Takes the numbers of the options in effect, and where to note with a 1 which rows the code asks for.
+  /// `asked` must outlive this and its copies.
+  OptionsOf(std::span<const std::uint8_t> numbers, std::uint8_t* asked) : asked_(asked) {
+    std::copy_n(numbers.begin(), kCount, numbers_.begin());
+  }
+
+  constexpr bool chose(const Named& option) const {
+    if (asked_ != nullptr) asked_[option.row] = 1;
+    return numbers_[option.row] == option.number;
+  }
+  constexpr void choose(const Named& option) { numbers_[option.row] = option.number; }
+
+  /// Returns the option. In a constant expression, an unknown row or option does not compile.
+  static constexpr Named named(std::string_view id, std::string_view name) {
+    const Option found = option_of(kRows, id, name);
+    return {found.choice, found.number};
+  }
+
+ private:
+  std::array<std::uint8_t, kCount> numbers_{};
+  std::uint8_t* asked_ = nullptr;
+};
 
 }  // namespace understudy

@@ -18,6 +18,8 @@ class Decisions {
   Decisions(std::size_t choices, std::span<const TransitionTable> tables);
 
   void ask(std::size_t choice) { asked_[choice] = 1; }
+  /// Returns where to note with a 1 that this choice, or one after it, is asked for. It stays where it is.
+  std::uint8_t* asked(std::size_t choice) { return &asked_[choice]; }
   void meet(std::size_t table, std::size_t state, std::size_t event) {
     Cells& cells = cells_[table];
     ++cells.counts[state * cells.events + event];

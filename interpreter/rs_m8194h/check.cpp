@@ -50,15 +50,15 @@ bool is_axis_taken(const Command& command, std::size_t parameter) {
   return false;
 }
 
-bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mask,
-                  const CommandOptions& options) {
-  const bool may_store = !command.is_macro_line() || options.macros_store_initial;
+bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mask, const Options& options) {
+  const bool may_store =
+      !command.is_macro_line() || options.chose(option("initial_in_macros", "stored_when_the_line_runs"));
   if (row.kind == Kind::setting_axes && may_store) return mask < 2 * kInitial && (mask & kAllAxes) != 0;
   if (command.verb() == Verb::line_scan && command.number(1) % 2 != 0) return mask == 1;  // uneven: X alone
   return row.lists(mask);
 }
 
-bool is_good(const Command& command, std::size_t parameter, const CommandOptions& options) {
+bool is_good(const Command& command, std::size_t parameter, const Options& options) {
   const Parameter& row = command.row().parameters[parameter];
   if (is_reference(command, parameter)) return true;
   const std::int64_t value = command.number(parameter);
@@ -142,48 +142,64 @@ std::optional<std::size_t> first_reference(const Command& command) {
 }
 
 /// Returns the first parameter that only some options refuse.
-std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOptions& options) {
+std::optional<std::size_t> bad_by_choice(const Command& command, const Options& options) {
   const Verb verb = command.verb();
-  if (options.speeds_have_ends) {
+  if (options.chose(option("speed_ends", "exception_3"))) {
     for (const SpeedEnds& ends : kSpeedEnds) {
       if (ends.verb != verb) continue;
       return beyond_ends(command, command.row().parameter_count() - 1, ends.min, ends.max);
     }
   }
-  if (options.few_take_references && std::ranges::find(kSayReferences, verb) == std::end(kSayReferences)) {
+  if (options.chose(option("references", "exception_3")) &&
+      std::ranges::find(kSayReferences, verb) == std::end(kSayReferences)) {
     if (const auto reference = first_reference(command)) return reference;
   }
-  if (options.rectangles_end_earlier && verb == Verb::rectangle) {
+  if (options.chose(option("rectangle_ends", "200000000")) && verb == Verb::rectangle) {
     constexpr std::int64_t kEarlierEnd = 200'000'000;
     for (const std::string_view name : {"Lp", "Wp", "Rp"}) {
       if (const auto beyond = beyond_ends(command, place_of(command.row(), name), 1, kEarlierEnd))
         return beyond;
     }
   }
-  if (options.variables_have_ends && verb == Verb::write_var) return beyond_ends(command, 1, kMin, kMax);
-  if (options.zero_moves_are_refused && verb == Verb::fixed_move && command.number(1) == 0) return 1;
-  if (options.helix_turns_forward_only && verb == Verb::helix_3d) {
+  if (options.chose(option("variable_range", "exception_3")) && verb == Verb::write_var)
+    return beyond_ends(command, 1, kMin, kMax);
+  if (options.chose(option("zero_move", "exception_3")) && verb == Verb::fixed_move && command.number(1) == 0)
+    return 1;
+  if (options.chose(option("helix_cycle", "exception_3")) && verb == Verb::helix_3d) {
     return beyond_ends(command, place_of(command.row(), "cycle"), 0, kMax);
   }
-  if (options.helix_has_turns && verb == Verb::helix_3d) {
+  if (options.chose(option("helix_cycle_0", "exception_3")) && verb == Verb::helix_3d) {
     const std::size_t cycle = place_of(command.row(), "cycle");
     if (command.number(cycle) == 0 && !is_reference(command, cycle)) return cycle;
   }
-  if (options.one_trigger_axis && verb == Verb::sync_action && !is_one_axis(command.number(0))) return 0;
-  if (options.outputs_are_of_x_and_y && verb == Verb::set_out && command.number(0) > 3) return 0;
+  if (options.chose(option("several_trigger_axes", "exception_3")) && verb == Verb::sync_action &&
+      !is_one_axis(command.number(0)))
+    return 0;
+  if (options.chose(option("set_out_of_z_and_u", "exception_3")) && verb == Verb::set_out &&
+      command.number(0) > 3)
+    return 0;
   return std::nullopt;
+}
+
+/// Returns true if a rectangle whose corners do not fit its sides is refused here; otherwise, the machine
+/// that executes it decides.
+bool corners_must_fit(const Options& options) {
+  return options.chose(option("rectangle_radius", "exception_3")) &&
+         options.chose(option("rectangle_sides", "outer_length_and_width"));
 }
 
 }  // namespace
 
-std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options) {
+std::optional<std::size_t> bad_parameter(const Command& command, const Options& options) {
   const std::size_t count = command.row().parameter_count();
   for (std::size_t i = 0; i < count; ++i) {
     const bool is_scan_type = command.verb() == Verb::line_scan_start && i == 1;
-    if (is_scan_type && options.uneven_scans_start && command.number(i) <= 3) continue;
+    if (is_scan_type && options.chose(option("uneven_scan_start", "starts_all_the_same")) &&
+        command.number(i) <= 3)
+      continue;
     if (!is_good(command, i, options)) return i;
   }
-  if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) {
+  if (command.verb() == Verb::rectangle && corners_must_fit(options)) {
     if (const auto radius = bad_radius(command)) return radius;
   }
   return bad_by_choice(command, options);

@@ -48,7 +48,7 @@ constexpr auto kDepthRules = std::to_array<DepthRule>({
     {Verb::exit_for, Verb::for_, 1, kDeepest, Fault::exit_for_outside},
 });
 
-Fault block_fault(const std::vector<Command>& lines, const Command& command, const DownloadOptions& options) {
+Fault block_fault(const std::vector<Command>& lines, const Command& command, const Options& options) {
   const Verb verb = command.verb();
   for (const BlockRule& rule : kBlockRules) {
     if (rule.verb != verb) continue;
@@ -57,15 +57,17 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
     if (verb == Verb::else_ && blocks.back().has_else) return rule.outside;
     return blocks.back().opener == Verb::if_ ? rule.in_if : rule.in_for;
   }
-  if (verb == Verb::goto_ && options.goto_stays_in_its_block && !blocks_behind(lines).empty()) {
+  if (verb == Verb::goto_ && options.chose(option("goto_out_of_blocks", "is_refused_as_without_its_label")) &&
+      !blocks_behind(lines).empty()) {
     return Fault::goto_without_label;  // labels are outside all blocks
   }
   for (const DepthRule& rule : kDepthRules) {
     if (rule.verb != verb) continue;
     const Blocks blocks = blocks_behind(lines);
     const bool opens = verb == rule.opener;
-    const int open = opens && options.levels_are_of_both ? static_cast<int>(blocks.size())
-                                                         : count_open(blocks, rule.opener);
+    const int open = opens && options.chose(option("block_levels", "of_both_together"))
+                         ? static_cast<int>(blocks.size())
+                         : count_open(blocks, rule.opener);
     return open >= rule.min && open <= rule.max ? Fault::none : rule.fault;
   }
   return Fault::none;
@@ -73,11 +75,13 @@ Fault block_fault(const std::vector<Command>& lines, const Command& command, con
 
 constexpr std::size_t kOperator = 1;  // the parameter of VAR_CALCULATE
 
-Fault line_fault(const Download& download, const Command& command, const DownloadOptions& options) {
+Fault line_fault(const Download& download, const Command& command, const Options& options) {
   if (command.row().macro_lines() > room_of(download, options)) return Fault::macro_memory;
   if (const Fault fault = operand_fault(command); fault != Fault::none) {
     const bool is_operator = command.verb() == Verb::var_calculate && bad_operand(command) == kOperator;
-    return is_operator && options.operators_share_error ? Fault::comparison : fault;
+    return is_operator && options.chose(option("wrong_arithmetic", "06_as_of_an_operator"))
+               ? Fault::comparison
+               : fault;
   }
   const bool is_twice =
       command.verb() == Verb::label && std::ranges::any_of(download.lines, [&command](const Command& other) {
@@ -87,9 +91,8 @@ Fault line_fault(const Download& download, const Command& command, const Downloa
   return block_fault(download.lines, command, options);
 }
 
-void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line,
-          const DownloadOptions& options) {
-  if (download.fault != Fault::none && !options.last_error_counts) return;
+void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line, const Options& options) {
+  if (download.fault != Fault::none && !options.chose(option("kept_error", "the_last"))) return;
   download.fault = fault;
   download.code = code;
   download.line = static_cast<std::uint16_t>(line);
@@ -107,30 +110,32 @@ const Command* lost_jump(const std::vector<Command>& lines) {
 
 }  // namespace
 
-int room_of(const Download& download, const DownloadOptions& options) {
-  return capacity_of(download.name) - (options.close_takes_line ? 1 : 0) - lines_used(download.lines);
+int room_of(const Download& download, const Options& options) {
+  return capacity_of(download.name) - (options.chose(option("close_line", "one_line")) ? 1 : 0) -
+         lines_used(download.lines);
 }
 
-Fault add(Download& download, const Command& command, const DownloadOptions& options) {
+Fault add(Download& download, const Command& command, const Options& options) {
   const Fault fault = line_fault(download, command, options);
   if (fault == Fault::none) {
     download.lines.push_back(command);
   } else {
     fail(download, fault, command.code, download.lines.size(), options);
   }
-  return options.faults_show_at_close ? Fault::none : fault;
+  return options.chose(option("structure_faults", "at_close")) ? Fault::none : fault;
 }
 
-void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadOptions& options) {
+void refuse(Download& download, std::uint16_t code, Fault fault, const Options& options) {
   if (is_download_error(fault)) {
     fail(download, fault, code, download.lines.size(), options);
-  } else if (options.refused_line == DownloadOptions::RefusedLine::spoils) {
+  } else if (options.chose(option("refused_lines", "spoil_the_download"))) {
     download.is_spoilt = true;
   }
 }
 
-Closed close(Download& download, const DownloadOptions& options) {
-  if (options.faults_show_at_close && download.fault != Fault::none) return {.fault = download.fault};
+Closed close(Download& download, const Options& options) {
+  if (options.chose(option("structure_faults", "at_close")) && download.fault != Fault::none)
+    return {.fault = download.fault};
   const std::vector<Command>& lines = download.lines;
   if (const Blocks blocks = blocks_behind(lines); !blocks.empty()) {
     const Block& open = blocks.front();
@@ -147,22 +152,20 @@ Closed close(Download& download, const DownloadOptions& options) {
   return {.macro = linked(lines)};
 }
 
-DownloadStatus status_of(const Download& closed, const DownloadStatus& before,
-                         const DownloadOptions& options) {
+DownloadStatus status_of(const Download& closed, const DownloadStatus& before, const Options& options) {
   DownloadStatus status = before;
   (closed.name.is_isr ? status.isr : status.mp) = static_cast<std::uint16_t>(closed.name.number);
   const auto shown = [&options](std::uint16_t code) {
-    const bool is_real_time = options.shown_code == DownloadOptions::ShownCode::real_time;
+    const bool is_real_time = options.chose(option("download_command", "as_0a_code"));
     return is_real_time ? real_time_code(verb_of(code)) : code;
   };
-  using Good = DownloadOptions::GoodStatus;
   if (closed.fault != Fault::none) {
     status.command = shown(closed.code);
     status.line = closed.line;
-  } else if (options.good_status == Good::of_close) {
+  } else if (options.chose(option("status_of_good_download", "of_its_close"))) {
     status.command = shown(macro_code(closed.name.is_isr ? Verb::isr_close : Verb::mp_close));
     status.line = static_cast<std::uint16_t>(closed.lines.size());
-  } else if (options.good_status == Good::zero) {
+  } else if (options.chose(option("status_of_good_download", "0"))) {
     status.command = status.line = 0;
   }
   status.error = row_of(closed.fault).download_error;

@@ -29,7 +29,7 @@ constexpr std::uint32_t packed(std::uint32_t group, std::uint32_t channel, std::
 /// Runs one line of one run.
 class LineRun {
  public:
-  LineRun(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine)
+  LineRun(Execution& execution, Run& run, std::int64_t now_ms, const Options& options, Machine& machine)
       : execution_(execution), run_(run), now_ms_(now_ms), options_(options), machine_(machine) {}
 
   Ran run() {
@@ -77,7 +77,8 @@ class LineRun {
   }
   std::int32_t value(std::uint32_t operand) const { return value_of(operand, machine_); }
   ReturnRegister& return_register() {
-    return run_.is_isr && !options_.one_return_register ? execution_.isr_return : execution_.mp_return;
+    return run_.is_isr && !options_.chose(option("return_registers", "one_for_both")) ? execution_.isr_return
+                                                                                      : execution_.mp_return;
   }
 
   // --- numbers ---------------------------------------------------------------------------------
@@ -89,9 +90,10 @@ class LineRun {
 
   Ran set_rvar(const Command& command) {
     ReturnRegister& returned = return_register();
-    if (options_.return_value_is_used_up && !returned.is_full) return fail(command, Fault::operand);
+    if (options_.chose(option("return_register_keeps", "execution_error")) && !returned.is_full)
+      return fail(command, Fault::operand);
     machine_.set_variable(variable_number(command.values[0]), returned.value);
-    if (options_.return_value_is_used_up) returned = {};
+    if (options_.chose(option("return_register_keeps", "execution_error"))) returned = {};
     return next_line();
   }
 
@@ -102,19 +104,20 @@ class LineRun {
     const bool is_defined = arithmetic != '/' || right != 0;
     if (is_defined) {
       const std::int64_t exact = calculate_exactly(arithmetic, value(command.values[0]), right);
-      machine_.set_variable(result, options_.results_end_at_32_bits ? nearest_of_32_bits(exact)
-                                                                    : static_cast<std::int32_t>(exact));
+      machine_.set_variable(result, options_.chose(option("calculation_overflow", "stays_at_the_end"))
+                                        ? nearest_of_32_bits(exact)
+                                        : static_cast<std::int32_t>(exact));
       return next_line();
     }
-    if (!options_.division_by_zero_keeps) machine_.set_variable(result, 0);
+    if (!options_.chose(option("division_by_zero", "stays_as_it_was"))) machine_.set_variable(result, 0);
     return fail(command, Fault::operand);
   }
 
   Ran read(const Command& command) {
     Command resolved = command;
-    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
-    const bool is_returned =
-        command.verb() != Verb::get_di_signal_all || !options_.raw_signals_are_not_returned;
+    if (resolve(resolved, machine_, options_) != Fault::none) return fail(command, Fault::operand);
+    const bool is_returned = command.verb() != Verb::get_di_signal_all ||
+                             !options_.chose(option("rvar_of_di_signal_all", "is_not_stored"));
     if (is_returned) return_register() = {machine_.read(resolved), true};
     return next_line();
   }
@@ -123,7 +126,7 @@ class LineRun {
 
   Ran begin_for(const Command& command) {
     std::int32_t passes = value(command.values[0]);
-    if (options_.for_runs_once_at_least) passes = std::max(passes, 1);
+    if (options_.chose(option("for_below_1", "one_pass"))) passes = std::max(passes, 1);
     if (!decide(passes > 0)) return go_to(leads_to_);
     level().loops.push_back({level().line, passes});
     return next_line();
@@ -152,7 +155,8 @@ class LineRun {
   Ran exit_for(const Command&) {
     const Macro& macro = *machine_.macro(name_of_level(run_, level()));
     const std::uint32_t count = macro.lines[level().loops.back().line].values[0];
-    if (options_.exit_for_counts && is_variable(count)) count_down(variable_number(count));
+    if (options_.chose(option("exit_for_counter", "counts_this_pass_too")) && is_variable(count))
+      count_down(variable_number(count));
     level().loops.pop_back();
     return go_to(leads_to_);
   }
@@ -175,12 +179,13 @@ class LineRun {
 
   Ran timer(const Command& command) {
     const std::int32_t time_ms = value(command.values[0]);
-    if (time_ms < 0 && options_.negative_time_is_error) return fail(command, Fault::operand);
+    if (time_ms < 0 && options_.chose(option("timer_negative", "execution_error")))
+      return fail(command, Fault::operand);
     return wait(Hold::timer, now_ms_ + std::max(time_ms, 0));
   }
 
   Ran stop_wait(const Command& command) {
-    const bool passes = run_.is_isr && options_.isr_never_waits;
+    const bool passes = run_.is_isr && options_.chose(option("isr_waits", "are_passed_over"));
     return passes && decide(true) ? next_line() : wait(Hold::axes, 0, command.values[0]);
   }
 
@@ -189,24 +194,27 @@ class LineRun {
     const bool has_variable = is_variable(command.values[3]);
     if (has_variable) {
       const std::int32_t time_ms = value(command.values[3]);
-      if (time_ms < 0 && options_.negative_time_is_error) return fail(command, Fault::operand);
+      if (time_ms < 0 && options_.chose(option("timer_negative", "execution_error")))
+        return fail(command, Fault::operand);
       resolved.values[3] = static_cast<std::uint32_t>(std::max(time_ms, 0));
     }
-    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
-    if (run_.is_isr && options_.isr_never_waits && decide(true)) return next_line();
+    if (resolve(resolved, machine_, options_) != Fault::none) return fail(command, Fault::operand);
+    if (run_.is_isr && options_.chose(option("isr_waits", "are_passed_over")) && decide(true))
+      return next_line();
     const std::int64_t until_ms =
         resolved.values[3] == 0 ? kNever : now_ms_ + std::int64_t{resolved.values[3]};
     return wait(Hold::frnet, until_ms, packed(resolved.values[0], resolved.values[1], resolved.values[2]));
   }
 
   Ran call(const Command& command) {
-    const int deepest = kDeepest + (options_.calls_alone_have_levels ? 1 : 0);
+    const int deepest = kDeepest + (options_.chose(option("call_levels", "of_calls_alone")) ? 1 : 0);
     if (run_.levels.size() == static_cast<std::size_t>(deepest)) {
-      if (!options_.call_too_deep_ends_macro) return fail(command, Fault::undefined_command);
+      if (!options_.chose(option("call_too_deep", "ends_the_macro")))
+        return fail(command, Fault::undefined_command);
       fail(command, Fault::undefined_command);
       return exit_macro(command);
     }
-    if (options_.missing_macro_is_error &&
+    if (options_.chose(option("missing_macro", "execution_error")) &&
         !has_lines({false, static_cast<int>(command.values[0])}, machine_)) {
       return fail(command, Fault::undefined_command);
     }
@@ -229,9 +237,9 @@ class LineRun {
 
   Ran carry_out(const Command& command) {
     Command resolved = command;
-    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
+    if (resolve(resolved, machine_, options_) != Fault::none) return fail(command, Fault::operand);
     const bool waits = machine_.carry_out(resolved) == Took::waits;
-    if (waits && !(run_.is_isr && options_.isr_never_waits)) {
+    if (waits && !(run_.is_isr && options_.chose(option("isr_waits", "are_passed_over")))) {
       hold(run_, Hold::machine);
       return Ran::waits;
     }
@@ -245,7 +253,7 @@ class LineRun {
   Execution& execution_;
   Run& run_;
   std::int64_t now_ms_;
-  const RunOptions& options_;
+  const Options& options_;
   Machine& machine_;
   std::size_t leads_to_ = 0;
   int watched_part_ = 0;  // set only if there is an observer
@@ -296,7 +304,7 @@ void hold(Run& run, Hold what, std::int64_t until_ms, std::uint32_t awaited) {
   run.saw_other_level = false;
 }
 
-bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine) {
+bool is_over(Run& run, std::int64_t now_ms, const Options& options, Machine& machine) {
   switch (run.hold) {
     case Hold::nothing:
     case Hold::machine: return true;
@@ -307,9 +315,11 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& 
       const bool is_on = machine.frnet_input(run.awaited >> 8U & 0xFFU, run.awaited & 0xFFU);
       const bool is_present = is_on == (run.awaited >> 16U != 0);
       if (!is_present) run.saw_other_level = true;
-      if (is_present && (run.saw_other_level || !options.frnet_wait_needs_edge)) return true;
+      if (is_present &&
+          (run.saw_other_level || !options.chose(option("frnet_wait_level", "waits_for_the_change"))))
+        return true;
       if (run.until_ms == kNever || now_ms < run.until_ms) return false;
-      if (options.frnet_wait_timeout_is_error) {
+      if (options.chose(option("frnet_wait_timeout", "execution_error"))) {
         const Level& level = run.levels.back();  // it is already after the line
         machine.report({name_of_level(run, level), macro_code(Verb::frnet_wait),
                         static_cast<std::uint16_t>(level.line - 1), Fault::operand});
@@ -325,7 +335,7 @@ bool is_frnet_input(std::uint32_t awaited) {
   return group >= 8 && group <= 15 && (awaited & 0xFFU) <= 15 && awaited >> 16U <= 1;
 }
 
-Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
+Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const Options& options,
                   Machine& machine) {
   return LineRun(execution, run, now_ms, options, machine).run();
 }

@@ -5,6 +5,7 @@
 
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/options.h"
 #include "interpreter/rs_m8194h/run.h"
 
 namespace understudy::interpreter::rs_m8194h {
@@ -14,7 +15,7 @@ MacroName name_of_level(const Run& run, const Level& level);
 void hold(Run& run, Hold what, std::int64_t until_ms = 0, std::uint32_t awaited = 0);
 
 /// Returns true if the run need not wait. A line that waits for the machine is simply run again.
-bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine);
+bool is_over(Run& run, std::int64_t now_ms, const Options& options, Machine& machine);
 
 /// Returns true if `awaited` can be an input for FRNET_WAIT.
 bool is_frnet_input(std::uint32_t awaited);
@@ -27,7 +28,7 @@ enum class Ran : std::uint8_t {
 };
 
 /// Runs the next line of a run that is active and waits for nothing else.
-Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
+Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const Options& options,
                   Machine& machine);
 
 }  // namespace understudy::interpreter::rs_m8194h

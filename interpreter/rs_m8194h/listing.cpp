@@ -52,9 +52,9 @@ std::optional<int> channel_of(std::string_view text) {
 
 class ListingReader {
  public:
-  ListingReader(const CommandOptions& command_options, const DownloadOptions& download_options)
-      : command_options_(command_options), download_options_(download_options) {
-    download_options_.faults_show_at_close = false;  // each error is reported at its place in the text
+  explicit ListingReader(const Options& options) : options_(options) {
+    options_.choose(
+        option("structure_faults", "at_their_line"));  // each error is reported at its place in the text
   }
 
   ParsedListing run(std::string_view text) {
@@ -118,7 +118,7 @@ class ListingReader {
   }
 
   void read_line(const std::vector<Token>& tokens) {
-    const ParsedCommand parsed = parse_command(tokens, command_options_);
+    const ParsedCommand parsed = parse_command(tokens, options_);
     if (!parsed.command) {
       errors_.push_back(*parsed.error);
       is_sound_ = false;
@@ -139,7 +139,7 @@ class ListingReader {
       is_sound_ = false;
       return;
     }
-    const Fault fault = add(*download_, *parsed.command, download_options_);
+    const Fault fault = add(*download_, *parsed.command, options_);
     if (fault == Fault::none) {
       places_.push_back(tokens[0]);
     } else {
@@ -226,8 +226,7 @@ class ListingReader {
     return trigger.event != TriggerEvent::none;
   }
 
-  const CommandOptions& command_options_;
-  DownloadOptions download_options_;
+  Options options_;
   Listing listing_;
   std::vector<std::vector<int>> text_lines_;
   std::vector<TextError> errors_;
@@ -240,9 +239,8 @@ class ListingReader {
 
 }  // namespace
 
-ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options,
-                            const DownloadOptions& download_options) {
-  return ListingReader(command_options, download_options).run(text);
+ParsedListing parse_listing(std::string_view text, const Options& options) {
+  return ListingReader(options).run(text);
 }
 
 std::string text_of(const MacroName& name, const Macro& macro) {

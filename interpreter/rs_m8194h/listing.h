@@ -29,6 +29,7 @@
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/download.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/options.h"
 #include "interpreter/rs_m8194h/text_error.h"
 #include "interpreter/rs_m8194h/triggers.h"
 
@@ -61,8 +62,7 @@ struct ParsedListing {
   std::vector<TextError> errors = {};             // the first kMaxMistakes, in the order of the text
   std::optional<Token> first_trigger = {};        // first word of the first trigger in the text
 };
-ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},
-                            const DownloadOptions& download_options = {});
+ParsedListing parse_listing(std::string_view text, const Options& options = {});
 
 std::string text_of(const Listing& listing);
 std::string text_of(const MacroName& name, const Macro& macro);

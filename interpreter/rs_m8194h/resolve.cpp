@@ -18,7 +18,7 @@ std::int32_t value_of(std::uint32_t operand, const Machine& machine) {
   return static_cast<std::int32_t>(operand);
 }
 
-Fault resolve(Command& command, const Machine& machine, const CommandOptions& options) {
+Fault resolve(Command& command, const Machine& machine, const Options& options) {
   const CommandRow& row = command.row();
   const Command as_stored = command;
   bool has_any = false;

@@ -37,7 +37,7 @@ void settle(Execution& execution, Machine& machine) {
 }
 
 /// Checks waits, also while an ISR runs.
-void watch(Execution& execution, std::int64_t now_ms, const RunOptions& options, Machine& machine) {
+void watch(Execution& execution, std::int64_t now_ms, const Options& options, Machine& machine) {
   const auto look = [&](Run& run) {
     const bool is_watched = run.hold != Hold::nothing && run.hold != Hold::machine;
     if (is_watched && is_over(run, now_ms, options, machine)) hold(run, Hold::nothing);
@@ -48,7 +48,7 @@ void watch(Execution& execution, std::int64_t now_ms, const RunOptions& options,
 }
 
 /// Returns false if the run waits.
-bool run_line_of(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
+bool run_line_of(Execution& execution, Run& run, std::int64_t now_ms, const Options& options,
                  Machine& machine) {
   if (!is_over(run, now_ms, options, machine)) return false;
   const Ran ran = run_next_line(execution, run, now_ms, options, machine);
@@ -56,11 +56,11 @@ bool run_line_of(Execution& execution, Run& run, std::int64_t now_ms, const RunO
   return ran != Ran::waits;
 }
 
-void take_isrs(Execution& execution, std::int64_t now_ms, const RunOptions& options, Machine& machine) {
-  while (execution.isrs.empty() || options.isr_interrupts_isr) {
+void take_isrs(Execution& execution, std::int64_t now_ms, const Options& options, Machine& machine) {
+  while (execution.isrs.empty() || options.chose(option("isr_nesting", "nested"))) {
     const int number = machine.take_isr();
     if (number == 0) return;
-    if (!options.one_return_register) execution.isr_return = {};
+    if (!options.chose(option("return_registers", "one_for_both"))) execution.isr_return = {};
     start_isr(execution, number, now_ms, machine);
   }
 }
@@ -157,18 +157,18 @@ void replaced(Execution& execution, const MacroName& name, Machine& machine) {
   settle(execution, machine);
 }
 
-bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const RunOptions& options,
+bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const Options& options,
               Machine& machine) {
   take_isrs(execution, now_ms, options, machine);
   if (!execution.isrs.empty()) {
     if (run_line_of(execution, execution.isrs.back(), now_ms, options, machine)) return true;
-    if (!options.mp_runs_beside_isr) return false;
+    if (!options.chose(option("mp_during_isr", "goes_on_while_it_waits"))) return false;
   }
   if (!execution.mp.is_alive() || is_paused) return false;
   return run_line_of(execution, execution.mp, now_ms, options, machine);
 }
 
-int run_tick(Execution& execution, std::int64_t now_ms, int budget, bool is_paused, const RunOptions& options,
+int run_tick(Execution& execution, std::int64_t now_ms, int budget, bool is_paused, const Options& options,
              Machine& machine) {
   watch(execution, now_ms, options, machine);
   int left = budget;

@@ -12,51 +12,11 @@
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/options.h"
 
 namespace understudy::interpreter::rs_m8194h {
 
 inline constexpr std::int64_t kNever = INT64_MAX;
-
-/// Options about running that the manual leaves open.
-struct RunOptions {
-  CommandOptions command = {};
-  /// True: an MP continues while an ISR waits; false: it is suspended.
-  bool mp_runs_beside_isr = false;
-  /// True: an ISR interrupts another ISR; false: it runs afterwards.
-  bool isr_interrupts_isr = false;
-  /// True: a line of an ISR that would have to wait is skipped.
-  bool isr_never_waits = false;
-  /// True: GET and SET_RVAR of MP and ISR share one register; false: each has its own.
-  bool one_return_register = false;
-  /// True: a value can be stored only once, and a further SET_RVAR is an execution error; false: it stays
-  /// until the next GET.
-  bool return_value_is_used_up = false;
-  /// True: a negative time from a variable is an execution error; false: it counts as 0.
-  bool negative_time_is_error = false;
-  /// True: the seven levels are those of calls inside the started macro; false: that macro is the first
-  /// level.
-  bool calls_alone_have_levels = false;
-  /// True: a call at the eighth level ends its caller; false: the caller continues after the line.
-  bool call_too_deep_ends_macro = false;
-  /// True: a call of a macro without lines is an execution error; false: it is over at once.
-  bool missing_macro_is_error = false;
-  /// True: EXIT_FOR subtracts 1 from the variable of its FOR, as the end of a pass does.
-  bool exit_for_counts = false;
-  /// True: FRNET_WAIT waits for a change to its level; false: the level itself is enough.
-  bool frnet_wait_needs_edge = false;
-  /// True: a timeout of FRNET_WAIT is an execution error.
-  bool frnet_wait_timeout_is_error = false;
-  /// True: SET_RVAR does not store the value of GET_DI_SIGNAL_ALL.
-  bool raw_signals_are_not_returned = false;
-  /// True: results of VAR_CALCULATE saturate at 32 bits; false: they wrap.
-  bool results_end_at_32_bits = false;
-  /// True: a division by 0 leaves the result unchanged; false: it sets it to 0.
-  bool division_by_zero_keeps = false;
-  /// True: FOR with a count below 1 runs its block once.
-  bool for_runs_once_at_least = false;
-
-  bool operator==(const RunOptions&) const = default;
-};
 
 /// The state of a FOR with a constant. A FOR with a variable counts in the variable.
 struct Loop {
@@ -133,10 +93,10 @@ void replaced(Execution& execution, const MacroName& name, Machine& machine);
 
 /// Runs one tick, at a `now_ms` later than that of the previous one. Returns how many lines are left for the
 /// FIFO: none while a macro is alive. While paused, no MP continues.
-int run_tick(Execution& execution, std::int64_t now_ms, int budget, bool is_paused, const RunOptions& options,
+int run_tick(Execution& execution, std::int64_t now_ms, int budget, bool is_paused, const Options& options,
              Machine& machine);
 /// Runs one line of the macro whose turn it is. Returns false if none is active, or if it waits.
-bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const RunOptions& options,
+bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const Options& options,
               Machine& machine);
 
 /// Returns the first tick after `done_ms` in which run_tick() may do anything, provided that the machine has

@@ -22,6 +22,9 @@ namespace understudy {
 
 namespace lang = interpreter::rs_m8194h;
 
+/// Options that accept every rectangle.
+constexpr lang::Options kWithAnyCorners{lang::option("rectangle_radius", "drawn_shorter")};
+
 void StateOf<lang::Command>::write(const lang::Command& command, StateWriter& writer) {
   const bool is_empty = lang::find_code(command.code) == nullptr;
   writer.write(is_empty ? std::vector<std::uint16_t>{} : lang::encode(command));
@@ -34,8 +37,7 @@ void StateOf<lang::Command>::read(lang::Command& command, StateReader& reader) {
   if (registers.empty()) return;
   const bool is_whole =
       lang::read_registers(registers, lang::WordOrder::high_first, command) == lang::Fault::none;
-  require_state(is_whole && !lang::bad_parameter(command, {.rectangle_corners_must_fit = false}),
-                "a command is not in the manual");
+  require_state(is_whole && !lang::bad_parameter(command, kWithAnyCorners), "a command is not in the manual");
 }
 
 std::string StateOf<lang::Command>::reported(const lang::Command& command) {

@@ -280,13 +280,13 @@ std::string text_of(const Command& command) {
   return text;
 }
 
-ParsedCommand parse_command(std::string_view text, const CommandOptions& options) {
+ParsedCommand parse_command(std::string_view text, const Options& options) {
   const std::vector<Token> tokens = tokens_of(text, 1);
   if (tokens.empty()) return failed({text, 1, 1}, "is empty; expected a command");
   return parse_command(tokens, options);
 }
 
-ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions& options) {
+ParsedCommand parse_command(std::span<const Token> tokens, const Options& options) {
   const Token& name = tokens.front();
   const std::optional<std::uint16_t> code = code_of(name.text);
   if (!code) {

@@ -17,6 +17,7 @@
 #include "base/text/tokens.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/options.h"
 #include "interpreter/rs_m8194h/text_error.h"
 
 namespace understudy::interpreter::rs_m8194h {
@@ -29,8 +30,8 @@ struct ParsedCommand {
 };
 
 /// Parses one line that decode() accepts in some state of the device. Operators are checked, too.
-ParsedCommand parse_command(std::string_view text, const CommandOptions& options = {});
+ParsedCommand parse_command(std::string_view text, const Options& options = {});
 /// Like parse_command(text), for at least one token.
-ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions& options = {});
+ParsedCommand parse_command(std::span<const Token> tokens, const Options& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -40,9 +40,10 @@ constexpr std::uint16_t kSwapped[][2] = {{0x0C81, 0x0CFC}, {0x0A84, 0x0AFD}, {0x
 /// Printed in a frame of 7.4.8, and nowhere else.
 constexpr std::uint16_t kMisprint = 0x0CB2;
 
-std::uint16_t meant_by(std::uint16_t code, const CommandOptions& options) {
-  if (code == kMisprint && options.knows_0cb2) return macro_code(Verb::mix_2d_initial);
-  if (!options.codes_of_12_3) return code;
+std::uint16_t meant_by(std::uint16_t code, const Options& options) {
+  if (code == kMisprint && options.chose(option("code_0cb2", "that_command")))
+    return macro_code(Verb::mix_2d_initial);
+  if (!options.chose(option("swapped_codes", "of_12_3"))) return code;
   for (const auto& [one, other] : kSwapped) {
     if (code == one) return other;
     if (code == other) return one;
@@ -57,24 +58,24 @@ bool has_two_orders(const ComparisonRow& row) {
 
 /// Returns the operator of IF in its usual form. A form that the options do not accept becomes an invalid
 /// operator.
-std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
+std::uint32_t comparison_of(std::uint32_t sent, const Options& options) {
   const ComparisonRow* const row = find_comparison(sent);
   if (row == nullptr) return sent;
-  using Letters = CommandOptions::Letters;
-  const bool is_other =
-      has_two_orders(*row) && ((options.letters == Letters::as_in_the_frame && sent == row->codes[1]) ||
-                               (options.letters == Letters::as_in_the_table && sent == row->codes[0]));
+  const bool is_other = has_two_orders(*row) &&
+                        ((options.chose(option("if_operator", "as_in_the_frame")) && sent == row->codes[1]) ||
+                         (options.chose(option("if_operator", "as_in_the_table")) && sent == row->codes[0]));
   const bool is_letter = (sent & 0xFFU) == 0 || (sent >> 8U & 0xFFU) == 0;
   const bool is_single =
       is_letter && (row->comparison == Comparison::equal || row->comparison == Comparison::not_equal);
-  return is_other || (is_single && options.single_signs_are_refused) ? 0 : row->codes[0];
+  return is_other || (is_single && options.chose(option("if_single_signs", "are_refused"))) ? 0
+                                                                                            : row->codes[0];
 }
 
 /// The reverse of comparison_of(): returns the form that the options accept.
-std::uint32_t sent_as(std::uint32_t comparison, const CommandOptions& options) {
+std::uint32_t sent_as(std::uint32_t comparison, const Options& options) {
   const ComparisonRow* const row = find_comparison(comparison);
   const bool is_other = row != nullptr && comparison == row->codes[0] && has_two_orders(*row) &&
-                        options.letters == CommandOptions::Letters::as_in_the_table;
+                        options.chose(option("if_operator", "as_in_the_table"));
   return is_other ? row->codes[1] : comparison;
 }
 
@@ -98,13 +99,14 @@ Fault why_not_now(std::uint16_t code, State state) {
 }
 
 Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
-                     const CommandOptions& options) {
+                     const Options& options) {
   if (registers.empty()) return Fault::register_count;
   command = {.code = meant_by(registers[0], options)};
   const CommandRow* row = find_code(command.code);
   if (row == nullptr) return Fault::undefined_command;
   const auto wanted = static_cast<std::size_t>(row->registers());
-  const bool is_short = options.frnet_wait_may_have_7 && command.verb() == Verb::frnet_wait;
+  const bool is_short = options.chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")) &&
+                        command.verb() == Verb::frnet_wait;
   const bool is_one_short = is_short && registers.size() + 1 == wanted;
   if (registers.size() != wanted && !is_one_short) return Fault::register_count;
   std::size_t at = 1;
@@ -120,21 +122,24 @@ Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, 
       command.values[i] = comparison_of(command.values[i], options);
     }
   }
-  if (options.addresses_are_variables && command.verb() == Verb::frnet_out) {
+  if (options.chose(option("frnet_out_data", "variable_by_its_address")) &&
+      command.verb() == Verb::frnet_out) {
     command.values[1] = variable_at(command.values[1]);
   }
   return Fault::none;
 }
 
 Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder order,
-               const CommandOptions& options) {
+               const Options& options) {
   Decoded decoded;
   if (registers.empty()) return {.fault = Fault::register_count};
   const std::uint16_t code = decoded.command.code = meant_by(registers[0], options);
   const bool is_undefined = find_code(code) == nullptr;
   const Fault not_now = why_not_now(code, state);
   decoded.fault = is_undefined ? Fault::undefined_command : Fault::none;
-  if (not_now != Fault::none && (!is_undefined || options.state_before_code)) decoded.fault = not_now;
+  if (not_now != Fault::none &&
+      (!is_undefined || options.chose(option("check_order", "the_same_but_state_before_code"))))
+    decoded.fault = not_now;
   if (decoded.fault != Fault::none) return decoded;
   decoded.fault = read_registers(registers, order, decoded.command, options);
   if (decoded.fault != Fault::none) return decoded;
@@ -143,7 +148,7 @@ Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder 
   return decoded;
 }
 
-std::vector<std::uint16_t> encode(const Command& command, WordOrder order, const CommandOptions& options) {
+std::vector<std::uint16_t> encode(const Command& command, WordOrder order, const Options& options) {
   std::vector<std::uint16_t> registers = {meant_by(command.code, options)};
   const CommandRow& row = command.row();
   for (std::size_t i = 0; i < row.parameter_count(); ++i) {

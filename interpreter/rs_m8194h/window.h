@@ -10,6 +10,7 @@
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/options.h"
 
 namespace understudy::interpreter::rs_m8194h {
 
@@ -29,15 +30,15 @@ struct Decoded {
 /// refused in this state, count of registers, parameters. The download may still refuse a macro line
 /// afterwards.
 Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder order = WordOrder::high_first,
-               const CommandOptions& options = {});
+               const Options& options = {});
 
 /// The steps of decode(), for other orders of the checks.
 Fault why_not_now(std::uint16_t code, State state);
 Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
-                     const CommandOptions& options = {});
+                     const Options& options = {});
 
 /// Encodes a command as decode() accepts it with the same options.
 std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first,
-                                  const CommandOptions& options = {});
+                                  const Options& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -59,7 +59,7 @@ class Checker {
     }
     if (checked_.errors.size() < kMaxMistakes) {
       end_area();
-      if (options_.labels_are_common) check_common_labels();
+      if (options_.chose(option("label_scope", "the_first_area_has_it"))) check_common_labels();
     }
     leave_first(checked_.errors);
     leave_first(checked_.warnings);
@@ -162,7 +162,8 @@ class Checker {
       return fail(token, Code::unknown,
                   quoted(token.text) + " is not an instruction" + nearest_instruction(token.text));
     }
-    if (row->group == Group::undocumented || (row->op == Op::mset && !options_.knows_mset)) {
+    if (row->group == Group::undocumented ||
+        (row->op == Op::mset && options_.chose(option("mset", "refused_at_load")))) {
       return fail(token, Code::unknown, quoted(row->mnemonic) + " is only named in the manual",
                   "an instruction that the manual describes");
     }
@@ -194,7 +195,7 @@ class Checker {
       }
       fail(token, Code::wrong_area, std::string(row.mnemonic) + " is not allowed in area " + name,
            "area " + where);
-    } else if (has(row.void_in, area_) && options_.void_lines == Options::VoidLines::are_refused) {
+    } else if (has(row.void_in, area_) && options_.chose(option("void_lines", "refused_at_load"))) {
       fail(token, Code::wrong_area, std::string(row.mnemonic) + " is void in area " + name, "another area");
     }
   }
@@ -256,7 +257,7 @@ class Checker {
     }
     const bool lacks_one = std::any_of(instruction.fields.begin(), instruction.fields.end(),
                                        [](const Operand& field) { return !field.is_set(); });
-    if (row.op == Op::c3p && lacks_one && !options_.c3p_may_lack_fields) {
+    if (row.op == Op::c3p && lacks_one && options_.chose(option("c3p_unset", "refused_at_load"))) {
       fail(tokens[at], Code::unknown, "C3P needs all four fields", "all four");
     }
     if (row.op == Op::zrst && checked_.errors.size() == errors) check_range(instruction, tokens[at]);
@@ -264,19 +265,22 @@ class Checker {
   static constexpr std::int32_t kGreatestLabel = 9999999;
 
   bool is_skipped_unset(Op op, std::size_t field) const {
-    return options_.unset_lines_are_skipped && field == place_of_needed(op);
+    return options_.chose(option("unset_fields", "line_is_skipped")) && field == place_of_needed(op);
   }
 
   Letters allowed(Slot slot) const {
     const Letters some = letters_of(slot);
-    if (slot == Slot::preset && !options_.presets_may_be_registers) return letters(Letter::k);
-    const bool may_reset = options_.timers_can_be_reset || (slot != Slot::resettable && slot != Slot::range);
+    if (slot == Slot::preset && options_.chose(option("preset_operand", "k_alone")))
+      return letters(Letter::k);
+    const bool may_reset = !options_.chose(option("reset_timers_counters", "refused_at_load")) ||
+                           (slot != Slot::resettable && slot != Slot::range);
     return may_reset ? some : static_cast<Letters>(some & ~letters(Letter::t, Letter::c));
   }
 
   void check_range(const Instruction& zrst, const Token& token) {
     const auto& [first, last, unused, unused2] = zrst.fields;
-    const bool is_swapped = first.number > last.number && options_.swapped == Options::Swapped::is_refused;
+    const bool is_swapped =
+        first.number > last.number && options_.chose(option("zrst_swapped", "refused_at_load"));
     if (first.letter != last.letter || is_swapped || block_of(first) != block_of(last)) {
       fail(token, Code::out_of_range, text_of(first) + " to " + text_of(last) + " is not a range",
            "two of the same kind, the lower one first, with no gap between them");
@@ -336,7 +340,7 @@ class Checker {
         const auto [other, is_new] = first.emplace(label, std::pair(index_of(row.area), step));
         if (is_new || other->second.first == index_of(row.area)) continue;
         const Token& token = places_of_areas_[index_of(row.area)][i];
-        const bool is_warning = options_.double_labels == Options::DoubleLabels::load;
+        const bool is_warning = options_.chose(option("duplicate_label", "first_is_taken"));
         (is_warning ? checked_.warnings : checked_.errors)
             .push_back({token.line, token.column,
                         "label K" + std::to_string(label) + " is one of area " +

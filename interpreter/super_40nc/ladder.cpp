@@ -71,7 +71,7 @@ class LadderMaker {
  private:
   std::uint16_t new_memory() { return static_cast<std::uint16_t>(ladder_.memory_count_++); }
   std::uint16_t memory_of(Operand bit) {
-    if (!options_.bits_remember_edges) return new_memory();
+    if (!options_.chose(option("edge_memory", "the_bit_so_the_first_takes_the_edge"))) return new_memory();
     const auto [known, is_new] = memories_.try_emplace({bit.letter, bit.number});
     if (is_new) known->second = new_memory();
     return known->second;
@@ -162,7 +162,7 @@ class LadderMaker {
   }
 
   void make_sum(const Instruction& line, Act act, std::size_t target, LadderStep& step) {
-    if (act != Act::move && options_.sums_saturate) return;
+    if (act != Act::move && options_.chose(option("sum_size", "saturates"))) return;
     for (std::size_t i = 0; i <= target; ++i) {
       if (!is_plain(line.fields[i])) return;
     }

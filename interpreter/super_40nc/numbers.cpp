@@ -35,16 +35,17 @@ Operand next_to(Operand reg) {
 Calculated divide(const Instruction& line, Access& access, const Options& options) {
   const std::int64_t dividend = access.value(line.fields[0]);
   const std::int64_t divisor = access.value(line.fields[1]);
-  if (divisor == 0 && options.division_by_zero == Options::DivisionByZero::changes_nothing) {
+  if (divisor == 0 && options.chose(option("division_by_zero", "unchanged"))) {
     return {false, Code::division_by_zero};
   }
-  if (options.remainder_needs_room && !next_to(line.fields[2]).is_set()) return {false, Code::out_of_range};
+  if (options.chose(option("div_at_the_end", "nothing_with_a_code")) && !next_to(line.fields[2]).is_set())
+    return {false, Code::out_of_range};
   Calculated result;
   if (divisor == 0) result.code = Code::division_by_zero;
   std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // rounded towards 0
   std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
   const bool is_above = remainder != 0 && (remainder < 0) != (divisor < 0);
-  if (is_above && options.quotient == Options::Quotient::downwards) {
+  if (is_above && options.chose(option("division_rounding", "downwards"))) {
     --quotient;
     remainder += divisor;
   }
@@ -63,7 +64,7 @@ Calculated fill(const Instruction& line, Access& access, const Options& options)
   Calculated result;
   const std::int64_t room = block->last - line.fields[1].number + 1;
   if (count > room) result.code = Code::out_of_range;
-  if (count > room && options.fill_beyond == Options::FillBeyond::does_nothing) return result;
+  if (count > room && options.chose(option("fmv_end", "nothing"))) return result;
   const std::int32_t value = access.value(line.fields[0]);
   for (std::int64_t i = 0; i < std::min(count, room); ++i) {
     const Operand target{line.fields[1].letter, line.fields[1].number + static_cast<std::int32_t>(i)};
@@ -75,8 +76,8 @@ Calculated fill(const Instruction& line, Access& access, const Options& options)
 /// ZRST. The higher end comes first only if a choice allows it.
 Calculated clear(const Instruction& line, Access& access, const Options& options) {
   const auto [first, last] = std::minmax(line.fields[0].number, line.fields[1].number);
-  const bool is_alone =
-      line.fields[0].number > line.fields[1].number && options.swapped == Options::Swapped::clears_first;
+  const bool is_alone = line.fields[0].number > line.fields[1].number &&
+                        options.chose(option("zrst_swapped", "the_first_alone"));
   Calculated result;
   for (Operand at{line.fields[0].letter, is_alone ? last : first}; at.number <= last; ++at.number) {
     result.has_changed |= at.letter == Letter::d ? access.write(at, 0) : access.reset(at);
@@ -86,13 +87,13 @@ Calculated clear(const Instruction& line, Access& access, const Options& options
 
 std::int32_t product(std::int64_t first, std::int64_t second, const Options& options) {
   const std::int64_t whole = first * second;
-  return options.product == Options::Product::wraps
+  return options.chose(option("product_size", "low_half"))
              ? wrapped(whole)
              : static_cast<std::int32_t>(std::clamp(whole, kMin, kMax));
 }
 
 std::int64_t sum(std::int64_t whole, const Options& options) {
-  return options.sums_saturate ? std::clamp(whole, kMin, kMax) : whole;
+  return options.chose(option("sum_size", "saturates")) ? std::clamp(whole, kMin, kMax) : whole;
 }
 
 Calculated gives(const Instruction& line, std::size_t field, std::int64_t result, Access& access) {

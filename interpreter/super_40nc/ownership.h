@@ -19,8 +19,8 @@ inline bool may_move(const Machine& machine, const Options& options, Area by, in
   const bool is_of_c = axis < axes_of_c(machine);
   if (by == Area::c) return is_of_c;
   if (by == Area::plc) {
-    if (!is_of_c || options.plc_moves == Options::PlcMoves::any_axis) return true;
-    return options.plc_moves == Options::PlcMoves::while_c_rests &&
+    if (!is_of_c || options.chose(option("plc_moves_axes_of_c", "whenever_they_are_free"))) return true;
+    return options.chose(option("plc_moves_axes_of_c", "while_m8000_is_off")) &&
            !machine.special_contact(row_of(Area::c).run_contact);
   }
   return !is_of_c && axis == axis_of(by);

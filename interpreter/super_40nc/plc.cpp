@@ -34,9 +34,9 @@ class Scan {
         banks_{cells_, ladder.constants().data()},
         lines_(plc, ladder, machine, programs, options),
         options_(options),
-        depth_mask_((std::uint64_t{1} << options.stack_depth) - 1),
-        a_unit_is_over_(plc.unit_ms + options.scan_ms >= options.timer_unit_ms),
-        growth_(options.timer_unit_ms <= 1 ? options.scan_ms : 1) {}
+        depth_mask_((std::uint64_t{1} << stack_depth(options)) - 1),
+        a_unit_is_over_(plc.unit_ms + scan_ms(options) >= timer_unit_ms(options)),
+        growth_(timer_unit_ms(options) <= 1 ? scan_ms(options) : 1) {}
 
   /// `is_watched`: an observer is notified of each step. Anything that costs a call is inlined in both: with
   /// two callers, the compiler would call it, which makes a scan slower by a fifth.
@@ -101,7 +101,7 @@ class Scan {
 
   Scanned ended() {
     has_changed_ |= lines_.end_scan();
-    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + options_.scan_ms : 0;
+    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + scan_ms(options_) : 0;
     return {has_changed_, has_changed_ ? 0 : quiet_scans_};
   }
 
@@ -168,33 +168,37 @@ class Scan {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
     const bool holds_value =
-        options_.all_timers_hold || (options_.retentive_timers_hold && (step.flags & kRetentive) != 0);
+        options_.chose(option("kept_timers", "all_timers_keep_it")) ||
+        (options_.chose(option("kept_timers", "keep_their_value")) && (step.flags & kRetentive) != 0);
     if (!is_on && holds_value) return;
     if ((!is_on || !was_on) && !holds_value) put(step.c, 0, step.flags);
     if (!is_on) return put(step.a, 0, step.flags);
     if (was_on) undo_write(step);
-    const bool counts = was_on || options_.timers_count_at_once;
+    const bool counts = was_on || options_.chose(option("timer_first_scan", "counts"));
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
-    if (counts && (present < preset || options_.timers_count_on) && a_unit_is_over_) {
+    if (counts && (present < preset || options_.chose(option("timer_past_preset", "counts_on"))) &&
+        a_unit_is_over_) {
       const bool had_changed = has_changed_;
-      const std::int32_t max = options_.timers_count_on ? INT32_MAX : preset;
+      const std::int32_t max = options_.chose(option("timer_past_preset", "counts_on")) ? INT32_MAX : preset;
       present = static_cast<std::int32_t>(std::min<std::int64_t>(max, std::int64_t{present} + growth_));
       put(step.c, static_cast<std::uint32_t>(present), step.flags);
       if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
     }
     put(step.a, closes(present, preset) ? 1 : 0, step.flags);
-    if (options_.timers_ignore_writes) timed(step) = present;
+    if (options_.chose(option("timer_write", "ignored"))) timed(step) = present;
     if (present < preset) {
       timers_run_ |= was_on;
       const std::int64_t left = std::int64_t{preset} - present - 1;
-      quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 && options_.scan_ms == 1 ? left : 0);
+      quiet_scans_ =
+          std::min(quiet_scans_, timer_unit_ms(options_) <= 1 && scan_ms(options_) == 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
     }
   }
 
   bool closes(std::int32_t present, std::int32_t preset) const {
-    return present >= preset && (preset > 0 || options_.empty_presets_close);
+    return present >= preset &&
+           (preset > 0 || !options_.chose(option("preset_not_positive", "never_closes")));
   }
 
   std::int32_t& timed(const LadderStep& step) {
@@ -203,7 +207,7 @@ class Scan {
   }
   /// Undoes a write to the timer's value, if a choice ignores such writes.
   void undo_write(const LadderStep& step) {
-    if (!options_.timers_ignore_writes || timed(step) == kNotTimedYet) return;
+    if (!options_.chose(option("timer_write", "ignored")) || timed(step) == kNotTimedYet) return;
     put(step.c, static_cast<std::uint32_t>(timed(step)), step.flags);
   }
 
@@ -212,10 +216,11 @@ class Scan {
     const bool was_on = remember(step.memory, is_on);
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
-    const bool may_count = options_.counts_beyond_preset ? present < INT32_MAX : present < preset;
+    const bool may_count =
+        options_.chose(option("counter_past_preset", "counts_on")) ? present < INT32_MAX : present < preset;
     const bool counts = is_on && !was_on && !plc_.is_first_scan && may_count;
     if (counts) put(step.c, static_cast<std::uint32_t>(++present), step.flags);
-    if (options_.counter_contact == Options::CounterContact::compares) {
+    if (options_.chose(option("counter_contact", "compares_at_each_scan"))) {
       put(step.a, closes(present, preset) ? 1 : 0, step.flags);
     } else if (counts && closes(present, preset)) {
       put(step.a, 1, step.flags);
@@ -248,13 +253,13 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& o
   plc.timed.clear();
   for (const LadderStep& step : ladder.steps()) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
-    const bool sees_present = !options.contacts_rise_at_run;
+    const bool sees_present = !options.chose(option("run_contact_edges", "those_that_are_on_rise"));
     if (is_edge && sees_present)
       plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
     // A timer that is still ON continues.
     if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
-  if (options.modes_stay_at_run && std::exchange(plc.has_modes, true)) return;
+  if (options.chose(option("plc_modes", "stay")) && std::exchange(plc.has_modes, true)) return;
   plc.targets = machine.parameter_in_force(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     plc.rpm[static_cast<std::size_t>(axis)] = machine.rpm_at_power_up(axis);
@@ -312,7 +317,7 @@ void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::in
   if (machine.watch() != nullptr) report_skipped(ladder, machine, access, scans);
   for (const std::uint32_t index : ladder.timers()) {
     const LadderStep& timer = ladder.steps()[index];
-    if (plc.memories[timer.memory] == 0 || options.timer_unit_ms > 1) continue;
+    if (plc.memories[timer.memory] == 0 || timer_unit_ms(options) > 1) continue;
     const std::int64_t preset = access.value(ladder.line(timer.line).fields[1]);
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
@@ -322,7 +327,7 @@ void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::in
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_retentive) machine.retentive_cell_written(timer.c);
     }
-    if (options.timers_ignore_writes && timer.memory < plc.timed.size())
+    if (options.chose(option("timer_write", "ignored")) && timer.memory < plc.timed.size())
       plc.timed[timer.memory] = static_cast<std::int32_t>(cells[timer.c]);
   }
 }

@@ -22,9 +22,9 @@ bool PlcLines::count_as_edge(const LadderStep& step, bool is_on, bool& fires) {
   const bool was_on = std::exchange(plc_.memories[step.memory], is_on ? 1 : 0) != 0;
   const bool is_falling = row_of(op).in_plc == ConditionUse::falling_edge;
   fires = is_on != was_on && is_on != is_falling;
-  if (plc_.is_first_scan && !options_.outputs_fire_at_run) fires = false;
+  if (plc_.is_first_scan && options_.chose(option("run_edges", "not_at_all"))) fires = false;
   const bool is_motion = op == Op::drv || op == Op::hom || op == Op::str;
-  if (is_motion && !options_.motions_need_edge) fires = is_on;
+  if (is_motion && options_.chose(option("instruction_edges", "every_scan"))) fires = is_on;
   return is_on != was_on;
 }
 

@@ -8,9 +8,9 @@
 namespace understudy::interpreter::super_40nc {
 
 /// Returns true if an instruction acts at the edge of its condition only because of a choice.
-constexpr bool needs_edge(Op op, const Options& options) {
+inline bool needs_edge(Op op, const Options& options) {
   const bool is_mode = op == Op::absc || op == Op::incc || op == Op::rpm || op == Op::pset || op == Op::mset;
-  return options.modes_need_edge && (is_mode || op == Op::stp);
+  return options.chose(option("instruction_edges", "all_on_the_edge")) && (is_mode || op == Op::stp);
 }
 
 class PlcLines {

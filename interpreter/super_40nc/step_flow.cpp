@@ -93,7 +93,8 @@ StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
 
 StepPrograms::Slice StepPrograms::jump(Area area, int step) {
   state(area).step = step;
-  return options_.jumps_end_slice ? Slice::is_over : Slice::continues;
+  return !options_.chose(option("slice_end", "waits_and_the_64_lines_alone")) ? Slice::is_over
+                                                                              : Slice::continues;
 }
 
 StepPrograms::Slice StepPrograms::jump_to_label(Area area) {
@@ -107,11 +108,11 @@ StepPrograms::Slice StepPrograms::call(Area area, const Instruction& line) {
   StepState& program = state(area);
   std::int64_t passes = line.fields[1].is_set() ? access_.value(line.fields[1]) : 1;
   if (passes <= 0) {
-    if (options_.no_passes == Options::NoPasses::are_skipped) return advance(area, line);
+    if (options_.chose(option("cal_count", "skipped"))) return advance(area, line);
     passes = INT64_MAX;
   }
   const int label = code(area).target_of(code(area).line_at(program.step));
-  if (label < 0 || program.calls.size() >= static_cast<std::size_t>(options_.call_depth)) {
+  if (label < 0 || program.calls.size() >= static_cast<std::size_t>(call_depth(options_))) {
     fail(area, label < 0 ? Code::label_missing : Code::pairing);
     return Slice::is_over;
   }
@@ -122,7 +123,7 @@ StepPrograms::Slice StepPrograms::call(Area area, const Instruction& line) {
 StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.calls.empty()) {
-    if (options_.loose_return == Options::LooseReturn::is_ignored) return advance(area, line);
+    if (options_.chose(option("ret_without_cal", "ignored"))) return advance(area, line);
     fail(area, Code::pairing);
     return Slice::is_over;
   }
@@ -138,7 +139,8 @@ StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
 
 StepPrograms::Slice StepPrograms::end(Area area) {
   machine_.program_ended(area);
-  const bool by_key = options_.continuous_by_key && machine_.special_contact(named::kContinuousKey);
+  const bool by_key =
+      !options_.chose(option("continuous", "m8007_alone")) && machine_.special_contact(named::kContinuousKey);
   const bool is_continuous = area == Area::c && (machine_.special_contact(named::kContinuous) || by_key);
   take(is_continuous ? Event::end_continuous : Event::end, area);
   return Slice::is_over;
@@ -153,19 +155,20 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
 /// Returns true if the line waits for a time in a register that is read in each tick.
 bool StepPrograms::follows_register(Area area) const {
   const int line = code(area).line_at(state(area).step);
-  return options_.waits_follow_registers && line >= 0 && code(area).line(line).fields[0].letter == Letter::d;
+  return options_.chose(option("tmr_of_d", "compared_in_each_scan")) && line >= 0 &&
+         code(area).line(line).fields[0].letter == Letter::d;
 }
 
 /// Reads the time once, and waits that many ticks after the one that has reached the line.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.left_ms > 0) {
-    if (options_.waits_stand_inhibited && is_inhibited()) return wait(area, line, false);
+    if (options_.chose(option("tmr_under_m8004", "stands")) && is_inhibited()) return wait(area, line, false);
     if (follows_register(area)) {
       const std::int32_t ms = access_.value(line.fields[0]);
       program.left_ms += std::int64_t{ms} - std::exchange(program.wait_ms, ms);
     }
-    program.left_ms = std::max<std::int64_t>(program.left_ms - options_.scan_ms, 0);
+    program.left_ms = std::max<std::int64_t>(program.left_ms - scan_ms(options_), 0);
     return wait(area, line, program.left_ms == 0);
   }
   const std::int32_t ms = access_.value(line.fields[0]);
@@ -189,7 +192,7 @@ StepPrograms::Slice StepPrograms::read_contact(Area area, const Instruction& lin
   const std::uint64_t bit = decide(area, is_on) ? 1 : 0;
   switch (place_of(line.op)) {
     case Place::begins:
-      blocks = ((blocks << 1) | bit) & ((std::uint64_t{1} << options_.stack_depth) - 1);
+      blocks = ((blocks << 1) | bit) & ((std::uint64_t{1} << stack_depth(options_)) - 1);
       break;
     case Place::in_series: blocks &= ~std::uint64_t{1} | bit; break;
     case Place::in_parallel: blocks |= bit; break;

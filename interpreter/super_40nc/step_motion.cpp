@@ -61,7 +61,7 @@ AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
   if (area == Area::c) return axis_values(line, access_);
   AxisValues values;
   const auto own = static_cast<std::size_t>(axis_of(area));
-  const bool is_own = line.op == Op::mrk && options_.mark_is_by_own_field;
+  const bool is_own = line.op == Op::mrk && options_.chose(option("mrk_fields", "of_its_own_axis"));
   const Operand field = line.fields[is_own ? own : 0];
   if (field.is_set()) values[own] = access_.value(field);
   return values;
@@ -77,7 +77,7 @@ bool StepPrograms::drop_forbidden_axes(Area area, AxisValues& values) {
     is_void = true;
   }
   if (!is_void) return true;
-  if (options_.not_owned == Options::NotOwned::is_void) {
+  if (options_.chose(option("c21_zero", "skipped"))) {
     report(area, Code::axis_not_owned);
     return true;
   }
@@ -89,7 +89,9 @@ bool StepPrograms::drop_forbidden_axes(Area area, AxisValues& values) {
 /// through.
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
-  if (!options_.joins_paths || !is_path(line.op) || is_single_step(area)) return false;
+  if (!options_.chose(option("continuous_path", "corners_are_run_through")) || !is_path(line.op) ||
+      is_single_step(area))
+    return false;
   if (machine_.parameter_in_force(named::kContinuousPath) == 0) return false;
   const int next = code(area).line_at(state(area).step + steps_of(line));
   return next >= 0 && is_path(code(area).line(next).op);
@@ -116,8 +118,8 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
     case Begun::done: break;
   }
   advance(area, line);
-  const bool ends_single_step =
-      row_of(line.op).ends_single_step || (line.op == Op::mpg && options_.wheel_ends_single_step);
+  const bool ends_single_step = row_of(line.op).ends_single_step ||
+                                (line.op == Op::mpg && options_.chose(option("single_step_lines", "yes")));
   if (ends_single_step && is_single_step(area)) {
     take(Event::single_step, area);
     return Slice::is_over;
@@ -149,7 +151,7 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   if (line.op == Op::lin) return begin_motion(area, line, LinearMove{values, program.targets, feed()}, true);
   if (line.op == Op::mrk) {
     std::array<std::int32_t, kAxisCount> rpm = program.rpm;
-    for (int axis = 0; axis < kAxisCount && !options_.marks_by_rpm; ++axis) {
+    for (int axis = 0; axis < kAxisCount && options_.chose(option("mrk_speed", "by_x14_alone")); ++axis) {
       rpm[static_cast<std::size_t>(axis)] = machine_.rpm_at_power_up(axis);
     }
     return begin_motion(area, line, MarkSearch{values, program.targets, rpm}, true);
@@ -157,7 +159,8 @@ StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
   if (line.op == Op::hom) return begin_motion(area, line, HomeSearch{chosen_axes(values)}, true);
   if (line.op == Op::mpg) return begin_motion(area, line, WheelRatios{values}, false);
   if (line.op == Op::vdrv) {
-    return begin_motion(area, line, Rotation{values}, stops && options_.rotation_0_waits);
+    return begin_motion(area, line, Rotation{values},
+                        stops && !options_.chose(option("vdrv_zero_wait", "goes_on")));
   }
   const bool waits = area == Area::c || program.waits_for_drive;
   return begin_motion(area, line, Drive{values, program.targets, program.rpm, waits}, waits);
@@ -173,7 +176,8 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
       !line.fields[3].is_set()) {
     return advance(area, line);
   }
-  const Plane where = line.op == Op::c3p && options_.c3p_is_in_xy ? Plane::xy : plane();
+  const Plane where =
+      line.op == Op::c3p && options_.chose(option("c3p_plane", "always_xy")) ? Plane::xy : plane();
   const std::array<int, 2> axes = axes_of(where);
   AxisValues moved;
   for (const int axis : axes) moved[static_cast<std::size_t>(axis)] = 0;

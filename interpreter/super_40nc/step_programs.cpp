@@ -68,7 +68,8 @@ void StepPrograms::take(Event event, Area area) {
 /// STR.
 void StepPrograms::start(Area area) {
   const bool runs_on = reaction_of(Event::start, state(area).phase) == Reaction::nothing;
-  if (runs_on && options_.start_begins_again && !machine_.is_held_in_reset(area)) take(Event::stop, area);
+  if (runs_on && options_.chose(option("str_running", "begins_anew")) && !machine_.is_held_in_reset(area))
+    take(Event::stop, area);
   take(Event::start, area);
 }
 
@@ -77,14 +78,14 @@ void StepPrograms::begin(Area area, Reaction how) {
   StepState& program = state(area);
   if (machine_.is_held_in_reset(area)) return set_contact(area, false);
   if (code(area).is_empty()) {
-    if (options_.empty_program == Options::EmptyProgram::is_an_error) report(area, Code::no_end);
+    if (options_.chose(option("empty_program", "is_an_error"))) report(area, Code::no_end);
     return set_contact(area, false);
   }
   machine_.program_starts(area);
   set_contact(area, true);
   program.is_paused_by_key = false;
   const bool is_new = program.step == 0 && how != Reaction::resume && program.resumes == Phase::executing;
-  const bool loads = is_new || !program.has_modes || options_.fresh_start == Options::FreshStart::every_start;
+  const bool loads = is_new || !program.has_modes || options_.chose(option("fresh_start", "every_start"));
   if (loads) load_modes(area);
   const bool has_motion = program.resumes == Phase::moving || program.resumes == Phase::homing;
   if (is_inhibited() && (has_motion || program.machine_holds)) {
@@ -193,7 +194,7 @@ void StepPrograms::set_step(Area area, int step) {
   const bool is_at_rest =
       program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
   if (!is_at_rest) {
-    if (options_.pointer_moves_running) move_pointer(program, step);
+    if (options_.chose(option("pointer_write_running", "goes_on_there"))) move_pointer(program, step);
     return;
   }
   if (program.machine_holds) machine_.drop_held(area);
@@ -227,7 +228,8 @@ void StepPrograms::run_slice(Area area) {
       program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
   if (rests && contact_is_on(area)) take(Event::start, area);
   const bool is_off = !rests && area != Area::c && !contact_is_on(area);
-  if (is_off && options_.contact_off_stops) return take(Event::stop, area);
+  if (is_off && options_.chose(option("axis_contact_off", "stops_the_program")))
+    return take(Event::stop, area);
   if (program.phase == Phase::moving || program.phase == Phase::homing) {
     if (machine_.is_running(area)) return;
     end_of_motion(area);
@@ -236,7 +238,7 @@ void StepPrograms::run_slice(Area area) {
     if (!is_inhibited()) resume(area);
     return;
   }
-  for (int executed = 0; executed < options_.slice || is_in_group(area); ++executed) {
+  for (int executed = 0; executed < slice(options_) || is_in_group(area); ++executed) {
     if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
     if (is_stopped_short(area)) return;  // the contacts are obeyed before the next slice
     if (!contact_is_on(area)) return take(Event::contact_off, area);
@@ -249,11 +251,13 @@ void StepPrograms::run_slice(Area area) {
 bool StepPrograms::finds_line(Area area) {
   StepState& program = state(area);
   if (code(area).line_at(program.step) >= 0) return true;
-  if (options_.end_may_be_missing && program.step == code(area).length()) {
+  if (options_.chose(option("missing_end", "as_if_it_had_one")) && program.step == code(area).length()) {
     end(area);
     return false;
   }
-  const int next = options_.starts_inside_lines ? code(area).next_step(program.step) : -1;
+  const int next = options_.chose(option("pointer_inside", "goes_on_with_the_next_line"))
+                       ? code(area).next_step(program.step)
+                       : -1;
   if (next >= 0) {
     program.step = next;
     return true;
@@ -285,7 +289,8 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
   if (!contact_is_on(area)) return 0;
   if (program.left_ms > 0 && follows_register(area)) return 0;
   if (program.left_ms > 0)
-    return options_.waits_stand_inhibited && is_inhibited() ? kForEver : program.left_ms - 1;
+    return options_.chose(option("tmr_under_m8004", "stands")) && is_inhibited() ? kForEver
+                                                                                 : program.left_ms - 1;
   if (program.waits_to_resume) return is_inhibited() ? kForEver : 0;
   const Operand contact = awaited(area);
   if (!contact.is_set())
@@ -296,7 +301,7 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
 
 void StepPrograms::fast_forward(Area area, std::int64_t ticks) {
   StepState& program = state(area);
-  if (options_.waits_stand_inhibited && is_inhibited()) return;
+  if (options_.chose(option("tmr_under_m8004", "stands")) && is_inhibited()) return;
   if (program.phase == Phase::waiting && program.left_ms > 0) program.left_ms -= ticks;
 }
 

@@ -24,7 +24,7 @@ class Structure {
 
   std::vector<Fault> run() {
     const int capacity = area_ == Area::c ? options_.c_capacity : row_of(area_).steps;
-    const bool counts_steps = options_.capacity == Options::Capacity::steps;
+    const bool counts_steps = options_.chose(option("capacity_unit", "steps"));
     int room = capacity;
     const auto& lines = program_.lines;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -64,8 +64,8 @@ class Structure {
     if (is_contact(op)) {
       if (begins_block(op)) {
         ++blocks_;
-        if (++pending_ == options_.stack_depth + 1) {
-          fault(Code::logic, "begins one block too many", "at most " + std::to_string(options_.stack_depth));
+        if (++pending_ == stack_depth(options_) + 1) {
+          fault(Code::logic, "begins one block too many", "at most " + std::to_string(stack_depth(options_)));
         }
       } else {
         require_block();
@@ -75,8 +75,8 @@ class Structure {
       pending_ = std::max(0, pending_ - 1);
     } else if (op == Op::mps) {
       require_block();
-      if (++branches_ == options_.stack_depth + 1) {
-        fault(Code::logic, "begins one branch too many", "at most " + std::to_string(options_.stack_depth));
+      if (++branches_ == stack_depth(options_) + 1) {
+        fault(Code::logic, "begins one branch too many", "at most " + std::to_string(stack_depth(options_)));
       }
     } else if (op == Op::mrd || op == Op::mpp) {
       if (branches_ == 0) fault(Code::logic, "continues a branch that was not begun", "MPS before it");
@@ -86,7 +86,8 @@ class Structure {
     } else if (is_plc ? op != Op::end : reads_group(op)) {
       require_block();
       pending_ = 0;
-      if (options_.outputs_clear_blocks) blocks_ = std::min(blocks_, 1);
+      if (options_.chose(option("block_stack", "each_output_leaves_the_result_alone")))
+        blocks_ = std::min(blocks_, 1);
     }
   }
 
@@ -95,7 +96,9 @@ class Structure {
     if (blocks_ == 0 && area_ == Area::plc) fault(Code::logic, "has no condition", "a block before it");
   }
 
-  bool is_loose_allowed() const { return options_.loose_groups == Options::LooseGroups::take_last_result; }
+  bool is_loose_allowed() const {
+    return options_.chose(option("cj_without_group", "takes_the_last_result"));
+  }
 
   /// In step programs, contacts belong to the jump after them.
   void check_group(Op op) {
@@ -124,8 +127,8 @@ class Structure {
   void check_pairs(Op op) {
     if (op == Op::if_) {
       ifs_.push_back({line_});
-      if (static_cast<int>(ifs_.size()) == options_.if_depth + 1) {
-        fault(Code::pairing, "nests IF too deep", "at most " + std::to_string(options_.if_depth));
+      if (static_cast<int>(ifs_.size()) == if_depth(options_) + 1) {
+        fault(Code::pairing, "nests IF too deep", "at most " + std::to_string(if_depth(options_)));
       }
     } else if (op == Op::else_) {
       if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");
@@ -143,8 +146,8 @@ class Structure {
     if (is_new) return;
     faults_.push_back({line_, Code::label_twice, "label K" + std::to_string(label) + " appears twice", "one",
                        first->second,
-                       options_.double_labels == Options::DoubleLabels::load ? Fault::Weight::warning
-                                                                             : Fault::Weight::error});
+                       options_.chose(option("duplicate_label", "first_is_taken")) ? Fault::Weight::warning
+                                                                                   : Fault::Weight::error});
   }
 
   static bool names_label(Op op) { return op == Op::jmp || op == Op::cj || op == Op::cjn || op == Op::cal; }
@@ -152,15 +155,18 @@ class Structure {
   void check_jumps() {
     for (const auto& [line, label] : jumps_) {
       if (labels_.contains(label)) continue;
-      if (options_.labels_are_common && !options_.labels_must_exist) continue;  // another area may have it
+      if (options_.chose(option("label_scope", "the_first_area_has_it")) &&
+          !options_.chose(option("missing_label", "refused_at_load")))
+        continue;  // another area may have it
       faults_.push_back({line, Code::label_missing, "names a label that the area does not have",
                          "LAB K" + std::to_string(label), -1,
-                         options_.labels_must_exist ? Fault::Weight::error : Fault::Weight::note});
+                         options_.chose(option("missing_label", "refused_at_load")) ? Fault::Weight::error
+                                                                                    : Fault::Weight::note});
     }
   }
 
   void check_coil(const Operand& coil) {
-    if (options_.double_coils == Options::DoubleCoils::last_wins) return;
+    if (options_.chose(option("double_coils", "last_wins"))) return;
     if (!coils_.emplace(std::pair(static_cast<int>(coil.letter), coil.number), line_).second) {
       fault(Code::logic, "switches a coil that another OUT switches", "one OUT");
     }
@@ -172,7 +178,8 @@ class Structure {
     const bool is_open = area_ != Area::plc && (is_contact(before_) || joins_blocks(before_));
     if (is_open && !is_loose_allowed())
       fault(Code::logic, "is a contact without a jump", "CJ, CJN or IF after it");
-    if (!has_end_ && !options_.end_may_be_missing) fault(Code::no_end, "is the last line", "END");
+    if (!has_end_ && !options_.chose(option("missing_end", "as_if_it_had_one")))
+      fault(Code::no_end, "is the last line", "END");
     for (const OpenIf& open : ifs_) {
       faults_.push_back({open.line, Code::pairing, "has no partner", "ENDI after it"});
     }

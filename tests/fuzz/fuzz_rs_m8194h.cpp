@@ -58,7 +58,7 @@ class Controller : public Machine {
   static void check_numbers(const Command& command) {
     Command plain = command;
     plain.code = real_time_code(command.verb());
-    require(!bad_parameter(plain, {.rectangle_corners_must_fit = false}),
+    require(!bad_parameter(plain, Options{option("rectangle_radius", "drawn_shorter")}),
             "a macro's numbers are in their ranges");
   }
 

@@ -32,9 +32,8 @@ lang::WordOrder order_of(const WindowForm& form) {
 }
 
 /// The options for how a command is written. Whether the device accepts it is checked elsewhere.
-lang::CommandOptions options_of(const WindowForm& form) {
-  return form.choices.empty() ? lang::CommandOptions{}
-                              : command_options(AskedOptions{.numbers = form.choices});
+lang::Options options_of(const WindowForm& form) {
+  return form.choices.empty() ? lang::Options{} : options_of_language(AskedOptions{.numbers = form.choices});
 }
 
 class CommandNames final : public CommandWindow {

@@ -163,7 +163,8 @@ DeviceAnswer Requests::admits(const RegisterRequest& request, Checked checked,
         return answer_of(*this, lang::Fault::no_module);
     }
   }
-  if (checked == Checked::everything && language_options().command.variables_have_ends &&
+  if (checked == Checked::everything &&
+      language_options().lines.chose(lang::option("variable_range", "exception_3")) &&
       writes_beyond(request, module_.memory.low_word_first())) {
     return answer_of(*this, lang::Fault::parameter);
   }

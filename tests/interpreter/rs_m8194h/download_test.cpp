@@ -28,8 +28,7 @@ struct Outcome {
   DownloadStatus status;
   bool is_stored = false;
 };
-Outcome download(const MacroName& name, const std::vector<Command>& lines,
-                 const DownloadOptions& options = {}) {
+Outcome download(const MacroName& name, const std::vector<Command>& lines, const Options& options = {}) {
   Download activity{.name = name};
   Outcome outcome;
   for (const Command& line : lines) {
@@ -42,7 +41,7 @@ Outcome download(const MacroName& name, const std::vector<Command>& lines,
   outcome.status = status_of(activity, {.mp = 7, .isr = 3}, options);
   return outcome;
 }
-Outcome download(const std::vector<std::string>& texts, const DownloadOptions& options = {}) {
+Outcome download(const std::vector<std::string>& texts, const Options& options = {}) {
   std::vector<Command> lines;
   for (const std::string& text : texts) lines.push_back(line_of(text));
   return download({false, 156}, lines, options);
@@ -142,7 +141,7 @@ TEST(RsM8194hDownload, EachErrorShowsItsLineCommandAndCode) {
                                               .line = static_cast<std::uint16_t>(one.line),
                                               .error = static_cast<std::uint16_t>(one.error)}));
     EXPECT_FALSE(outcome.is_stored);
-    const Outcome as_sent = download(one.lines, {.shown_code = DownloadOptions::ShownCode::as_sent});
+    const Outcome as_sent = download(one.lines, {option("download_command", "as_sent")});
     EXPECT_EQ(as_sent.status.command, one.command + 0x200);
   }
 }
@@ -175,7 +174,7 @@ TEST(RsM8194hDownload, WrongOperatorsAndOperandsAreErrorsToo) {
 }
 
 TEST(RsM8194hDownload, UndefinedCommandsSpoilItOthersAreLeftOut) {
-  const auto close_behind = [](std::uint16_t code, Fault fault, const DownloadOptions& options) {
+  const auto close_behind = [](std::uint16_t code, Fault fault, const Options& options) {
     Download activity{.name = {true, 4}};
     EXPECT_EQ(add(activity, line_of("EXIT_MACRO"), options), Fault::none);
     refuse(activity, code, fault, options);
@@ -187,7 +186,7 @@ TEST(RsM8194hDownload, UndefinedCommandsSpoilItOthersAreLeftOut) {
   for (const Fault fault :
        {Fault::parameter, Fault::register_count, Fault::real_time_in_macro, Fault::mp_in_isr}) {
     EXPECT_EQ(close_behind(0x0C4E, fault, {}), std::pair(true, (DownloadStatus{9, 4, 0, 0, 0})));
-    const DownloadOptions strict{.refused_line = DownloadOptions::RefusedLine::spoils};
+    const Options strict{option("refused_lines", "spoil_the_download")};
     EXPECT_FALSE(close_behind(0x0C4E, fault, strict).first);
   }
 }
@@ -210,7 +209,7 @@ TEST(RsM8194hDownload, FirstErrorIsTheOneThatCounts) {
 }
 
 TEST(RsM8194hDownload, LastErrorIsTheOneThatCountsIfChosen) {
-  const DownloadOptions options{.last_error_counts = true};
+  const Options options{option("kept_error", "the_last")};
   const Outcome outcome = download({"NEXT", "SET_VAR VAR1 1", "ELSE"}, options);
   EXPECT_EQ(outcome.status.error, 0x03);
   EXPECT_EQ(outcome.status.line, 1);
@@ -220,7 +219,7 @@ TEST(RsM8194hDownload, LastErrorIsTheOneThatCountsIfChosen) {
 }
 
 TEST(RsM8194hDownload, OnlyGotoStaysInItsBlockIfChosen) {
-  const DownloadOptions options{.goto_stays_in_its_block = true};
+  const Options options{option("goto_out_of_blocks", "is_refused_as_without_its_label")};
   const Outcome inside = download({"LABEL 0", "FOR 1", "SET_VAR VAR1 1", "NEXT", "GOTO 0"}, options);
   EXPECT_EQ(inside.answers, std::vector<Fault>{});
   EXPECT_TRUE(inside.is_stored);
@@ -230,7 +229,7 @@ TEST(RsM8194hDownload, OnlyGotoStaysInItsBlockIfChosen) {
 }
 
 TEST(RsM8194hDownload, CloseTakesALineIfChosen) {
-  const DownloadOptions options{.close_takes_line = true};
+  const Options options{option("close_line", "one_line")};
   EXPECT_TRUE(download({false, 1}, repeated(7, "NEXT"), options).answers.size() == 7U);
   EXPECT_TRUE(download({false, 1}, repeated(7, "SET_VAR VAR1 1"), options).is_stored);
   EXPECT_EQ(download({false, 1}, repeated(8, "SET_VAR VAR1 1"), options).status.error, 0x01);

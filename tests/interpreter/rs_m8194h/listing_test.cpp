@@ -125,10 +125,10 @@ TEST(RsM8194hListing, TheFirstErrorOfAMacroIsReportedWhicheverCounts) {
       {"NEXT\nRSM_MACRO_ELSE", "2:1: RSM_MACRO_NEXT: NEXT without a FOR"},
       {"GOTO 1\nRSM_MACRO_NEXT", "3:1: RSM_MACRO_NEXT: NEXT without a FOR"},
   };
-  for (const bool last_counts : {false, true}) {
+  for (const Options& options : {Options{}, Options{option("kept_error", "the_last")}}) {
     for (const Case& each : kCases) {
       const std::string text = "MP 1\nRSM_MACRO_" + each.lines + "\nEND";
-      const ParsedListing parsed = parse_listing(text, {}, {.last_error_counts = last_counts});
+      const ParsedListing parsed = parse_listing(text, options);
       ASSERT_EQ(parsed.errors.size(), 1U) << text;
       EXPECT_EQ(to_string(parsed.errors[0]), each.error) << text;
     }

@@ -81,7 +81,7 @@ struct Jump {
 
 class Evaluator {
  public:
-  Evaluator(const std::map<MacroName, Macro>& macros, const RunOptions& options, int budget, std::int64_t end)
+  Evaluator(const std::map<MacroName, Macro>& macros, const Options& options, int budget, std::int64_t end)
       : options_(options), budget_(budget), end_(end) {
     for (const auto& [name, macro] : macros) {
       std::size_t at = 0;
@@ -123,7 +123,7 @@ class Evaluator {
     while (!isrs.empty() && isrs.front().first <= now_) {
       const int number = isrs.front().second;
       isrs.erase(isrs.begin());
-      if (!options_.one_return_register) returned_[1] = {};
+      if (!options_.chose(option("return_registers", "one_for_both"))) returned_[1] = {};
       in_isr_ = true;
       call({true, number}, 1);
       in_isr_ = false;
@@ -165,7 +165,9 @@ class Evaluator {
     return is_variable ? variables[operand - 0x7FFF0000] : static_cast<std::int32_t>(operand);
   }
   std::int32_t& variable(std::uint32_t name) { return variables[name - 0x7FFF0000]; }
-  ReturnRegister& returned() { return returned_[in_isr_ && !options_.one_return_register ? 1 : 0]; }
+  ReturnRegister& returned() {
+    return returned_[in_isr_ && !options_.chose(option("return_registers", "one_for_both")) ? 1 : 0];
+  }
   void fail(const Node& node, const MacroName& macro, int error) {
     note("fault " + std::to_string(error) + " " + to_string(macro) + " line " + std::to_string(node.line));
   }
@@ -202,9 +204,10 @@ class Evaluator {
     switch (command.verb()) {
       case Verb::set_var: variable(values[0]) = value(values[1]); return;
       case Verb::set_rvar:
-        if (options_.return_value_is_used_up && !returned().is_full) return fail(node, macro, 16);
+        if (options_.chose(option("return_register_keeps", "execution_error")) && !returned().is_full)
+          return fail(node, macro, 16);
         variable(values[0]) = returned().value;
-        if (options_.return_value_is_used_up) returned() = {};
+        if (options_.chose(option("return_register_keeps", "execution_error"))) returned() = {};
         return;
       case Verb::var_calculate: return calculate_line(node, macro);
       case Verb::if_: return branch(node, macro, level);
@@ -216,7 +219,7 @@ class Evaluator {
       case Verb::mp_call:
         if (level < 7) return call({false, static_cast<int>(values[0])}, level + 1);
         fail(node, macro, 15);
-        if (options_.call_too_deep_ends_macro) throw ExitMacro{};
+        if (options_.chose(option("call_too_deep", "ends_the_macro"))) throw ExitMacro{};
         return;
       case Verb::timer: return timer(node, macro);
       case Verb::stop_wait:
@@ -287,7 +290,7 @@ class Evaluator {
 
   void timer(const Node& node, const MacroName& macro) {
     const std::int32_t time = value(node.command.values[0]);
-    if (time < 0 && options_.negative_time_is_error) return fail(node, macro, 16);
+    if (time < 0 && options_.chose(option("timer_negative", "execution_error"))) return fail(node, macro, 16);
     wait_for(node, macro, [this, until = now_ + std::max(time, 0)] { return now_ >= until; });
   }
 
@@ -298,7 +301,7 @@ class Evaluator {
     std::int64_t time = value(values[3]);
     const bool is_variable = values[3] >= 0x7FFF0000 && values[3] <= 0x7FFF01FF;
     if (!is_variable) time = values[3];
-    if (time < 0 && options_.negative_time_is_error) return fail(node, macro, 16);
+    if (time < 0 && options_.chose(option("timer_negative", "execution_error"))) return fail(node, macro, 16);
     if (channel < 0 || channel > 15 || level < 0 || level > 1) return fail(node, macro, 16);
     const std::int64_t until = time > 0 ? now_ + time : INT64_MAX;
     wait_for(node, macro, [this, group = values[0], channel, level, until] {
@@ -331,7 +334,7 @@ class Evaluator {
   }
 
   std::map<MacroName, Nodes> trees_;
-  RunOptions options_;
+  Options options_;
   int budget_;
   std::int64_t end_;
   std::int64_t now_ = 0;

@@ -185,10 +185,12 @@ TEST(RsM8194hRandomMacros, RunAsAnotherEvaluatorSays) {
     }
     constexpr int kBudgets[] = {1, 2, 8, 32};
     const int budget = kBudgets[random.below(4)];
-    const RunOptions options{.one_return_register = random.is_one_in(4),
-                             .return_value_is_used_up = random.is_one_in(4),
-                             .negative_time_is_error = random.is_one_in(4),
-                             .call_too_deep_ends_macro = random.is_one_in(4)};
+    Options options;
+    for (const Options::Named& one :
+         {option("return_registers", "one_for_both"), option("return_register_keeps", "execution_error"),
+          option("timer_negative", "execution_error"), option("call_too_deep", "ends_the_macro")}) {
+      if (random.is_one_in(4)) options.choose(one);
+    }
     const std::string text = pasted(world);
 
     naive::Evaluator evaluator(world.macros, options, budget, kEnd);

@@ -16,9 +16,7 @@ namespace run_test {
 using Log = std::vector<std::string>;
 
 struct Bench {
-  explicit Bench(const std::string& text, const RunOptions& with = {}) : options(with) {
-    machine.store(text);
-  }
+  explicit Bench(const std::string& text, const Options& with = {}) : options(with) { machine.store(text); }
 
   void start(int mp = 1) { start_mp(execution, mp, machine.now_ms + 1, machine); }
   /// Runs ticks. Returns what is left for the FIFO in the last one.
@@ -33,7 +31,7 @@ struct Bench {
   }
   int var(std::size_t number) const { return machine.variables[number]; }
 
-  RunOptions options;
+  Options options;
   ScriptedMachine machine;
   Execution execution;
   bool is_paused = false;
@@ -217,7 +215,7 @@ TEST(RsM8194hRun, ReturnValuesOutliveCallsButNotTheRun) {
     EXPECT_EQ(bench.var(1), 1);
     EXPECT_EQ(bench.var(2), 42);
   }
-  Bench strict(text, {.return_value_is_used_up = true});
+  Bench strict(text, {option("return_register_keeps", "execution_error")});
   strict.start();
   strict.run(1);
   EXPECT_EQ(strict.machine.log, (Log{"1 fault 16 MP1 line 0", "1 end"}));
@@ -233,7 +231,7 @@ TEST(RsM8194hRun, CallsGoDownToTheSeventhLevel) {
   EXPECT_EQ(bench.var(0), 7);
   EXPECT_EQ(bench.var(1), 7);
   EXPECT_EQ(bench.machine.log, (Log{"2 fault 15 MP1 line 1", "3 end"}));
-  Bench ending(text, {.call_too_deep_ends_macro = true});
+  Bench ending(text, {option("call_too_deep", "ends_the_macro")});
   ending.start();
   ending.run(10);
   EXPECT_EQ(ending.var(1), 6);
@@ -273,7 +271,7 @@ TEST(RsM8194hRun, TimersLastTheirTicks) {
   bench.start(41);
   bench.run(10);
   EXPECT_EQ(bench.machine.log, (Log{"1 DRV_HOLD X", "4 DRV_HOLD Y", "4 DRV_HOLD Z", "5 end"}));
-  Bench strict(mp(1, "SET_VAR VAR1 -5|TIMER VAR1"), {.negative_time_is_error = true});
+  Bench strict(mp(1, "SET_VAR VAR1 -5|TIMER VAR1"), {option("timer_negative", "execution_error")});
   strict.start();
   strict.run(1);
   EXPECT_EQ(strict.machine.log, (Log{"1 fault 16 MP1 line 1", "1 end"}));
@@ -307,7 +305,7 @@ TEST(RsM8194hRun, InputsAreWaitedForUpToTheTimeout) {
   late.start();
   late.run(9);
   EXPECT_EQ(late.machine.log, (Log{"5 DRV_HOLD X", "5 DRV_HOLD Y", "5 end"}));
-  Bench edge(text, {.frnet_wait_needs_edge = true});
+  Bench edge(text, {option("frnet_wait_level", "waits_for_the_change")});
   edge.machine.inputs = {131};
   edge.start();
   edge.run(9);
@@ -327,7 +325,7 @@ TEST(RsM8194hRun, InputsAreWaitedForWithoutEndAtANegativeTime) {
 
 TEST(RsM8194hRun, EachWaitForAChangeWantsOneOfItsOwn) {
   Bench bench(mp(1, "FRNET_WAIT 8 3 1 0|DRV_HOLD X|FRNET_WAIT 8 3 1 0|DRV_HOLD Y"),
-              {.frnet_wait_needs_edge = true});
+              {option("frnet_wait_level", "waits_for_the_change")});
   bench.start();
   bench.run(2);
   bench.machine.inputs = {131};
@@ -407,7 +405,7 @@ TEST(RsM8194hRun, AnIsrComesBetweenTwoLines) {
 TEST(RsM8194hRun, IsrsByOtherReadingsOfTheManual) {
   const std::string text = mp(1, "TIMER 2|DRV_HOLD X|GET_LP X|TIMER 3|SET_RVAR VAR0") +
                            isr(1, "FRNET_WAIT 8 0 1 4|DRV_HOLD Z|GET_LP U") + isr(2, "DRV_HOLD U");
-  const auto log_of = [&text](const RunOptions& options) {
+  const auto log_of = [&text](const Options& options) {
     Bench bench(text, options);
     bench.machine.readings = {{"RSM_MACRO_GET_LP X", 10}, {"RSM_MACRO_GET_LP U", 20}};
     bench.machine.isrs = {{2, 1}, {3, 2}};
@@ -417,13 +415,16 @@ TEST(RsM8194hRun, IsrsByOtherReadingsOfTheManual) {
     return bench.machine.log;
   };
   EXPECT_EQ(log_of({}), (Log{"6 DRV_HOLD Z", "6 DRV_HOLD U", "6 DRV_HOLD X", "9 end", "10"}));
-  EXPECT_EQ(log_of({.mp_runs_beside_isr = true}),
+  EXPECT_EQ(log_of({option("mp_during_isr", "goes_on_while_it_waits")}),
             (Log{"3 DRV_HOLD X", "6 DRV_HOLD Z", "6 DRV_HOLD U", "6 end", "10"}));
-  EXPECT_EQ(log_of({.isr_interrupts_isr = true}),
+  EXPECT_EQ(log_of({option("isr_nesting", "nested")}),
             (Log{"3 DRV_HOLD U", "6 DRV_HOLD Z", "6 DRV_HOLD X", "9 end", "10"}));
-  EXPECT_EQ(log_of({.isr_never_waits = true}),
+  EXPECT_EQ(log_of({option("isr_waits", "are_passed_over")}),
             (Log{"2 DRV_HOLD Z", "3 DRV_HOLD U", "3 DRV_HOLD X", "6 end", "10"}));
-  EXPECT_EQ(log_of({.mp_runs_beside_isr = true, .one_return_register = true}).back(), "20");
+  EXPECT_EQ(
+      log_of({option("mp_during_isr", "goes_on_while_it_waits"), option("return_registers", "one_for_both")})
+          .back(),
+      "20");
 }
 
 TEST(RsM8194hRun, TerminateEndsAllOfThem) {

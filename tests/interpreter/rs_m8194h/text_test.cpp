@@ -21,7 +21,7 @@ std::string error_of(const std::string& text) {
 
 void expect_back(const Command& command) {
   const std::string text = text_of(command);
-  const ParsedCommand parsed = parse_command(text, {.rectangle_corners_must_fit = false});
+  const ParsedCommand parsed = parse_command(text, Options{option("rectangle_radius", "drawn_shorter")});
   ASSERT_TRUE(parsed.command) << text << ": " << to_string(*parsed.error);
   EXPECT_EQ(*parsed.command, command) << text;
 }
@@ -147,25 +147,26 @@ TEST(RsM8194hText, ErrorsHaveAPlaceAndWhatIsExpected) {
 TEST(RsM8194hText, WhatAChoiceRefusesIsReportedAsThat) {
   struct Case {
     const char* text;
-    CommandOptions options;
+    Options options;
     const char* error;
   };
   const Case kCases[] = {
       {"RSM_MACRO_FIXED_MOVE X VAR1",
-       {.few_take_references = true},
+       {option("references", "exception_3")},
        "1:24: parameter data: 'VAR1' is refused by a choice of the bench; expected a constant"},
       {"RSM_RECTANGLE X Y 0 0 0 300000000 1000 10 1 1 1 1",
-       {.rectangles_end_earlier = true},
+       {option("rectangle_ends", "200000000")},
        "1:25: parameter Lp: '300000000' is refused by a choice of the bench; expected another value"},
       {"RSM_SET_V X 4000001",
-       {.speeds_have_ends = true},
+       {option("speed_ends", "exception_3")},
        "1:13: parameter data: '4000001' is refused by a choice of the bench; expected another value"},
       {"RSM_FIXED_MOVE X 2000000001",
-       {.zero_moves_are_refused = true},
+       {option("zero_move", "exception_3")},
        "1:18: parameter data: '2000000001' does not fit; expected -2000000000 to 2000000000"},
   };
   for (const Case& each : kCases) {
-    EXPECT_TRUE(parse_command(each.text).command || each.options.zero_moves_are_refused) << each.text;
+    EXPECT_TRUE(parse_command(each.text).command || each.options.chose(option("zero_move", "exception_3")))
+        << each.text;
     const ParsedCommand parsed = parse_command(each.text, each.options);
     ASSERT_TRUE(parsed.error) << each.text;
     EXPECT_EQ(to_string(*parsed.error), each.error);

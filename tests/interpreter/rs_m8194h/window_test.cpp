@@ -225,9 +225,10 @@ TEST(RsM8194hWindow, ParametersThatDependOnEachOther) {
   };
   for (const JointCase& one : kCases) EXPECT_EQ(fault_of(one.registers), one.fault) << one.what;
   const Registers too_round = kCases[std::size(kCases) - 1].registers;
-  EXPECT_EQ(
-      decode(too_round, State::ready, WordOrder::high_first, {.rectangle_corners_must_fit = false}).fault,
-      Fault::none);
+  EXPECT_EQ(decode(too_round, State::ready, WordOrder::high_first,
+                   Options{option("rectangle_radius", "drawn_shorter")})
+                .fault,
+            Fault::none);
 }
 
 TEST(RsM8194hWindow, ReferencesStandInMacroLinesOnly) {
@@ -250,7 +251,7 @@ TEST(RsM8194hWindow, ReferencesStandInMacroLinesOnly) {
 }
 
 TEST(RsM8194hWindow, FewLinesTakeReferencesIfChosen) {
-  const CommandOptions options{.few_take_references = true};
+  const Options options{option("references", "exception_3")};
   struct Case {
     const char* line;
     std::optional<std::size_t> bad;
@@ -278,25 +279,25 @@ TEST(RsM8194hWindow, FewLinesTakeReferencesIfChosen) {
 }
 
 TEST(RsM8194hWindow, RectanglesEndEarlierIfChosen) {
-  const CommandOptions options{.rectangles_end_earlier = true};
+  const Options options{option("rectangle_ends", "200000000")};
   constexpr std::size_t kSides[] = {5, 6, 7};  // Lp, Wp, Rp
   for (const std::size_t side : kSides) {
     for (const std::int64_t length : {200'000'000, 200'000'001, 2'000'000'000}) {
       Command command = *parse_command("RSM_RECTANGLE X Y 0 0 0 1000 1000 10 1 1 1 1").command;
       if (side == 7) command.values[5] = command.values[6] = 200'000'000;
-      CommandOptions loose = options;
-      loose.rectangle_corners_must_fit = false;
+      Options loose = options;
+      loose.choose(option("rectangle_radius", "drawn_shorter"));
       command.values[side] = static_cast<std::uint32_t>(length);
       const bool is_bad = length > 200'000'000;
       EXPECT_EQ(bad_parameter(command, loose), is_bad ? std::optional(side) : std::nullopt) << length;
-      loose.rectangles_end_earlier = false;
+      loose.choose(option("rectangle_ends", "2000000000"));
       EXPECT_EQ(bad_parameter(command, loose), std::nullopt);
     }
   }
 }
 
 TEST(RsM8194hWindow, FrnetWaitMayHaveOneRegisterLessIfChosen) {
-  const CommandOptions options{.frnet_wait_may_have_7 = true};
+  const Options options{option("frnet_wait_registers", "8_or_7_with_a_time_of_one")};
   const Registers full = {macro_code(Verb::frnet_wait), 8, 0, 1, 0, 1, 2, 3};
   ASSERT_EQ(row_of(Verb::frnet_wait).registers(), 8);
   for (std::size_t count = 1; count <= 9; ++count) {
@@ -304,7 +305,7 @@ TEST(RsM8194hWindow, FrnetWaitMayHaveOneRegisterLessIfChosen) {
     sent.resize(count, 0);
     for (const bool may : {false, true}) {
       const Decoded decoded =
-          decode(sent, State::mp_download, WordOrder::high_first, may ? options : CommandOptions{});
+          decode(sent, State::mp_download, WordOrder::high_first, may ? options : Options{});
       const bool is_good = count == 8 || (may && count == 7);
       EXPECT_EQ(decoded.fault, is_good ? Fault::none : Fault::register_count) << count << may;
       if (!is_good) continue;
@@ -316,7 +317,7 @@ TEST(RsM8194hWindow, FrnetWaitMayHaveOneRegisterLessIfChosen) {
 TEST(RsM8194hWindow, CodeOfAMisprintIsItsCommandIfChosen) {
   const Registers sent = {0x0CB2, 1, 2, 0, 0, 300, 0, 18000, 7, 0xA120};
   EXPECT_EQ(decode(sent, State::mp_download, WordOrder::high_first).fault, Fault::undefined_command);
-  const CommandOptions options{.knows_0cb2 = true};
+  const Options options{option("code_0cb2", "that_command")};
   const Decoded decoded = decode(sent, State::mp_download, WordOrder::high_first, options);
   EXPECT_EQ(decoded.fault, Fault::none);
   EXPECT_EQ(text_of(decoded.command), "RSM_MACRO_MIX_2D_INITIAL X Y 0 300 18000 500000");

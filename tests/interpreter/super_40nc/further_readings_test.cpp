@@ -29,35 +29,35 @@ bool is_loaded(const std::string& text, const Options& options) {
 TEST(Super40ncFurtherReadings, OfWhatIsLoaded) {
   struct Case {
     std::string text;
-    bool Options::*field;
-    bool with, without;  // whether it is loaded
+    Options::Named option;
+    bool with, without;  // whether it is loaded with the option, and with the first one
   };
   const Case cases[] = {
-      {"AREA X\nSET Y0\n", &Options::end_may_be_missing, true, false},
-      {"AREA PLC\nSET Y0\n", &Options::end_may_be_missing, false, false},  // has no condition either
-      {"AREA PLC\nLD X0\nOUT T0 D1\nEND\n", &Options::presets_may_be_registers, true, false},
-      {"AREA PLC\nLD X0\nOUT C0 K1\nEND\n", &Options::presets_may_be_registers, true, true},
-      {"AREA C\nF\nEND\n", &Options::unset_lines_are_skipped, true, false},
-      {"AREA U\nTMR *\nEND\n", &Options::unset_lines_are_skipped, true, false},
-      {"AREA C\nCWR K1 K2\nEND\n", &Options::unset_lines_are_skipped, true, false},
-      {"AREA C\nCCWR K1 K2 *\nEND\n", &Options::unset_lines_are_skipped, true, false},
-      {"AREA C\nJMP\nEND\n", &Options::unset_lines_are_skipped, false, false},
-      {"AREA C\nMOV K1\nEND\n", &Options::unset_lines_are_skipped, false, false},
-      {"AREA C\nC3P K1 K2 K3\nEND\n", &Options::c3p_may_lack_fields, true, false},
-      {"AREA C\nC3P K1 K2 K3 K4\nEND\n", &Options::c3p_may_lack_fields, true, true},
+      {"AREA X\nSET Y0\n", option("missing_end", "as_if_it_had_one"), true, false},
+      {"AREA PLC\nSET Y0\n", option("missing_end", "as_if_it_had_one"), false,
+       false},  // has no condition either
+      {"AREA PLC\nLD X0\nOUT T0 D1\nEND\n", option("preset_operand", "k_alone"), false, true},
+      {"AREA PLC\nLD X0\nOUT C0 K1\nEND\n", option("preset_operand", "k_alone"), true, true},
+      {"AREA C\nF\nEND\n", option("unset_fields", "line_is_skipped"), true, false},
+      {"AREA U\nTMR *\nEND\n", option("unset_fields", "line_is_skipped"), true, false},
+      {"AREA C\nCWR K1 K2\nEND\n", option("unset_fields", "line_is_skipped"), true, false},
+      {"AREA C\nCCWR K1 K2 *\nEND\n", option("unset_fields", "line_is_skipped"), true, false},
+      {"AREA C\nJMP\nEND\n", option("unset_fields", "line_is_skipped"), false, false},
+      {"AREA C\nMOV K1\nEND\n", option("unset_fields", "line_is_skipped"), false, false},
+      {"AREA C\nC3P K1 K2 K3\nEND\n", option("c3p_unset", "refused_at_load"), false, true},
+      {"AREA C\nC3P K1 K2 K3 K4\nEND\n", option("c3p_unset", "refused_at_load"), true, true},
   };
   for (const Case& each : cases) {
     Options options;
-    options.*each.field = true;
-    EXPECT_EQ(is_loaded(each.text, options), each.with) << each.text;
-    options.*each.field = false;
     EXPECT_EQ(is_loaded(each.text, options), each.without) << each.text;
+    options.choose(each.option);
+    EXPECT_EQ(is_loaded(each.text, options), each.with) << each.text;
   }
 }
 
 TEST(Super40ncFurtherReadings, OfMissingEnds) {
   Options options;
-  options.end_may_be_missing = true;
+  options.choose(option("missing_end", "as_if_it_had_one"));
   Running step("AREA X\nINC D0\nTMR K2\n", options);
   step.start(Area::x);
   step.tick(9);
@@ -74,7 +74,7 @@ TEST(Super40ncFurtherReadings, OfMissingEnds) {
 
 TEST(Super40ncFurtherReadings, OfLinesWithoutValues) {
   Options options;
-  options.unset_lines_are_skipped = true;
+  options.choose(option("unset_fields", "line_is_skipped"));
   Running skipped = running("AREA C;F K700;F *;TMR *;CWR K1 K2 *;SET Y0;TMR K9", options);
   skipped.machine.registers[named::kOwnedAxes] = 4;
   skipped.start(Area::c);
@@ -87,7 +87,7 @@ TEST(Super40ncFurtherReadings, OfLinesWithoutValues) {
 TEST(Super40ncFurtherReadings, OfEdgesOfOneBit) {
   for (const bool is_shared : {false, true}) {
     Options options;
-    options.bits_remember_edges = is_shared;
+    if (is_shared) options.choose(option("edge_memory", "the_bit_so_the_first_takes_the_edge"));
     Running plc = running("AREA PLC;LDP X0;INC D0;LDP X0;INC D1;LDF X0;INC D2;LDP X1;ORP X0;INC D3", options);
     for (const bool on : {true, true, false, false, true}) {
       plc.machine.set(x(0), on);
@@ -103,9 +103,9 @@ TEST(Super40ncFurtherReadings, OfEdgesOfOneBit) {
 TEST(Super40ncFurtherReadings, OfTimersAndCounters) {
   for (const bool is_other : {false, true}) {
     Options options;
-    options.timers_count_on = is_other;
-    options.empty_presets_close = !is_other;
-    options.all_timers_hold = is_other;
+    if (is_other) options.choose(option("timer_past_preset", "counts_on"));
+    if (is_other) options.choose(option("preset_not_positive", "never_closes"));
+    if (is_other) options.choose(option("kept_timers", "all_timers_keep_it"));
     Running plc = running("AREA PLC;LD X0;OUT T0 K5;OUT T1 K0;OUT C0 K-1;LD X1;RST T0", options);
     const Operand value{Letter::t, 0};
     plc.machine.set(x(0), true);
@@ -128,7 +128,7 @@ TEST(Super40ncFurtherReadings, OfTimersAndCounters) {
 TEST(Super40ncFurtherReadings, OfModesInThePlc) {
   for (const bool needs : {false, true}) {
     Options options;
-    options.modes_need_edge = needs;
+    if (needs) options.choose(option("instruction_edges", "all_on_the_edge"));
     Running plc = running("AREA PLC;LD X0;PSET K1;STP K1", options);
     plc.scan();
     plc.machine.set(x(0), true);
@@ -142,7 +142,7 @@ TEST(Super40ncFurtherReadings, OfModesInThePlc) {
   }
   for (const bool stay : {false, true}) {
     Options options;
-    options.modes_stay_at_run = stay;
+    if (stay) options.choose(option("plc_modes", "stay"));
     Running plc = running("AREA PLC;LD X0;INCC;RPM K7", options);
     plc.machine.set(x(0), true);
     plc.scan();
@@ -155,20 +155,20 @@ TEST(Super40ncFurtherReadings, OfModesInThePlc) {
 }
 
 TEST(Super40ncFurtherReadings, OfRanges) {
-  using enum Options::Swapped;
-  for (const auto swapped : {clears_first, clears_all}) {
+  for (const bool clears_all : {false, true}) {
     Options options;
-    options.swapped = swapped;
+    options.choose(clears_all ? option("zrst_swapped", "all_between")
+                              : option("zrst_swapped", "the_first_alone"));
     Running zrst = running("AREA X;FMV K7 D0 K9;ZRST D6 D3;ZRST D1 D1;TMR K9", options);
     zrst.start(Area::x);
     zrst.tick();
     for (int i = 0; i < 9; ++i) {
-      const bool is_cleared = i == 6 || i == 1 || (swapped == clears_all && i >= 3 && i <= 6);
+      const bool is_cleared = i == 6 || i == 1 || (clears_all && i >= 3 && i <= 6);
       EXPECT_EQ(zrst.machine.value(d(i)), is_cleared ? 0 : 7) << i;
     }
   }
   Options options;
-  options.remainder_needs_room = true;
+  options.choose(option("div_at_the_end", "nothing_with_a_code"));
   Running div = running("AREA X;DIV K17 K5 D999;DIV K17 K5 D997;TMR K9", options);
   div.start(Area::x);
   div.tick();
@@ -180,7 +180,7 @@ TEST(Super40ncFurtherReadings, OfRanges) {
 
 TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
   Options options;
-  options.starts_inside_lines = true;
+  options.choose(option("pointer_inside", "goes_on_with_the_next_line"));
   Running inside = running("AREA X;MOV K1 D0;INC D1;TMR K9", options);
   inside.programs().set_step(Area::x, 1);
   inside.start(Area::x);
@@ -194,7 +194,7 @@ TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
   EXPECT_EQ(beyond.machine.codes.at(0)[0], 1);
 
   options = {};
-  options.waits_follow_registers = true;
+  options.choose(option("tmr_of_d", "compared_in_each_scan"));
   Running follows = running("AREA X;TMR D0;SET Y0;TMR K9", options);
   follows.machine.write(d(0), 1000);
   follows.start(Area::x);
@@ -207,7 +207,7 @@ TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
   EXPECT_TRUE(follows.machine.contact(y(0)));
 
   options = {};
-  options.waits_stand_inhibited = true;
+  options.choose(option("tmr_under_m8004", "stands"));
   Running stands = running("AREA X;TMR K20;SET Y0;TMR K9", options);
   stands.start(Area::x);
   stands.tick(11);
@@ -224,8 +224,8 @@ TEST(Super40ncFurtherReadings, OfStepsAndWaits) {
 TEST(Super40ncFurtherReadings, OfFieldsAndSingleSteps) {
   for (const bool is_own : {false, true}) {
     Options options;
-    options.mark_is_by_own_field = is_own;
-    options.wheel_ends_single_step = is_own;
+    if (is_own) options.choose(option("mrk_fields", "of_its_own_axis"));
+    if (is_own) options.choose(option("single_step_lines", "yes"));
     Running marks = running("AREA Y;MRK * K5;TMR K9", options);
     marks.machine.registers[named::kOwnedAxes] = 0;
     marks.start(Area::y);

@@ -201,7 +201,7 @@ TEST(Super40ncListing, FindsStacksAndMemoryFull) {
   EXPECT_EQ(first_code("AREA C\n" + many(375, "LIN K1") + "END\n"), Code::memory_full);
   EXPECT_EQ(first_code("AREA C\n" + many(374, "LIN K1") + "END\n"), Code::none);
   Options lines;
-  lines.capacity = Options::Capacity::lines;
+  lines.choose(option("capacity_unit", "lines"));
   EXPECT_TRUE(check("AREA C\n" + many(1499, "LIN K1") + "END\n", lines).program);
 }
 
@@ -214,7 +214,7 @@ TEST(Super40ncListing, LoadsADoubledLabelAndReportsIt) {
   EXPECT_EQ(checked.warnings[0].other_step, 2000);
   EXPECT_TRUE(check("AREA X\nLAB K5\nEND\nAREA Y\nLAB K5\nEND\n").warnings.empty());  // a separate area
   Options strict;
-  strict.double_labels = Options::DoubleLabels::are_refused;
+  strict.choose(option("duplicate_label", "refused_at_load"));
   EXPECT_FALSE(check("AREA Y\nLAB K5\nLAB K5\nEND\n", strict).program);
 }
 
@@ -228,7 +228,7 @@ TEST(Super40ncListing, LoadsAJumpWithoutItsLabelAndNotesIt) {
     ASSERT_EQ(checked.notes.size(), 1u) << jump;
     EXPECT_EQ(checked.notes[0].code, Code::label_missing);
     Options common;
-    common.labels_are_common = true;
+    common.choose(option("label_scope", "the_first_area_has_it"));
     EXPECT_TRUE(check(text, common).notes.empty()) << jump;
   }
   EXPECT_TRUE(check("AREA X\nLAB K1\nJMP K1\nEND\n").notes.empty());
@@ -236,23 +236,23 @@ TEST(Super40ncListing, LoadsAJumpWithoutItsLabelAndNotesIt) {
 
 TEST(Super40ncListing, OtherReadingsRefuseOtherThings) {
   Options options;
-  options.timers_can_be_reset = false;
+  options.choose(option("reset_timers_counters", "refused_at_load"));
   EXPECT_FALSE(check("AREA X\nRST T0\nEND\n", options).program);
   EXPECT_FALSE(check("AREA X\nZRST C0 C5\nEND\n", options).program);
   options = {};
-  options.knows_mset = false;
+  options.choose(option("mset", "refused_at_load"));
   EXPECT_FALSE(check("AREA X\nMSET K0\nEND\n", options).program);
   options = {};
-  options.void_lines = Options::VoidLines::are_refused;
+  options.choose(option("void_lines", "refused_at_load"));
   EXPECT_EQ(check("AREA C\nCHK K0\nEND\n", options).errors.at(0).code, Code::wrong_area);
   options = {};
-  options.loose_groups = Options::LooseGroups::take_last_result;
+  options.choose(option("cj_without_group", "takes_the_last_result"));
   EXPECT_TRUE(check("AREA X\nCJ K0\nLD X0\nSET Y0\nLAB K0\nEND\n", options).program);
   options = {};
-  options.double_coils = Options::DoubleCoils::are_refused;
+  options.choose(option("double_coils", "refused_at_load"));
   EXPECT_FALSE(check("AREA PLC\nLD X0\nOUT Y0\nOUT Y0\nEND\n", options).program);
   options = {};
-  options.bases = Options::Bases::older;
+  options.choose(option("area_bases", "older"));
   EXPECT_EQ(check("AREA X\nFOO\n", options).errors.at(0).step, 500);
 }
 

@@ -18,9 +18,9 @@ Running running(std::string text, const Options& options) {
 
 TEST(Super40ncOtherReadings, OfNumbers) {
   Options options;
-  options.fill_beyond = Options::FillBeyond::does_nothing;
-  options.division_by_zero = Options::DivisionByZero::gives_zero;
-  options.product = Options::Product::saturates;
+  options.choose(option("fmv_end", "nothing"));
+  options.choose(option("division_by_zero", "zero"));
+  options.choose(option("product_size", "saturates"));
   Running plc = running(
       "AREA PLC;LD M8003;FMV K5 D998 K3;DIV K7 K0 D0;MUL K65536 K65536 D3;MUL K-65536 K65536 D4", options);
   plc.machine.write(d(0), 5);
@@ -37,8 +37,8 @@ TEST(Super40ncOtherReadings, OfNumbers) {
 TEST(Super40ncOtherReadings, OfSumsAndQuotients) {
   for (const bool is_other : {false, true}) {
     Options options;
-    options.sums_saturate = is_other;
-    options.quotient = is_other ? Options::Quotient::downwards : Options::Quotient::towards_0;
+    if (is_other) options.choose(option("sum_size", "saturates"));
+    if (is_other) options.choose(option("division_rounding", "downwards"));
     Running plc = running(
         "AREA PLC;LD M8003;ADD K2147483647 D9 D0;SUB K-2147483648 D9 D1;ADD K3 D9 D2;DIV K-17 K5 D3;DIV K17 "
         "K-5 "
@@ -63,7 +63,7 @@ TEST(Super40ncOtherReadings, OfSumsAndQuotients) {
 TEST(Super40ncOtherReadings, OfWritesToTimers) {
   for (const bool is_ignored : {false, true}) {
     Options options;
-    options.timers_ignore_writes = is_ignored;
+    if (is_ignored) options.choose(option("timer_write", "ignored"));
     Running plc = running("AREA PLC;LD X0;OUT T0 K1000", options);
     const Operand value{Letter::t, 0};
     const auto write = [&](std::int32_t ms) {
@@ -96,7 +96,7 @@ TEST(Super40ncOtherReadings, OfWritesToTimers) {
 TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
   for (const bool stops : {false, true}) {
     Options options;
-    options.contact_off_stops = stops;
+    if (stops) options.choose(option("axis_contact_off", "stops_the_program"));
     Running off = running("AREA X;NOP;TMR K100;END;AREA C;NOP;TMR K100", options);
     off.start(Area::x);
     off.start(Area::c);
@@ -109,7 +109,7 @@ TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
     EXPECT_EQ(off.phase(Area::c), Phase::paused) << "0 is PAUSE in the manual's table";
 
     options = {};
-    options.start_begins_again = stops;
+    if (stops) options.choose(option("str_running", "begins_anew"));
     Running anew = running("AREA X;INC D0;TMR K100;END;AREA Y;TMR K5;STR K1", options);
     anew.start(Area::x);
     anew.start(Area::y);
@@ -122,7 +122,7 @@ TEST(Super40ncOtherReadings, OfContactsThatGoOffAndStr) {
 TEST(Super40ncOtherReadings, OfRpm0) {
   for (const bool keeps : {false, true}) {
     Options options;
-    options.rpm_0_keeps_speed = keeps;
+    if (keeps) options.choose(option("rpm_not_positive", "keeps_the_speed"));
     Running rpm =
         running("AREA C;RPM K200 K300;RPM K0 K-5 K7;TMR K9;END;AREA PLC;LD M8003;RPM K200;RPM K0", options);
     rpm.start(Area::c);
@@ -137,7 +137,7 @@ TEST(Super40ncOtherReadings, OfRpm0) {
 
 TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
   Options options;
-  options.outputs_clear_blocks = true;
+  options.choose(option("block_stack", "each_output_leaves_the_result_alone"));
   const auto codes = [&](const std::string& text) {
     std::string message;
     const Checked checked = check(text, options);
@@ -153,18 +153,18 @@ TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
             "");
 
   options = {};
-  options.labels_are_common = true;
+  options.choose(option("label_scope", "the_first_area_has_it"));
   const std::string text = "AREA C\nNOP\nLAB K1\nEND\nAREA X\nLAB K2\nLAB K1\nEND\n";
   EXPECT_EQ(codes(text), "(7:1: label K1 is one of area C as well; expected one)");
   EXPECT_EQ(check(text, options).warnings.at(0).step, 1501);
   EXPECT_EQ(check(text, options).warnings.at(0).other_step, 1);
-  options.double_labels = Options::DoubleLabels::are_refused;
+  options.choose(option("duplicate_label", "refused_at_load"));
   EXPECT_EQ(codes(text), "7:1: label K1 is one of area C as well; expected one;");
 }
 
 TEST(Super40ncOtherReadings, OfTimersInLargerUnits) {
   Options options;
-  options.timer_unit_ms = 10;
+  options.choose(option("timer_unit", "10ms"));
   Running plc = running("AREA PLC;LD X0;OUT T0 K5", options);
   plc.machine.set(x(0), true);
   int ms = 0;
@@ -174,7 +174,7 @@ TEST(Super40ncOtherReadings, OfTimersInLargerUnits) {
 
 TEST(Super40ncOtherReadings, OfMotionInThePlc) {
   Options options;
-  options.motions_need_edge = false;
+  options.choose(option("instruction_edges", "every_scan"));
   Running plc = running("AREA PLC;LD X0;DRV K1;HOM K1", options);
   plc.machine.registers[named::kOwnedAxes] = 0;
   plc.machine.set(x(0), true);
@@ -184,14 +184,14 @@ TEST(Super40ncOtherReadings, OfMotionInThePlc) {
 
 TEST(Super40ncOtherReadings, OfSubroutines) {
   Options options;
-  options.loose_return = Options::LooseReturn::is_ignored;
+  options.choose(option("ret_without_cal", "ignored"));
   Running loose = running("AREA C;RET;SET Y0", options);
   loose.start(Area::c);
   loose.tick();
   EXPECT_TRUE(loose.machine.contact(y(0)));
 
   options = {};
-  options.no_passes = Options::NoPasses::mean_endless;
+  options.choose(option("cal_count", "endless"));
   Running endless = running("AREA C;CAL K1 K0;END;LAB K1;INC D0;RET", options);
   endless.start(Area::c);
   endless.tick(100);
@@ -203,7 +203,7 @@ TEST(Super40ncOtherReadings, OfSubroutines) {
 
   for (const int depth : {8, 16}) {
     options = {};
-    options.call_depth = depth;
+    if (depth == 8) options.choose(option("cal_depth", "8"));
     Running deep = running("AREA C;LAB K1;INC D0;CAL K1", options);
     deep.start(Area::c);
     deep.tick(100);
@@ -214,14 +214,14 @@ TEST(Super40ncOtherReadings, OfSubroutines) {
 
 TEST(Super40ncOtherReadings, OfSlicesAndStarts) {
   Options options;
-  options.slice = 1;
+  options.choose(option("slice_length", "1_line"));
   Running slow = running("AREA C;INC D0;INC D0;INC D0", options);
   slow.start(Area::c);
   slow.tick(2);
   EXPECT_EQ(slow.machine.value(d(0)), 2);
 
   options = {};
-  options.fresh_start = Options::FreshStart::every_start;
+  options.choose(option("fresh_start", "every_start"));
   Running fresh = running("AREA C;INCC;WAT X0;DRV K1", options);
   fresh.start(Area::c);
   fresh.tick();
@@ -230,21 +230,21 @@ TEST(Super40ncOtherReadings, OfSlicesAndStarts) {
   EXPECT_EQ(fresh.state(Area::c).targets, Targets::absolute);
 
   options = {};
-  options.empty_program = Options::EmptyProgram::is_an_error;
+  options.choose(option("empty_program", "is_an_error"));
   Running empty("AREA C\n", options);
   empty.start(Area::c);
   EXPECT_EQ(empty.machine.codes.at(0)[0], 6);
   EXPECT_FALSE(empty.machine.special_contact(8000));
 
   options = {};
-  options.rotation_0_waits = false;
+  options.choose(option("vdrv_zero_wait", "goes_on"));
   Running turning = running("AREA C;VDRV K0;SET Y0", options);
   turning.start(Area::c);
   turning.tick();
   EXPECT_TRUE(turning.machine.contact(y(0)));
 
   options = {};
-  options.bases = Options::Bases::older;
+  options.choose(option("area_bases", "older"));
   Running old = running("AREA X;NOP;RET", options);
   old.start(Area::x);
   old.tick();
@@ -253,14 +253,14 @@ TEST(Super40ncOtherReadings, OfSlicesAndStarts) {
 
 TEST(Super40ncOtherReadings, OfStackDepths) {
   Options options;
-  options.stack_depth = 8;
+  options.choose(option("stack_depth", "8"));
   std::string text = "AREA PLC\n";
   for (int i = 0; i < 9; ++i) text += "LD X0\n";
   EXPECT_FALSE(check(text + "OUT Y0\nEND\n", options).program);
-  options.stack_depth = 11;
+  options.choose(option("stack_depth", "11"));
   EXPECT_TRUE(check(text + "OUT Y0\nEND\n", options).program);
   options = {};
-  options.if_depth = 1;
+  options.choose(option("if_depth", "1"));
   EXPECT_FALSE(check("AREA C\nLD X0\nIF\nLD X1\nIF\nENDI\nENDI\nEND\n", options).program);
 }
 

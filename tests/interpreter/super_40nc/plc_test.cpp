@@ -100,7 +100,7 @@ TEST(Super40ncPlc, PulsesAndTogglesByItsCondition) {
 
 TEST(Super40ncPlc, NoEdgesAtRunIfChosen) {
   Options options;
-  options.outputs_fire_at_run = false;
+  options.choose(option("run_edges", "not_at_all"));
   Running plc = ladder_of("LD X0;PLS M0;ALT Y6", options);
   plc.machine.set(x(0), true);
   plc.scan();
@@ -206,7 +206,7 @@ TEST(Super40ncPlc, ACounterCountsEdgesUpToItsPreset) {
 
 TEST(Super40ncPlc, ACounterCountsOnIfChosen) {
   Options options;
-  options.counts_beyond_preset = true;
+  options.choose(option("counter_past_preset", "counts_on"));
   Running plc = ladder_of("LD X0;OUT C0 K1", options);
   for (int i = 0; i < 3; ++i) {
     plc.machine.set(x(0), false);
@@ -219,7 +219,7 @@ TEST(Super40ncPlc, ACounterCountsOnIfChosen) {
 
 TEST(Super40ncPlc, ACountersContactIsLatchedIfChosen) {
   Options options;
-  options.counter_contact = Options::CounterContact::is_latched;
+  options.choose(option("counter_contact", "closed_by_the_last_count"));
   Running plc = ladder_of("LD X0;OUT C0 K1;LD X1;RST C0", options);
   plc.scan();
   plc.machine.write(c(0), 5);  // a host: does not close it

@@ -319,7 +319,7 @@ TEST(Super40ncStep, C21SaysWhoseAxesAre) {
 
 TEST(Super40ncStep, AProgramMayBeStoppedForWhatIsNotItsOwn) {
   Options options;
-  options.not_owned = Options::NotOwned::stops_program;
+  options.choose(option("c21_zero", "stops_the_program"));
   Running running = started("DRV K1;SET Y0", Area::c, options);
   running.machine.registers[named::kOwnedAxes] = 0;
   running.tick(5);

@@ -88,7 +88,7 @@ lang::Command close(const lang::MacroName& name) {
   return {.code = lang::macro_code(name.is_isr ? lang::Verb::isr_close : lang::Verb::mp_close)};
 }
 
-CellRow cells_of(const lang::Command& command, const lang::CommandOptions& options) {
+CellRow cells_of(const lang::Command& command, const lang::Options& options) {
   CellRow row;
   const auto words = lang::encode(command, lang::WordOrder::high_first, options);
   for (const std::uint16_t word : words) row.cells.push_back(word);
@@ -146,7 +146,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
       throw ProgramError(parsed.first_trigger->line, parsed.first_trigger->column,
                          "TRIGGER is not a message to the window; expected macros alone");
     }
-    const lang::CommandOptions options = language_options(settings).command;
+    const lang::Options options = language_options(settings).lines;
     std::vector<CellRow> rows;
     for (const lang::ListedMacro& listed : parsed.listing.macros) {
       rows.push_back(cells_of(create(listed.name), options));
@@ -159,7 +159,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
     std::string text;
     lang::State state = lang::State::ready;
     const LanguageOptions options = language_options(settings);
-    for (const CellRow& row : rows) text += line_of(row, state, options.command);
+    for (const CellRow& row : rows) text += line_of(row, state, options.lines);
     if (state != lang::State::ready) {
       throw ProgramError(rows.back().line, 0, "ends inside a macro; expected its CLOSE");
     }
@@ -171,11 +171,11 @@ class Listing final : public ProgramLanguage, public ProgramCells {
  private:
   static lang::ParsedListing parse(std::string_view text, const DeviceSettings& settings) {
     const LanguageOptions options = language_options(settings);
-    return lang::parse_listing(text, options.command, options.download);
+    return lang::parse_listing(text, options.lines);
   }
 
   /// Returns a message as a line of a listing.
-  static std::string line_of(const CellRow& row, lang::State& state, const lang::CommandOptions& options) {
+  static std::string line_of(const CellRow& row, lang::State& state, const lang::Options& options) {
     std::vector<std::uint16_t> words;
     for (const std::int64_t cell : row.cells) words.push_back(static_cast<std::uint16_t>(cell));
     const lang::Decoded decoded = lang::decode(words, state, lang::WordOrder::high_first, options);

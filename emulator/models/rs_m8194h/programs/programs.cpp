@@ -55,16 +55,16 @@ lang::Fault Programs::take_download(const lang::Decoded& decoded) {
     return lang::Fault::none;
   }
   if (decoded.fault != lang::Fault::none) {
-    lang::refuse(state_.download, code, decoded.fault, language_options().download);
-    const bool shows_later =
-        language_options().download.faults_show_at_close && lang::is_download_error(decoded.fault);
+    lang::refuse(state_.download, code, decoded.fault, language_options().lines);
+    const bool shows_later = language_options().lines.chose(lang::option("structure_faults", "at_close")) &&
+                             lang::is_download_error(decoded.fault);
     return shows_later ? lang::Fault::none : decoded.fault;
   }
   if (!decoded.command.row().closes())
-    return lang::add(state_.download, decoded.command, language_options().download);
+    return lang::add(state_.download, decoded.command, language_options().lines);
   const lang::MacroName name = state_.download.name;
-  const lang::Closed closed = lang::close(state_.download, language_options().download);
-  state_.downloaded = lang::status_of(state_.download, state_.downloaded, language_options().download);
+  const lang::Closed closed = lang::close(state_.download, language_options().lines);
+  state_.downloaded = lang::status_of(state_.download, state_.downloaded, language_options().lines);
   state_.rsm = lang::State::ready;
   state_.download = kNoDownload;
   status_.pass(kDownloaded);
@@ -80,11 +80,11 @@ lang::Fault Programs::take_download(const lang::Decoded& decoded) {
 }
 
 bool Programs::has_room_for(int lines) const {
-  return lines <= lang::room_of(state_.download, language_options().download);
+  return lines <= lang::room_of(state_.download, language_options().lines);
 }
 
 void Programs::add_line(const lang::Command& line) {
-  lang::add(state_.download, line, language_options().download);
+  lang::add(state_.download, line, language_options().lines);
 }
 
 // --- store ---------------------------------------------------------------------------------------------
@@ -120,8 +120,7 @@ const lang::TriggerTable& Programs::triggers() const {
 }
 
 std::vector<int> Programs::load(std::string_view text) {
-  const lang::ParsedListing parsed =
-      lang::parse_listing(text, language_options().command, language_options().download);
+  const lang::ParsedListing parsed = lang::parse_listing(text, language_options().lines);
   if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
   for (const lang::ListedMacro& each : parsed.listing.macros) {
     lang::replaced(state_.execution, each.name, acts_on_);
@@ -172,7 +171,7 @@ void Programs::run_tick(Tick tick) {
   notify_watch();
   const bool ran_isr = isr_runs();
   state_.steps_left = lang::run_tick(state_.execution, tick, language_options().steps_a_tick, state_.paused,
-                                     language_options().run, acts_on_);
+                                     language_options().lines, acts_on_);
   if (ran_isr && !isr_runs()) status_.pass(kIsrFinished);
   if (machine_options().fifo_goes_on_beside_macros) state_.steps_left = language_options().steps_a_tick;
 }
@@ -180,7 +179,8 @@ void Programs::run_tick(Tick tick) {
 void Programs::start_mp(int number) {
   interrupts_.clear(Rint::mp_completed);
   interrupts_.clear(Rint::module);
-  if (language_options().run.missing_macro_is_error && !lang::has_lines({false, number}, acts_on_)) {
+  if (language_options().lines.chose(lang::option("missing_macro", "execution_error")) &&
+      !lang::has_lines({false, number}, acts_on_)) {
     return report({.macro = {false, number},
                    .code = lang::real_time_code(Verb::mp_call),
                    .fault = lang::Fault::undefined_command});
@@ -190,7 +190,7 @@ void Programs::start_mp(int number) {
   if (!at_once || !mp_runs()) return;
   notify_watch();
   state_.steps_left = lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused,
-                                     language_options().run, acts_on_);
+                                     language_options().lines, acts_on_);
 }
 
 void Programs::terminate() {
@@ -214,7 +214,8 @@ int Programs::take_isr() {
     const IsrMark mark = interrupts_.take_mark();
     const int number = interrupts_.isr_of(mark);
     const bool is_missing = number < 1 || number > lang::kIsrCount || macro({true, number}) == nullptr;
-    if (is_missing && language_options().run.missing_macro_is_error && mark.source == IsrMark::kCalled) {
+    if (is_missing && language_options().lines.chose(lang::option("missing_macro", "execution_error")) &&
+        mark.source == IsrMark::kCalled) {
       report({.macro = {true, number},
               .code = lang::real_time_code(Verb::isr_call),
               .fault = lang::Fault::undefined_command});

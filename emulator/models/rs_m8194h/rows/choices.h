@@ -11,14 +11,18 @@
 #include "emulator/models/rs_m8194h/rows/choices_of_macros.h"
 #include "emulator/models/rs_m8194h/rows/choices_of_paths.h"
 #include "emulator/models/rs_m8194h/rows/choices_of_requests.h"
+#include "interpreter/rs_m8194h/choices.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
 inline constexpr auto kChoices = [] {
-  std::array<ChoiceRow, std::size(kMacroChoices) + std::size(kRequestChoices) + std::size(kAxisChoices) +
-                            std::size(kPathChoices) + std::size(kEventChoices)>
+  namespace language = interpreter::rs_m8194h;
+  std::array<ChoiceRow, std::size(language::kChoices) + std::size(kMacroChoices) +
+                            std::size(kRequestChoices) + std::size(kAxisChoices) + std::size(kPathChoices) +
+                            std::size(kEventChoices)>
       all{};
   std::size_t next = 0;
+  for (const ChoiceRow& row : language::kChoices) all[next++] = row;
   for (const ChoiceRow& row : kMacroChoices) all[next++] = row;
   for (const ChoiceRow& row : kRequestChoices) all[next++] = row;
   for (const ChoiceRow& row : kAxisChoices) all[next++] = row;
@@ -26,5 +30,8 @@ inline constexpr auto kChoices = [] {
   for (const ChoiceRow& row : kEventChoices) all[next++] = row;
   return all;
 }();
+
+/// The place of the language's rows in the table.
+inline constexpr std::size_t kFirstOfLanguage = 0;
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -29,8 +29,6 @@ inline constexpr ChoiceRow kAxisChoices[] = {
      "The example of 9.5.1 needs it."},
     {"speed_change_in_s", "7.1", "When does SET_V take effect during an S-curve?", "the_next_drive|at_once",
      kLikely, "The chip cannot change the speed there."},
-    {"zero_move", "7.1.9", "What does a move of distance 0 do?", "no_pulse_and_no_event|exception_3",
-     kProposal, "The box accepts it, and it ends at once."},
     {"continue_move_speed", "7.1.12", "Does the speed of CONTINUE_MOVE become V?", "yes|no", kProposal,
      "It can be changed during the motion, as V can."},
     {"set_pulse_sign", "7.1.10", "What does a total against the current direction do?",

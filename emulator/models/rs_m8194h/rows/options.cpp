@@ -7,39 +7,16 @@
 #include "emulator/device/decisions.h"
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
-#include "interpreter/rs_m8194h/check.h"
-#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/options.h"
 #include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
 namespace lang = interpreter::rs_m8194h;
 
-lang::CommandOptions command_options(const AskedOptions& asked) {
-  const auto chose = [&asked](const Option& option) { return asked.chose(option); };
-  using Letters = lang::CommandOptions::Letters;
-  return {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")) &&
-                                        chose(option("rectangle_sides", "outer_length_and_width")),
-          .speeds_have_ends = chose(option("speed_ends", "exception_3")),
-          .variables_have_ends = chose(option("variable_range", "exception_3")),
-          .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
-          .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
-          .helix_has_turns = chose(option("helix_cycle_0", "exception_3")),
-          .uneven_scans_start = chose(option("uneven_scan_start", "starts_all_the_same")),
-          .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
-          .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
-          .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
-                     : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
-                                                                       : Letters::either,
-          .single_signs_are_refused = chose(option("if_single_signs", "are_refused")),
-          .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
-          .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
-          .frnet_wait_may_have_7 = chose(option("frnet_wait_registers", "8_or_7_with_a_time_of_one")),
-          .knows_0cb2 = chose(option("code_0cb2", "that_command")),
-          .few_take_references = chose(option("references", "exception_3")),
-          .rectangles_end_earlier = chose(option("rectangle_ends", "200000000")),
-          .macros_store_initial = chose(option("initial_in_macros", "stored_when_the_line_runs")),
-          .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
+lang::Options options_of_language(const AskedOptions& asked) {
+  return {asked.numbers.subspan(kFirstOfLanguage),
+          asked.decisions == nullptr ? nullptr : asked.decisions->asked(kFirstOfLanguage)};
 }
 
 LanguageOptions language_options(const DeviceSettings& settings) {
@@ -48,42 +25,8 @@ LanguageOptions language_options(const DeviceSettings& settings) {
 }
 
 LanguageOptions language_options(const AskedOptions& asked) {
-  using Download = lang::DownloadOptions;
   const auto chose = [&asked](const Option& option) { return asked.chose(option); };
-  LanguageOptions options;
-  options.command = command_options(asked);
-  options.download = {
-      .close_takes_line = chose(option("close_line", "one_line")),
-      .levels_are_of_both = chose(option("block_levels", "of_both_together")),
-      .goto_stays_in_its_block = chose(option("goto_out_of_blocks", "is_refused_as_without_its_label")),
-      .shown_code = chose(option("download_command", "as_sent")) ? Download::ShownCode::as_sent
-                                                                 : Download::ShownCode::real_time,
-      .good_status = chose(option("status_of_good_download", "of_its_close")) ? Download::GoodStatus::of_close
-                     : chose(option("status_of_good_download", "as_before"))  ? Download::GoodStatus::stays
-                                                                              : Download::GoodStatus::zero,
-      .operators_share_error = chose(option("wrong_arithmetic", "06_as_of_an_operator")),
-      .faults_show_at_close = chose(option("structure_faults", "at_close")),
-      .last_error_counts = chose(option("kept_error", "the_last")),
-      .refused_line = chose(option("refused_lines", "spoil_the_download"))
-                          ? Download::RefusedLine::spoils
-                          : Download::RefusedLine::is_left_out};
-  options.run = {.command = options.command,
-                 .mp_runs_beside_isr = chose(option("mp_during_isr", "goes_on_while_it_waits")),
-                 .isr_interrupts_isr = chose(option("isr_nesting", "nested")),
-                 .isr_never_waits = chose(option("isr_waits", "are_passed_over")),
-                 .one_return_register = chose(option("return_registers", "one_for_both")),
-                 .return_value_is_used_up = chose(option("return_register_keeps", "execution_error")),
-                 .negative_time_is_error = chose(option("timer_negative", "execution_error")),
-                 .calls_alone_have_levels = chose(option("call_levels", "of_calls_alone")),
-                 .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
-                 .missing_macro_is_error = chose(option("missing_macro", "execution_error")),
-                 .exit_for_counts = chose(option("exit_for_counter", "counts_this_pass_too")),
-                 .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
-                 .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
-                 .raw_signals_are_not_returned = chose(option("rvar_of_di_signal_all", "is_not_stored")),
-                 .results_end_at_32_bits = chose(option("calculation_overflow", "stays_at_the_end")),
-                 .division_by_zero_keeps = chose(option("division_by_zero", "stays_as_it_was")),
-                 .for_runs_once_at_least = chose(option("for_below_1", "one_pass"))};
+  LanguageOptions options{.lines = options_of_language(asked)};
   if (chose(option("steps_a_tick", "1"))) options.steps_a_tick = 1;
   if (chose(option("steps_a_tick", "32"))) options.steps_a_tick = 32;
   if (chose(option("steps_a_tick", "1000"))) options.steps_a_tick = 1000;

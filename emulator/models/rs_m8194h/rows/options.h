@@ -8,9 +8,7 @@
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/rows/axis_settings.h"
 #include "emulator/models/rs_m8194h/rows/choices.h"
-#include "interpreter/rs_m8194h/check.h"
-#include "interpreter/rs_m8194h/download.h"
-#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/options.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -18,9 +16,7 @@ consteval Option option(std::string_view id, std::string_view name) { return opt
 
 /// The options for commands, downloads and macros.
 struct LanguageOptions {
-  interpreter::rs_m8194h::CommandOptions command = {};
-  interpreter::rs_m8194h::DownloadOptions download = {};
-  interpreter::rs_m8194h::RunOptions run = {};
+  interpreter::rs_m8194h::Options lines = {};  // of the language's own code
   int steps_a_tick = 8;
   int isr_delay_ticks = 1;
   bool isrs_go_by_factor = false;
@@ -32,7 +28,7 @@ struct LanguageOptions {
 };
 LanguageOptions language_options(const AskedOptions& asked);
 LanguageOptions language_options(const DeviceSettings& settings);
-interpreter::rs_m8194h::CommandOptions command_options(const AskedOptions& asked);
+interpreter::rs_m8194h::Options options_of_language(const AskedOptions& asked);
 
 /// The options for inputs, axes and the FIFO.
 struct MachineOptions {

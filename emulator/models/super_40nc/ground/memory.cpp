@@ -7,7 +7,6 @@
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/ground/ground.h"
-#include "emulator/models/super_40nc/ground/language_choices.h"
 #include "emulator/models/super_40nc/rows/contact_rows.h"
 #include "emulator/models/super_40nc/rows/data_rows.h"
 #include "emulator/models/super_40nc/rows/names.h"
@@ -23,7 +22,7 @@ Ground::Ground(const Device& device, GroundState& state, const StepStates& steps
     : device_(device),
       state_(state),
       steps_(steps),
-      options_(chosen_options(device)),
+      options_(device.choices().subspan(kFirstOfLanguages), device.decisions().asked(kFirstOfLanguages)),
       readings_{.multiplies_by_x12 = chose(option("multiplier", "from_x12")),
                 .limits_deceleration = chose(option("long_deceleration", "limited_to_2_x2")),
                 .starts_as_fast = chose(option("slow_speeds", "the_start_speed")),

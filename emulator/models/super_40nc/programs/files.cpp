@@ -83,10 +83,11 @@ std::string why_not_file_name(const std::string& name) {
 std::string why_not_listing(const std::string& text) {
   // The most tolerant options apply, whatever is chosen.
   language::Options options;
-  options.loose_groups = language::Options::LooseGroups::take_last_result;
-  options.capacity = language::Options::Capacity::lines;
-  options.end_may_be_missing = options.unset_lines_are_skipped = true;
-  options.swapped = language::Options::Swapped::clears_all;
+  options.choose(language::option("cj_without_group", "takes_the_last_result"));
+  options.choose(language::option("capacity_unit", "lines"));
+  options.choose(language::option("missing_end", "as_if_it_had_one"));
+  options.choose(language::option("unset_fields", "line_is_skipped"));
+  options.choose(language::option("zrst_swapped", "all_between"));
   const language::Checked checked = language::check(text, options);
   if (checked.program) return "";
   const language::Diagnostic& first = checked.errors.front();

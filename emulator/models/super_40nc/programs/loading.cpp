@@ -57,7 +57,9 @@ void Programs::make_programs_ready() {
       codes_[language::index_of(row.area)] = language::StepCode(program, labels);
     }
     for (const language::Instruction& line : program.lines) {
-      if (options_.labels_are_common && line.op == language::Op::lab) labels.insert(line.fields[0].number);
+      if (options_.chose(language::option("label_scope", "the_first_area_has_it")) &&
+          line.op == language::Op::lab)
+        labels.insert(line.fields[0].number);
     }
   }
   if (state_.table.runs != UserTable::Runs::nothing) put_table_in_place();
@@ -91,8 +93,9 @@ void Programs::load_program(std::string_view text) {
   make_programs_ready();
   if (has_plc && runs) plc_to_run();
   // Labels may belong to areas that the text does not name.
-  const language::Checked all =
-      options_.labels_are_common ? stored_.check(stored_.program_text()) : language::Checked{};
+  const language::Checked all = options_.chose(language::option("label_scope", "the_first_area_has_it"))
+                                    ? stored_.check(stored_.program_text())
+                                    : language::Checked{};
   const auto& warnings = all.warnings.empty() ? checked.warnings : all.warnings;
   if (!warnings.empty()) {
     const language::Diagnostic& first = warnings.front();

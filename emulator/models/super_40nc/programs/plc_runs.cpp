@@ -82,7 +82,7 @@ void Programs::begin_first_scan() {
 void Programs::fast_forward(Tick done, Tick tick) {
   if (!plc_scans()) return;
   // The number of these ticks that have a scan: see scans_in().
-  const Tick each = std::max<Tick>(options_.scan_ms, 1);
+  const Tick each = std::max<Tick>(scan_ms(options_), 1);
   const Tick before_first = std::clamp(state_.flash_until - 1, done, tick);
   const Tick scans = tick / each - before_first / each;
   notify_watch();
@@ -92,7 +92,7 @@ void Programs::fast_forward(Tick done, Tick tick) {
 }
 
 bool Programs::scans_in(Tick tick) const {
-  const bool is_one_of_them = options_.scan_ms <= 1 || tick % options_.scan_ms == 0;
+  const bool is_one_of_them = scan_ms(options_) <= 1 || tick % scan_ms(options_) == 0;
   return is_one_of_them && tick >= state_.flash_until;
 }
 

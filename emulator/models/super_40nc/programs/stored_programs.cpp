@@ -78,7 +78,7 @@ bool StoredPrograms::is_too_long(std::string_view kind, std::string_view name) c
   if (!program) return false;
   std::int64_t length = 0;
   for (const language::Instruction& line : program->lines) {
-    length += options_.capacity == language::Options::Capacity::lines ? 1 : language::steps_of(line);
+    length += options_.chose(language::option("capacity_unit", "lines")) ? 1 : language::steps_of(line);
   }
   return length > options_with_room().c_capacity;
 }

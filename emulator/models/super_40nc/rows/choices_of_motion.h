@@ -74,8 +74,6 @@ inline constexpr ChoiceRow kMotionChoices[] = {
      "The manual says \"the program's feed\", and DRV uses RPM. At 0, DRV continues at 1 rpm."},
     {"override_range", "M8 特殊接點的功用(一般用途)", "What is the range of D8005?", "0_to_200|0_to_100",
      kProposal, "The manual is silent."},
-    {"continuous_path", "M8 特殊接點的功用(一般用途)", "What does D9005 = 1 do?",
-     "as_0|corners_are_run_through", kProposal, "The manual prints only its name."},
     {"jog_selector", "MAN(手動)頁操作說明", "What selects the speed of a jog?",
      "d8022|always_medium|d8022_also_while_it_runs", kProposal,
      "The manual prints no register for the panel's selector."},
