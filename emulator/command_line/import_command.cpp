@@ -92,6 +92,19 @@ model_file::ListReading reading_of(const ImportArguments& arguments) {
   return reading;
 }
 
+/// Reads the list. Throws FileError; a capture gets a line that names the command for it. A row of a list can
+/// look like one of a capture, so only text that is no list is judged as a capture.
+model_file::RegisterList read_list(const std::string& text, const std::string& path,
+                                   const model_file::ListReading& reading) {
+  try {
+    return model_file::read_list_file(text, path, reading);
+  } catch (const FileError&) {
+    const std::string why = why_no_capture_is_expected(text, ContentKind::registers);
+    if (why.empty()) throw;
+    throw FileError({path, 1, 1}, "registers: " + why);
+  }
+}
+
 }  // namespace
 
 int import_registers(ModelList models, const ImportArguments& arguments) {
@@ -103,10 +116,7 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const auto text = read_text_argument(arguments.list);
   if (!text)
     throw FileError(arguments.list + ": registers: " + text.why + "; expected a list of registers (CSV)");
-  if (const std::string why = why_no_capture_is_expected(*text, ContentKind::registers); !why.empty()) {
-    throw FileError({arguments.list, 1, 1}, "registers: " + why);
-  }
-  const model_file::RegisterList read = model_file::read_list_file(*text, arguments.list, reading);
+  const model_file::RegisterList read = read_list(*text, arguments.list, reading);
   for (const FileError::Diagnostic& remark : read.remarks.all())
     std::fprintf(stderr, "%s\n", remark.text.c_str());
   const fs::path list(arguments.list);

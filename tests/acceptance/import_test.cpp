@@ -211,6 +211,23 @@ TEST(ImportCommand, UsesTheGivenSettings) {
   EXPECT_NE(registers.find("40069"), std::string::npos) << registers;
 }
 
+/// A row that begins with a number and ends in two hexadecimal digits looks like one of a logic analyser.
+TEST(ImportCommand, TakesListsWhoseRowsLookLikeThoseOfCaptures) {
+  for (const char* const text :
+       {"address,name,default\n0,SPEED,50\n1,RAMP,200\n", "address,name,width\n0,SPEED,16\n1,RAMP,32\n",
+        "Register,Parameter,Default\n101,P0.02,50\n", "address,name,min\n0,F,0\n1,AB,10\n"}) {
+    const PrivateFolder folder;
+    const Finished imported = understudy({"import", folder.write("p.csv", text)});
+    EXPECT_EQ(imported.exit_code, 0) << text << imported.errors;
+  }
+  const PrivateFolder folder;
+  const Finished refused =
+      understudy({"import", folder.write("p.csv", "Time [s],Value\n0.001,01\n0.002,03\n")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("is a table of Saleae Logic, for `understudy compare`"), std::string::npos)
+      << refused.errors;
+}
+
 TEST(ImportCommand, RefusesWhatCannotBeOne) {
   const PrivateFolder folder;
   const std::string list = folder.write("p.csv", "address,name\n0,X\n");
