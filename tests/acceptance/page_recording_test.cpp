@@ -10,6 +10,7 @@
 #include <string>
 
 #include "emulator/serve/control/server.h"
+#include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
 #include "tests/emulator/page/test_browser.h"
 
@@ -287,6 +288,38 @@ TEST_F(PageOfAFailure, IsMovedByCtlAsWell) {
   // A verb that does not exist is not called forbidden.
   EXPECT_NE(emulator::serve::ask_control(folder_ / "control", R"({"do":"jump"})").find("'jump' is not a"),
             std::string::npos);
+}
+
+TEST_F(PageOfAFailure, IsReachedByNoHostUnlessAltered) {
+  const auto get = [&](const char* name) {
+    return ask({{"do", "get"}, {"names", {name}}})["values"][name].get<std::int64_t>();
+  };
+  const std::string port = ask({{"do", "identify"}})["daemon"]["lines"][0]["pty"];
+  ASSERT_EQ(ask({{"do", "seek"}, {"to_ns", 0}})["ok"], true);
+  const std::int64_t recorded = get("feeder.Aaxis_Speed");
+  ASSERT_NE(recorded, 200);
+  {
+    Host host(port);
+    ASSERT_TRUE(host.set_even_parity(B19200));
+    host.write(kSetSpeed200);
+    EXPECT_TRUE(is_silent(host));
+    ASSERT_EQ(ask({{"do", "step"}, {"ticks", 50}})["ok"], true);
+    EXPECT_TRUE(is_silent(host)) << "the recorded replies are not for this host";
+    EXPECT_NE(get("feeder.Aaxis_Speed"), 200);
+    EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 0}})["ok"], true);
+    ASSERT_EQ(ask({{"do", "what-if"}})["altered"], true);
+    host.write(kSetSpeed200);
+    ASSERT_TRUE(eventually([&] {
+      EXPECT_EQ(ask({{"do", "step"}, {"ticks", 50}})["ok"], true);
+      return get("feeder.Aaxis_Speed") == 200;
+    }));
+    EXPECT_EQ(host.read(kSetSpeed200.size()), kSetSpeed200);
+    ASSERT_EQ(ask({{"do", "what-if"}, {"off", true}})["altered"], false);
+    EXPECT_EQ(get("feeder.Aaxis_Speed"), recorded);
+    host.write(kSetSpeed200);
+    ASSERT_EQ(ask({{"do", "step"}, {"ticks", 50}})["ok"], true);
+    EXPECT_NE(get("feeder.Aaxis_Speed"), 200);
+  }
 }
 
 TEST_F(PageOfALoop, StepsBackThroughTheSameLines) {

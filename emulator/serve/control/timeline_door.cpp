@@ -68,6 +68,7 @@ class Travel {
       : daemon_(daemon),
         setup_(setup),
         timeline_(daemon.world(), setup.begin, setup.events, setup.end, [this] { collect(); }) {
+    ignore_hosts(true);
     std::sort(moments_.begin(), moments_.end());
     for (const world::RecordedEvent& event : timeline_.events()) {
       const world::RecordedFailure& failed = event.failed;
@@ -126,8 +127,12 @@ class Travel {
     require_keys(message, {"do", "off"});
     const bool is_off = message.contains("off") && message["off"] == true;
     if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `what-if` after that");
-    if (!is_off && !altered_at()) altered_at() = daemon_.world().now();
+    if (!is_off && !altered_at()) {
+      altered_at() = daemon_.world().now();
+      ignore_hosts(false);
+    }
     if (is_off && altered_at()) {
+      ignore_hosts(true);
       const SimTime at = *std::exchange(altered_at(), std::nullopt);
       daemon_.set_speed({.kind = Speed::Kind::manual});
       go_to(at);
@@ -219,6 +224,10 @@ class Travel {
     return all;
   }
 
+  /// Keeps hosts away from the recorded lines: what a host sends would not be what happened.
+  void ignore_hosts(bool ignored) {
+    for (const auto& port : daemon_.ports()) port->ignore_hosts(ignored);
+  }
   std::optional<SimTime>& altered_at() { return daemon_.observers().altered_at; }
 
   /// Returns a second world of the same bench, for replaying stretches while the daemon's world stays where

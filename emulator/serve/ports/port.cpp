@@ -118,8 +118,8 @@ void Port::serve_on_demand() {
 }
 
 void Port::attend() {
-  if (terminal_ && guest_ != nullptr) ignore_terminal();
-  if (!terminal_ || guest_ != nullptr) return flush();
+  if (terminal_ && is_terminal_ignored()) ignore_terminal();
+  if (!terminal_ || is_terminal_ignored()) return flush();
   on_presence({});
   constexpr int kMaxReadings = 64;  // more than the kernel holds
   for (int i = 0; i < kMaxReadings && terminal_ && room() > 0; ++i) {
@@ -162,7 +162,7 @@ void Port::follow_hosts() {
 
 /// Tells the line which hosts came and went. `bytes` were read just before.
 void Port::on_presence(std::span<const std::uint8_t> bytes) {
-  if (guest_ != nullptr) return ignore_terminal();
+  if (is_terminal_ignored()) return ignore_terminal();
   const pty::PseudoTerminal::Presence presence = terminal_->poll_presence();
   if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
@@ -215,11 +215,14 @@ void Port::pass_on_leftover() {
   }
 }
 
-/// Discards what others write to the pseudo-terminal while a guest has the line.
+/// Discards what others write to the pseudo-terminal while a guest has the line, or while all hosts are
+/// ignored.
 void Port::ignore_terminal() {
   if (terminal_->poll_presence().opened)
     log_("line " + line().name() + ": a host has opened " + terminal_->path() +
-         ", but a TCP client has the line; the host is ignored until the client disconnects");
+         (hosts_are_ignored_
+              ? ", but this is a recording; the host is ignored until `what-if`"
+              : ", but a TCP client has the line; the host is ignored until the client disconnects"));
   std::array<std::uint8_t, pty::Line::kInputCapacity> ignored;
   constexpr int kMaxReadings = 32;  // enough for everything that the kernel holds
   for (int i = 0; i < kMaxReadings && terminal_->read(ignored) > 0; ++i) {
@@ -227,7 +230,7 @@ void Port::ignore_terminal() {
 }
 
 void Port::on_data(std::uint32_t ready) {
-  if (guest_ != nullptr) return ignore_terminal();
+  if (is_terminal_ignored()) return ignore_terminal();
   if (!terminal_->holds_slave()) on_presence({});  // the event may be a hang-up
   if ((ready & EventLoop::readable) != 0 && leftover_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
@@ -296,7 +299,13 @@ void Port::poll(WallTime now, bool clock_stands) {
   }
 }
 
+void Port::ignore_hosts(bool ignored) {
+  if (std::exchange(hosts_are_ignored_, ignored) == ignored) return;
+  if (!ignored) world_restored();
+}
+
 void Port::world_restored() {
+  if (hosts_are_ignored_) return flush();
   if (line().is_host_open() != host_present()) {
     if (host_present()) {
       world_.host_opened(line_number_);
@@ -313,9 +322,10 @@ void Port::world_restored() {
 void Port::hand_over() {
   while (!line().output().empty()) {
     const std::span<const std::uint8_t> sent = line().output();
-    const std::size_t taken = guest_ != nullptr ? guest_->take(sent)
-                              : terminal_       ? terminal_->write(sent)
-                                                : sent.size();  // there is no host to read it
+    const std::size_t taken = hosts_are_ignored_  ? sent.size()
+                              : guest_ != nullptr ? guest_->take(sent)
+                              : terminal_         ? terminal_->write(sent)
+                                                  : sent.size();  // there is no host to read it
     if (taken == 0) break;                                // the host does not read
     world_.take_output(line_number_, taken);
     last_taken_ = wall_now();
@@ -367,7 +377,7 @@ void Port::pull_out() {
   if (!terminal_) return;
   if (stat(terminal_->path().c_str(), &access_) != 0) access_ = {};
   unwatch();
-  if (terminal_->host_present()) world_.host_closed(line_number_);
+  if (terminal_->host_present() && !hosts_are_ignored_) world_.host_closed(line_number_);
   terminal_.reset();
 }
 
@@ -396,7 +406,7 @@ void Port::plug_in() {
 // --- guests --------------------------------------------------------------------------------------
 
 bool Port::admit(Guest& guest) {
-  if (is_unplugged()) return false;
+  if (is_unplugged() || hosts_are_ignored_) return false;
   if (terminal_ && (is_watching_ || is_on_demand_)) on_presence({});  // it may have been opened just now
   if (host_present()) return false;
   catch_up_();
@@ -411,6 +421,7 @@ void Port::leave(std::span<const std::uint8_t> last) {
   if (terminal_ && (is_watching_ || is_on_demand_)) ignore_terminal();
   catch_up_();
   guest_ = nullptr;
+  if (hosts_are_ignored_) return flush();
   world_.host_closed(line_number_);
   add_leftover(last);
   if (terminal_ && terminal_->host_present()) world_.host_opened(line_number_);
@@ -418,6 +429,7 @@ void Port::leave(std::span<const std::uint8_t> last) {
 }
 
 void Port::take_from_guest(std::span<const std::uint8_t> bytes, const pty::HostSettings& settings) {
+  if (hosts_are_ignored_) return;
   catch_up_();
   guest_settings_ = settings;
   take_in(bytes, guest_settings_);
@@ -425,11 +437,13 @@ void Port::take_from_guest(std::span<const std::uint8_t> bytes, const pty::HostS
 }
 
 void Port::discard_input() {
+  if (hosts_are_ignored_) return;
   catch_up_();
   world_.host_purged(line_number_);
 }
 
 void Port::discard_output() {
+  if (hosts_are_ignored_) return;
   catch_up_();
   world_.take_output(line_number_, line().output().size());
 }

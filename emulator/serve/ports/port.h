@@ -35,6 +35,9 @@ class Port {
   /// From now on only attend() takes the host's bytes, and notices when the host opens or closes the port: a
   /// host in simulated time is served at the moment at which it waits.
   void serve_on_demand();
+  /// While hosts are ignored, the line stays as the world says: what hosts do does not reach it, and they get
+  /// nothing from it. Nobody can become a guest.
+  void ignore_hosts(bool ignored);
   /// Takes what the host has written, as far as there is room, and gives it the line's output.
   void attend();
   /// Returns true if a host seems to have gone, but the kernel has not released the line yet.
@@ -117,6 +120,7 @@ class Port {
   void receive(std::span<const std::uint8_t> bytes);
   WallTime patience() const;
   void take_in(std::span<const std::uint8_t> bytes, const std::optional<pty::HostSettings>& settings);
+  bool is_terminal_ignored() const { return guest_ != nullptr || hosts_are_ignored_; }
   void ignore_terminal();
   void follow_plug();
   void pull_out();
@@ -138,11 +142,12 @@ class Port {
   bool is_watching_ = false;            // the terminal's descriptor
   bool is_on_demand_ = false;           // the terminal's descriptor is not watched
   bool is_pulled_out_ = false;          // by a fault
-  bool has_reported_ = false;           // the log has said why it cannot be plugged in again
-  struct stat access_ {};               // of the previous terminal
-  WallTime next_recovery_{0};           // when to try again to open a lost terminal; 0: it is not lost
-  bool is_listening_ = true;            // the line had room when last something was handed over
-  WallTime last_taken_{0};              // when the host's side took something last
+  bool hosts_are_ignored_ = false;
+  bool has_reported_ = false;  // the log has said why it cannot be plugged in again
+  struct stat access_ {};      // of the previous terminal
+  WallTime next_recovery_{0};  // when to try again to open a lost terminal; 0: it is not lost
+  bool is_listening_ = true;   // the line had room when last something was handed over
+  WallTime last_taken_{0};     // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
   WallTime last_bytes_{0};   // when the host's last bytes came; 0: no frame is waited for
   bool has_paused_ = false;  // while the clock is stopped: the usual patience for a frame has passed since
