@@ -206,7 +206,7 @@ std::vector<pty::WireFault> FaultWatch::on_request(const ReceivedFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame)) continue;
-    // The stations of a line ask about the same request, which is reported once.
+    // All stations of a line ask about the same request; it is reported only once.
     const bool is_news = !armed.fault.on_line || frame.last_character > armed.course.judged_character;
     if (!is_request_hit(number, armed, frame)) continue;
     if (is_news) strikes.push_back(strike_of(number, armed.fault, true));

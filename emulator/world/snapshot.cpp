@@ -107,7 +107,7 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
-/// Returns how many places for the fault a device of that model has.
+/// Returns the number of places at which a device of that model can have the fault.
 std::size_t places_of(const Model& model, const Fault& fault) {
   switch (fault_kind(fault.kind).place) {
     case FaultKindRow::Place::axis: return model.axes.size();

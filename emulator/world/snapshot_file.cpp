@@ -43,7 +43,7 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// Returns a checksum of all parts and their names, which detects changes of the text.
+/// Returns a checksum of all parts and their names, which detects changes to the text.
 std::uint64_t checksum(const WorldState& state) {
   std::uint64_t sum = hash_of_text(std::to_string(state.time.count()), hash_of({}));
   for (const WorldState::Part& part : state.parts) sum = hash_of(part.bytes, hash_of_text(part.name, sum));

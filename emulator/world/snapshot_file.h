@@ -1,5 +1,5 @@
-// Snapshots as text: a world's state in a JSON file. It belongs to the version of the program that wrote it
-// and to the bench of its world; others refuse it.
+// Snapshots as text: a world's state in a JSON file. Only the program version that wrote a snapshot can read
+// it, and only for the same bench.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct SnapshotError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns a hash of everything in a bench that is not in the world's state. Initial memories do not count,
-/// because the state has its own.
+/// Returns a hash of everything in a bench that is not in the world's state. Initial memory contents are left
+/// out, because the state has its own.
 std::uint64_t bench_hash(const Bench& bench);
 
 /// Used instead of bench_hash() for a state within a recording, whose header contains the bench.

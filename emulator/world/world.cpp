@@ -37,7 +37,7 @@ namespace {
 /// Asks for large pages if there are many devices. Made one after another, they are close in memory.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
-  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more: other data is between
+  constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more means other data is between
   if (devices.size() < kCrowd) return;
   const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
   const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
@@ -47,7 +47,7 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
     ask_for_large_pages(first, last);
 }
 
-/// Converts a time of the host's clock to simulated time, which may run faster, as `patience` tells.
+/// Converts a time of the host's clock to simulated time, which runs faster if `patience` is longer.
 SimTime as_long_as(SimTime time, SimTime patience) {
   const double factor = static_cast<double>(patience.count()) / static_cast<double>(kFramePatience.count());
   const double scaled = static_cast<double>(time.count()) * factor;
@@ -117,7 +117,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   for (const Fault& fault : bench.faults) inject(fault);
   for (const MachineSetup& machine : bench.machines) connect_drive(machine);
-  // A machine may be on a switch at power-up.
+  // A machine may stand on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     wire_contacts(d);
     step_plant(d);
@@ -132,7 +132,7 @@ World::World(const Bench& bench, const WorldOptions& options,
 World::~World() = default;
 
 /// Connects the contacts of the machines to inputs. Without a drive, an alarm can only be injected, and has
-/// no contact if its input is used by another.
+/// no contact if another contact uses its input.
 void World::wire_contacts(std::size_t number) {
   const auto rows = devices_[number]->model().axes;
   auto& wired = contacts_.emplace_back();
@@ -274,7 +274,7 @@ void World::run_tick() {
   disturbed_ = false;
   ++done_;
   if (!input_turns_.empty()) turn_inputs();
-  // Devices affect each other only by wires, latched last. So each runs all phases while it is cached.
+  // Devices affect each other only by wires, latched last. So each runs all phases while it is in the cache.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     prefetch_device(d + 2);
     run_device(d);
@@ -283,7 +283,7 @@ void World::run_tick() {
   ++ticks_.run;
 }
 
-/// Prefetches what run_device() needs, and the device two later, which points to its other data.
+/// Prefetches what run_device() needs, and the device two places later, which points to its other data.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
   if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());
@@ -390,7 +390,7 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
-/// Runs what is due at this moment first, in the same order as a replay does.
+/// First runs what is due at this moment, in the same order as a replay does.
 void World::run_due_lines() {
   if (now_ > SimTime{0}) run_lines(now_);
 }

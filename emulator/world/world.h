@@ -50,8 +50,8 @@ class World final : public WorldView {
   /// Returns when something happens next without outside events, or nothing if only those can change
   /// anything.
   std::optional<SimTime> next_due() const;
-  std::uint64_t ticks_run() const { return ticks_.run; }          // those run one by one
-  std::uint64_t ticks_skipped() const { return ticks_.skipped; }  // those skipped in bulk
+  std::uint64_t ticks_run() const { return ticks_.run; }          // ticks that were run one by one
+  std::uint64_t ticks_skipped() const { return ticks_.skipped; }  // ticks that were skipped in bulk
 
   /// If `on` is false, every tick is run one by one. The results are the same, which tests check.
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
@@ -91,7 +91,7 @@ class World final : public WorldView {
   /// Called when the clock is stopped and the host has sent nothing for as long as the line waits for a
   /// frame.
   void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
-  /// The host has taken this many bytes of the line's output.
+  /// Called when the host has read this many bytes of the line's output.
   void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
 
   // Observers of a line. They change nothing.
@@ -115,8 +115,8 @@ class World final : public WorldView {
   std::int64_t sent_pulses(std::size_t device, int axis) const override {
     return sent_pulses_[device][static_cast<std::size_t>(axis)];
   }
-  /// Holds a digital input on, or releases it; switches and wires on the same input act as well. Also sets
-  /// the millivolts of an analog input, and a switch on the housing.
+  /// Holds a digital input on, or releases it. Switches and wires on the same input still act. Also sets an
+  /// analog input (in millivolts), or a switch on the housing.
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
   /// Returns the level last set by set_external_input().
   std::int32_t external_input(std::size_t device, int terminal) const;
@@ -132,8 +132,8 @@ class World final : public WorldView {
   }
   /// Writes a register without using the line.
   Refusal write(std::size_t device, const PreparedWrite& write);
-  /// Sets a value by its name, for a device without registers. Returns nothing, or why it was refused; then
-  /// nothing has changed.
+  /// Sets a value by its name, for a device without registers. Returns nothing, or the reason for a refusal;
+  /// a refused call changes nothing.
   std::optional<std::string> assign(std::size_t device, const std::string& name, double value);
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
@@ -149,7 +149,7 @@ class World final : public WorldView {
 
   // --- faults --------------------------------------------------------------------------------
   /// Adds a fault, which takes effect from the next tick on, or when its trigger says so. Returns its number
-  /// for clear_fault(). Throws NameError if this world cannot have it; then nothing has changed.
+  /// for clear_fault(). If this world cannot have the fault, throws NameError and changes nothing.
   std::size_t inject(const Fault& fault);
   /// Returns false if there is no fault with that number.
   bool clear_fault(std::size_t number);
@@ -185,7 +185,7 @@ class World final : public WorldView {
     Tick ticks_left = 0;
   };
 
-  /// Limits how often skipping is tried after it has failed. This affects only speed.
+  /// Limits how often skipping is tried again after a failure. This affects only speed.
   struct SkipTries {
     static constexpr Tick kMaxApart = 64;
     Tick next = 0;
@@ -216,7 +216,7 @@ class World final : public WorldView {
   /// Fewer ticks than this are faster to run one by one than to skip.
   static constexpr Tick kMinSkip = 4;
   bool may_fast_forward(Tick limit) const {
-    // A restore may have set time back by much.
+    // A restore may have set time back a long way.
     const bool is_too_soon = done_ < skip_tries_.next && skip_tries_.next - done_ <= SkipTries::kMaxApart;
     return !is_too_soon && limit - done_ >= kMinSkip && bulk_ticks_ && !disturbed_ && watchers_.empty();
   }
@@ -277,7 +277,7 @@ class World final : public WorldView {
   std::vector<OutsideListener*> listeners_;
   std::map<std::size_t, ArmedFault> faults_;  // by number
   std::size_t next_fault_ = 1;
-  std::unique_ptr<FaultWatch> fault_watch_;  // null: no fault waits or changes with time
+  std::unique_ptr<FaultWatch> fault_watch_;  // null if no fault waits or changes with time
   std::uint64_t seed_ = 0;
   /// True if something changed that devices do not see, so that the next tick must be run.
   bool disturbed_ = false;

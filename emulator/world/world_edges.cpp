@@ -1,6 +1,6 @@
-// Tells devices that handle edges between ticks where along an axis its machine's switches change the levels
-// of inputs. It does so again whenever that changes: when the machine loses pulses or gets them back, or
-// is pushed, when a switch turns on or off, when an input is held, stuck or on by a wire.
+// Tells devices that handle edges between ticks at which positions of an axis its machine's switches change
+// inputs. The edges are sent again whenever they change: when the machine loses or regains pulses or is
+// pushed, when a switch turns on or off, or when an input is held, stuck, or on by a wire.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -45,7 +45,7 @@ bool World::has_moving_wires() const {
   });
 }
 
-/// Returns the first tick at which anything but continuous motion happens, or at most `limit` + 1.
+/// Returns the first tick at which anything but continuous motion happens, but at most `limit` + 1.
 Tick World::next_event_tick(Tick limit) const {
   constexpr Tick kFarAhead = 1'000'000'000'000;  // keeps closed forms within the range of their numbers
   if (!input_turns_.empty() || has_moving_wires()) return done_ + 1;

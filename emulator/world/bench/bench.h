@@ -40,7 +40,7 @@ struct LineSetup {
   std::string name;
   std::string link;               // path of the link to its pty; empty: none
   bool has_pty = true;            // otherwise hosts connect only over TCP
-  std::vector<TcpAddress> tcp{};  // addresses where it also listens
+  std::vector<TcpAddress> tcp{};  // TCP addresses at which it also listens
   int baud = 0;                   // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
   bool echoes = false;                                            // hosts receive their own bytes
@@ -67,11 +67,11 @@ struct MachineSetup {
 struct WireSetup {
   std::size_t from_device = 0;
   int from_terminal = 0;
-  int from_axis = -1;  // not -1: the contact of this axis's machine instead
+  int from_axis = -1;  // if not -1, the source is a contact of this axis's machine
   Contact from_contact = Contact::home;
   std::size_t to_device = 0;
   int to_terminal = 0;
-  int to_axis = -1;  // not -1: the input of this axis's drive instead
+  int to_axis = -1;  // if not -1, the destination is an input of this axis's drive
   DriveInput to_input = DriveInput::servo;
 };
 
@@ -89,8 +89,8 @@ struct Bench {
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
   std::vector<Fault> faults;       // the initial ones
-  std::uint64_t seed = 0;          // the start of the random numbers
-  std::vector<FileClaim> files{};  // all files that it was read from, except memories
+  std::uint64_t seed = 0;          // the seed of the random numbers
+  std::vector<FileClaim> files{};  // all files that it was read from, except memory files
 };
 
 /// The names of both ends of a wire: "feeder.DOUT_4", "feeder.A.home", "feeder.A.alarm_clear".

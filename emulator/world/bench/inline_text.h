@@ -11,7 +11,7 @@ namespace understudy::emulator::world {
 struct InlineText {
   FilePlace place;      // the value's place in the file
   std::string field;    // the value's field in the file
-  int first_line = 0;   // the file's line at which the text begins; 0: its lines are not lines of the file
+  int first_line = 0;   // where the text begins in the file; 0: its lines are not lines of the file
   int indentation = 0;  // the indentation of those lines, in characters
 };
 

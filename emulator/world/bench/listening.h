@@ -19,7 +19,7 @@ struct GatewaySettings {
   static constexpr int kOnlyStation = 0;
   /// How long a station may take to answer, not counting the time on the wire.
   std::chrono::milliseconds timeout{1000};
-  /// If true, the gateway answers exception 11 when a station has not answered.
+  /// If true, the gateway answers with exception 11 when a station has not answered.
   bool reports_timeout = true;
   /// The station for unit 255. kOnlyStation: the station on the line, if there is only one. kAnyUnit: that
   /// station, for all units.

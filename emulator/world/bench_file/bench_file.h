@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// The name of the error for code that reads benches.
+/// The name of this error in code that reads benches.
 using BenchError = FileError;
 
 class YamlFields;

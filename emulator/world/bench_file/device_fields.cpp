@@ -201,7 +201,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
     return std::exchange(settings.modules, model.max_modules) != model.max_modules;
   }
   if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
-  return !std::exchange(settings.bauds, {}).empty();  // the DIP switches demand another speed
+  return !std::exchange(settings.bauds, {}).empty();  // the DIP switches require another speed
 }
 
 /// Reports the error at the entry, or at the memory if the entry has no place of its own.

@@ -24,7 +24,7 @@ FileError program_diagnostics(const ProgramError& error, const std::string& file
 /// Converts the mistakes of a program inside a file.
 FileError program_diagnostics(const ProgramError& error, const InlineText& text);
 
-/// Thrown if a part that is referred to could not be read. That has been reported already.
+/// Thrown if a part that is referred to could not be read. That error has been reported already.
 struct AlreadyReported {};
 
 class Diagnostics {

@@ -88,7 +88,7 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   if (!has_kind) return std::nullopt;
   bool is_whole = diagnostics.count() == before;
   bool has_place = true;
-  // Removes a wrong place or field, so that the rest is checked.
+  // Removes a wrong place or field, so that the rest can be checked.
   while (true) {
     try {
       if (!has_place) {

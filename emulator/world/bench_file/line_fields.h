@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 pty::Timing read_timing(const YamlFields& timing);
 
-/// Returns millionths.
+/// Returns the tolerance in millionths.
 std::int64_t read_baud_tolerance(const YamlFields& tolerance);
 
 bool read_echo(const YamlFields& echo);

@@ -19,7 +19,7 @@ struct Schema {
     duration,  // 250ms
     words,     // one of `words`
     list,      // values of `of`: `count` of them, or one or more if it is 0
-    names,     // a map from any names, or those in the bench, to `of`
+    names,     // a map from names (any names, or those in the bench) to `of`
     keys,      // a map with these `keys`
     either,    // one of `alternatives`
     steps,     // the steps of a scenario

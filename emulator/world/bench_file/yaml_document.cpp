@@ -223,15 +223,15 @@ class DocumentBuilder : public YAML::EventHandler {
 
   std::string_view text_;
   std::shared_ptr<std::deque<YamlNode>> nodes_ = std::make_shared<std::deque<YamlNode>>(1);
-  const YamlNode* root_ = &nodes_->front();  // nothing, if the text is empty
+  const YamlNode* root_ = &nodes_->front();  // an empty node if the text is empty
   std::vector<YamlNode*> open_;
   std::map<YAML::anchor_t, const YamlNode*> anchors_;
   bool has_begun_ = false;
   YAML::Mark last_text_ = YAML::Mark::null_mark();
 };
 
-/// Blanks the comment lines at the beginning of the text, because the library reads comments letter by
-/// letter, and many files begin with a page of them.
+/// Blanks the comment lines at the beginning of the text, because the library reads comments character by
+/// character, and many files begin with a page of them.
 std::string without_first_remarks(const std::string& text) {
   std::string lines;
   std::size_t at = 0;

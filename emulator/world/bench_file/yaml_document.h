@@ -1,4 +1,4 @@
-// Parses a YAML text into its single document, or throws one plain line that says why it is not one.
+// Parses the single document of a YAML text. If the text is not YAML, throws one plain line that says why.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ struct YamlNode {
   std::vector<const YamlNode*> parts{};  // the elements of a list; for a map: key, value, key, value
 };
 
-/// Returns the single document of a text, which may be of any kind. Messages call it `what`. It stops at the
-/// beginning of a second document, which it refuses. Throws FileError. All nodes live as long as any of them
-/// is held.
+/// Returns the root of the text's single document, which may be of any kind. Messages call the document
+/// `what`. A second document is refused where it begins. Throws FileError. All nodes live as long as any of
+/// them is held.
 std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& file,
                                            const std::string& what);
 

@@ -25,7 +25,7 @@ class ScalarRule {
  public:
   virtual ~ScalarRule() = default;
   /// Called only for texts that contain `${`. Throws std::runtime_error with one line for a text that it
-  /// cannot take.
+  /// cannot accept.
   virtual std::string apply(const std::string& written) const = 0;
 };
 
@@ -51,12 +51,12 @@ class YamlFields {
   /// Returns this node with another rule, which must outlive it and all nodes taken from it. Null: scalars
   /// are taken as written.
   YamlFields with_rule(const ScalarRule* rule) const;
-  /// Returns this map with the entries that only `defaults`, another map of the same file, has. If both have
-  /// a map for a key, these are joined in the same way; otherwise this map's value is kept.
+  /// Returns this map, completed with the entries that only `defaults`, another map of the same file, has. If
+  /// both have a map for a key, the two maps are joined in the same way; otherwise this map's value is kept.
   YamlFields with_defaults(const YamlFields& defaults) const;
   /// Returns this map without some of its keys.
   YamlFields without(std::span<const std::string_view> keys) const;
-  /// Returns a copy whose scalars have been read by the rule, so that it needs none. Parts for which
+  /// Returns a copy whose scalars have been read by the rule, so that it needs no rule. Parts for which
   /// `text_of` returns a text become scalars with that text.
   YamlFields settled(const std::function<std::optional<std::string>(const YamlFields&)>& text_of = {}) const;
   /// Returns this map with one more scalar at its end.

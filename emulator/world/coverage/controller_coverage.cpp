@@ -149,7 +149,7 @@ class ControllerCoverage::Counting final : private OutsideListener {
     if (!line.request.empty() && line.request[0] == packet.bytes[0]) take_reply(packet.line, packet.bytes);
   }
 
-  /// Takes the reply to the last request, without bytes if the request gets none.
+  /// Receives the reply to the last request; it has no bytes if the request gets no reply.
   void take_reply(std::size_t number, std::span<const std::uint8_t> reply) {
     const std::vector<std::uint8_t> request = std::exchange(lines_[number].request, {});
     if (request.size() <= 1 + kChecksumBytes) return;

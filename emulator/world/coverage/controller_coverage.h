@@ -24,7 +24,7 @@ class ControllerCoverage {
 
   /// Returns the counts by model. Devices of one model are added up.
   TouchedReport report() const;
-  /// Called when the world was put into another state. Drops incomplete messages on the lines.
+  /// Called after the world has been put into another state. Drops incomplete messages on the lines.
   void world_restored();
 
  private:

@@ -46,7 +46,8 @@ std::string name_of(const RegisterMap& map, const RegisterRow& row) {
   return row.count == 1 ? first : first + " to " + RegisterMap::name_of(row, row.count - 1);
 }
 
-/// Returns whether bits of the register are distinguished: it has names for them, or is a single bit.
+/// Returns true if the bits of the register are counted one by one, because they have names or there is only
+/// one.
 bool has_bits(const RegisterRow& row) {
   return row.access != Access::write && (!row.fields.empty() || (row.type == Type::bit && row.count == 1));
 }
@@ -62,7 +63,7 @@ std::string function_name(std::uint8_t code) {
   return std::to_string(code);
 }
 
-/// Returns whether the word matches the pattern: in a pattern such as "TpMA", p is the number of a module.
+/// Returns true if the word matches the pattern: in a pattern such as "TpMA", p is the number of a module.
 bool is_called(std::string_view pattern, std::string_view word) {
   if (pattern.size() > word.size()) return false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -275,8 +276,8 @@ TouchedTable transition_table(const Device& device, std::size_t number) {
   return table;
 }
 
-/// Returns which choices the device has asked for: 0 or 1. One whose option it keeps has no count, because
-/// nobody sees whether it matters.
+/// Counts 1 for each choice that the device has looked up, and 0 for the others. A choice whose option the
+/// device stores has no count, because nobody can observe its use.
 TouchedTable choice_table(const Device& device) {
   TouchedTable table{.name = "choices", .columns = {"asked"}};
   const auto& rows = device.model().choices;

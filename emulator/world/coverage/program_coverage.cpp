@@ -42,7 +42,7 @@ struct CountedProgram {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // If several have the same number, the first is the one that runs: a stored file is a part as well.
+      // If several have the same number, the first is the one that runs, because a stored file is a part too.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }
@@ -57,7 +57,7 @@ struct CountedProgram {
 
 namespace {
 
-/// Returns the path from the working directory, if it is below that.
+/// Returns the path relative to the working directory if the file is below that directory.
 std::string path_for_people(const std::string& path) {
   const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
   if (!normal.is_absolute()) return normal.string();
@@ -175,7 +175,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
     add_part(file.lines, part, counts);
   }
 
-  /// Returns the same name for the same program, on whatever device it runs.
+  /// Returns the same name for the same program, whichever device runs it.
   std::string name_of_listing(const std::string& text) const {
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx",

@@ -44,7 +44,8 @@ class TracefileReader {
     if (word == "SF") return begin_record(value);
     if (word == "DA") return take_line(value);
     if (word == "BRDA") return take_branch(value);
-    // The others are a test's name, functions (which programs do not have), and totals of the counts here.
+    // The other known lines are a test's name, functions (which programs do not have), and totals of the
+    // counts here.
     for (const std::string_view known : {"TN", "LF", "LH", "BRF", "BRH", "FNF", "FNH"}) {
       if (word == known) return;
     }

@@ -1,4 +1,4 @@
-// Reads coverage from lcov's tracefiles, from which several runs are added up.
+// Reads coverage from lcov tracefiles, so that several runs can be added up.
 #pragma once
 
 #include <string>

@@ -30,13 +30,13 @@ struct BreakpointSetup {
   std::string by{};         // for a write: host, control, page or device; empty: anyone
   std::string condition{};  // for all other kinds: a hit counts only while it is true; may be empty
   std::uint64_t nth = 1;    // it acts from this hit on
-  std::string log{};        // not empty: it prints this and never stops; {expressions} are replaced
+  std::string log{};  // if not empty, the breakpoint prints this and never stops; {expressions} are replaced
 };
 
 struct Breakpoint {
   int number = 0;
   BreakpointSetup setup{};
-  int line = 0;  // the source line where it really is; 0: nowhere in the current program
+  int line = 0;  // the source line where it actually is; 0 if it is not in the current program
   std::uint64_t hits = 0;
 };
 

@@ -116,12 +116,12 @@ std::vector<Breakpoint> Debugger::breakpoints() const {
   return all;
 }
 
-/// Throws NameError if a name has a value only in scenarios, so that no tick has to.
+/// Throws NameError if a name has a value only in scenarios; so no tick has to check that.
 void Debugger::require_values(const Expression& expression) const {
   for (const std::int32_t handle : names_in(expression)) static_cast<void>(probes_.value(handle));
 }
 
-/// Cuts a log's text at its braces: "at {feeder.Cord_A}".
+/// Splits the text of a log at its braces: "at {feeder.Cord_A}".
 void Debugger::parse_log(Point& point) const {
   std::string_view rest = point.breakpoint.setup.log;
   while (!rest.empty()) {
@@ -192,7 +192,7 @@ void Debugger::find_write(Point& point) {
   point.value = probes_.value(point.handle);
 }
 
-/// Skips earlier events, which are not hits.
+/// Marks earlier events as seen, because they are not hits.
 void Debugger::begin_events() {
   next_event_ = events_.next_number();
   signs_ = signs_of_machines();
@@ -203,7 +203,8 @@ bool Debugger::needs(std::size_t device) const {
   return std::any_of(points_.begin(), points_.end(), [&](const auto& point) { return point->is_of(device); });
 }
 
-/// Watches only the programs that breakpoints and steps need, and ticks only if there are any.
+/// Watches only the programs that breakpoints and steps need, and watches ticks only if there are breakpoints
+/// or steps.
 void Debugger::settle() {
   for (std::size_t d = 0; d < world_.device_count(); ++d) {
     if (needs(d) == watches_.contains(d)) continue;

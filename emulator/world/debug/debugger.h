@@ -3,7 +3,7 @@
 //
 // Events within a tick are evaluated at its end: conditions have the values of that moment, a stop happens
 // there, and the state is complete. If nothing is set, the debugger costs nothing. While it watches
-// instructions, the world runs each tick.
+// instructions, the world runs every tick one by one.
 #pragma once
 
 #include <cstddef>
@@ -30,21 +30,22 @@ class Debugger final : private TickWatcher {
  public:
   static constexpr std::size_t kMaxBreakpoints = 256;
 
-  /// Both must outlive it.
+  /// `world` and `events` must outlive the debugger.
   Debugger(World& world, EventLog& events);
   ~Debugger() override;
   Debugger(const Debugger&) = delete;
   Debugger& operator=(const Debugger&) = delete;
 
-  /// Throws BreakpointError, NameError or ExpressionError; then nothing has changed.
+  /// If it throws BreakpointError, NameError or ExpressionError, nothing has changed.
   const Breakpoint& add(const BreakpointSetup& setup);
-  /// Returns false if there is none with that number.
+  /// Returns false if there is no breakpoint with that number.
   bool remove(int number);
   void remove_all();
-  /// Returns them in the order of their numbers.
+  /// Returns the breakpoints in the order of their numbers.
   std::vector<Breakpoint> breakpoints() const;
 
-  /// Begins a step of the device's program (empty: the one that has stopped, or any). Throws BreakpointError.
+  /// Begins a step of the device's program (if `program` is empty: the part that has stopped, or any part).
+  /// Throws BreakpointError.
   void begin_step(StepKind kind, std::size_t device, const std::string& program);
   void end_step();
   bool is_stepping() const { return step_ != nullptr; }
@@ -54,11 +55,12 @@ class Debugger final : private TickWatcher {
   const DebugStop* stop() const;
   /// Returns true once after each stop.
   bool take_stop();
-  /// Called when the world was put into another state.
+  /// Called after the world has been put into another state.
   void restart();
-  /// Until wake() it sees nothing and stops nothing, because the world is on its way to another moment.
+  /// Until wake() is called, the debugger observes nothing and stops nothing, because the world is moving to
+  /// another moment.
   void sleep() { sleeps_ = true; }
-  /// `stop` is the one where the world is.
+  /// `stop` is the stop at which the world is now.
   void wake(std::optional<DebugStop> stop = {});
 
  private:
@@ -69,7 +71,7 @@ class Debugger final : private TickWatcher {
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override;
 
-  /// States of machines and programs that are not events of the log.
+  /// States of machines and programs that the log does not record as events.
   struct Sign {
     std::string_view what;  // the kind of the event: "limit"
     std::size_t device = 0;

@@ -223,7 +223,7 @@ void Debugger::judge(Point& point) {
   stop_with(std::move(stop));
 }
 
-/// Returns true if the step's program no longer runs. Asking takes long, so it asks only every kApart ticks.
+/// Returns true if the step's program no longer runs. The check is slow, so it runs only every kApart ticks.
 bool Debugger::has_ended(const Step& step) const {
   constexpr Tick kApart = 16;
   if (tick_at(world_.now()) % kApart != 0) return false;

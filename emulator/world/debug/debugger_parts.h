@@ -21,22 +21,22 @@
 namespace understudy::emulator::world {
 
 struct Debugger::Point {
-  /// A piece of a log: text, or the value of an expression.
+  /// A piece of a log text: text, or the value of an expression.
   using Piece = std::variant<std::string, Expression>;
 
   Breakpoint breakpoint{};
   Expression condition{};
   std::vector<Piece> log{};
   std::vector<ProgramLines::Instruction> places{};  // for a line or an instruction
-  std::uint64_t ran = 0;                            // how often these began in this tick
+  std::uint64_t ran = 0;                            // how often these instructions began in this tick
   std::optional<ProgramLines::Instruction> ran_last{};
   std::size_t depth = 0;          // the number of callers there
   bool was_true = false;          // for a condition
-  std::string written{};          // for a write: the register, as events name it
+  std::string written{};          // for a write: the register, as the events call it
   std::int32_t handle = 0;        // for a write: the register's value
-  std::optional<Number> value{};  // at the end of the last tick
+  std::optional<Number> value{};  // its value at the end of the last tick
   std::string who{};              // what happened at the last hit of a write or an event
-  std::string no_result{};        // why the condition has none; empty if it has one
+  std::string no_result{};        // why the condition has no result; empty if it has one
   bool is_of(std::size_t device) const {
     return (breakpoint.setup.kind == BreakpointSetup::Kind::line ||
             breakpoint.setup.kind == BreakpointSetup::Kind::instruction) &&
@@ -47,10 +47,10 @@ struct Debugger::Point {
 struct Debugger::Step {
   StepKind kind = StepKind::instruction;
   std::size_t device = 0;
-  std::optional<int> part{};                       // the part that it steps in; none: any
-  std::string program{};                           // that part's name
-  int line = 0;                                    // where it began; 0: unknown
-  std::size_t depth = 0;                           // the number of callers there; after the step: at its end
+  std::optional<int> part{};  // the part that is stepped in; no value: any part
+  std::string program{};      // that part's name
+  int line = 0;               // the line where the step began; 0 if it is unknown
+  std::size_t depth = 0;      // the number of callers at the beginning; after the step, at its end
   std::optional<ProgramLines::Instruction> end{};  // the instruction at which the step ends
 };
 
@@ -124,7 +124,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
   Debugger& debugger_;
   std::size_t number_;
   std::optional<std::uint64_t> mark_{};
-  std::string text_{};  // the program that `lines` belong to
+  std::string text_{};  // the text of the program to which `lines` belong
 };
 
 }  // namespace understudy::emulator::world

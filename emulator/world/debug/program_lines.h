@@ -25,7 +25,7 @@ class ProgramLines {
   /// The device must have power and support programs.
   explicit ProgramLines(const Device& device);
 
-  /// Returns the bench's file, or an empty text for the listing.
+  /// Returns the path of the bench's file, or an empty text if the source is the listing.
   const std::string& source() const { return source_; }
   /// Returns the text that the lines belong to: the bench's program, or the listing.
   const std::string& text() const { return text_; }
@@ -51,7 +51,7 @@ class ProgramLines {
 
   std::string source_;
   std::string text_;
-  std::vector<std::string> texts_;    // the source by line, without blanks around
+  std::vector<std::string> texts_;    // the source by line, without surrounding blanks
   std::vector<ProgramPart> parts_;    // the source's parts; only the first of those with the same number
   std::vector<ProgramPart> listing_;  // the listing's parts, in the same way
 };

@@ -1,8 +1,9 @@
 // Lists the events of a bench for observers: writes to registers and their authors, inputs, power, programs,
-// faults, refused requests, dropped frames. They are numbered from 1; the last ones are kept.
+// faults, refused requests, dropped frames. Events are numbered from 1, and only the most recent ones are
+// kept.
 //
-// Outside events are noted when they happen. Events on the lines are made from the frame log when they are
-// asked for, so that they cost nothing while no one asks.
+// Outside events are noted when they happen. Events on the lines are made from the frame log on demand, so
+// they cost nothing while nobody reads them.
 #pragma once
 
 #include <cstddef>
@@ -24,19 +25,19 @@ struct Event {
   /// one of write, input, power, program, command, inject, clear, fault, exception, dropped, restored, speed,
   /// stop, logpoint
   std::string_view what;
-  std::string by;      // host, control or page; empty if nobody caused it
+  std::string by;      // host, control or page; empty if none of them caused it
   std::string line{};  // the line of the host that caused it
   std::string device{};
-  std::string name{};   // the register or terminal, as the control socket takes it
+  std::string name{};   // the register or terminal, in the form that the control socket accepts
   std::string value{};  // a number as text
-  std::string text{};   // more, for people
+  std::string text{};   // further details, for people
 };
 
 class EventLog final : private OutsideListener {
  public:
   static constexpr std::size_t kKept = 4'096;
 
-  /// Both must outlive the log.
+  /// `world` and `frames` must outlive the log.
   EventLog(World& world, const FrameLog& frames);
   ~EventLog() override;
   EventLog(const EventLog&) = delete;
@@ -45,14 +46,14 @@ class EventLog final : private OutsideListener {
   /// Sets the author of outside events from now on: "control", "page".
   void set_author(std::string_view author) { author_ = author; }
   const std::string& author() const { return author_; }
-  /// Adds an event that the world does not know about.
+  /// Adds an event that the world does not report.
   void note(std::string_view what, std::string text);
   /// Like the above, with all its fields. The time is set to now.
   void note(Event event);
-  /// Adds the event that the world was put into another state.
+  /// Adds an event that records that the world has been put into another state.
   void restored();
-  /// Restarts the log after the world was put into another state: these events, the oldest first, get new
-  /// numbers and replace all earlier ones, including those from frames.
+  /// Restarts the log after the world has been put into another state: these events, the oldest first, get
+  /// new numbers and replace all earlier ones, including those from frames.
   void restored_after(std::vector<Event> events);
 
   /// Makes events of the frames since the last call, at most `frames` of them. Returns true if some are

@@ -48,7 +48,8 @@ Exchange* History::request_of(const FrameLog::Decoded& frame) {
   const auto last = last_requests_.find(frame.line);
   if (last == last_requests_.end() || last->second < dropped_exchanges_) return nullptr;
   Exchange& exchange = exchanges_[last->second - dropped_exchanges_];
-  // An entry about a fault that acted on a reply has no bytes. The second copy of a reply stands alone.
+  // The entry for a fault that acted on a reply has no bytes. The second copy of a reply is listed on its
+  // own.
   const bool is_reply = frame.latency && exchange.reply.empty();
   return is_reply || frame.bytes.empty() ? &exchange : nullptr;
 }

@@ -1,5 +1,5 @@
-// Keeps everything that happened in a run: each request with its reply, and each event. It is for recordings,
-// because the logs of a daemon would keep only the last ones.
+// Keeps everything that happened in a run: each request with its reply, and each event. Recordings need it,
+// because the logs of a daemon keep only the last entries.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ struct Exchange {
   std::string line;
   SimTime begin{0};
   SimTime end{0};         // the end of its last frame
-  std::string request{};  // empty: a station has spoken unasked
-  std::string reply{};    // empty: there was none
-  std::string remark{};   // why a frame was dropped, and the like
+  std::string request{};  // empty if a station has sent without being asked
+  std::string reply{};    // empty if there was no reply
+  std::string remark{};   // why a frame was dropped, or another remark
   std::optional<SimTime> latency{};
   bool is_refusal = false;
 };
@@ -34,7 +34,7 @@ class History {
   static constexpr std::size_t kMaxExchanges = 200'000;
   static constexpr std::size_t kMaxEvents = 100'000;
 
-  /// Takes the new entries of the logs. Call it before they drop any.
+  /// Adds the new entries of the logs. Call it before the logs drop any.
   void collect(const World& world, const FrameLog& frames, EventLog& events);
 
   const std::deque<Exchange>& exchanges() const { return exchanges_; }
@@ -47,7 +47,7 @@ class History {
 
   std::deque<Exchange> exchanges_;
   std::deque<Event> events_;
-  std::map<std::string, std::uint64_t> last_requests_;  // by line: its number, counted from the beginning
+  std::map<std::string, std::uint64_t> last_requests_;  // by line: the number of its last request
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::uint64_t dropped_exchanges_ = 0;

@@ -22,7 +22,7 @@ namespace understudy::emulator::world {
 namespace {
 
 constexpr std::size_t kMaxTouching = 16;  // events that touch the names
-constexpr std::size_t kMaxEvents = 24;    // includes those of the same devices
+constexpr std::size_t kMaxEvents = 24;    // in total, including events of the same devices
 
 bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.';
@@ -50,7 +50,7 @@ std::vector<std::string> names_in_text(const World& world, std::string_view text
   return names;
 }
 
-/// Returns "feeder.A" for "feeder.A.lost", because events have only that name.
+/// Returns "feeder.A" for "feeder.A.lost", because events contain only the short name.
 std::string base_of(const std::string& name) {
   const std::size_t second = name.find('.', name.find('.') + 1);
   return name.substr(0, second);
@@ -114,7 +114,7 @@ Story story_of(const World& world, const RecordedFailure& failure, const std::de
   const Event* before = nullptr;
   for (const std::size_t i : taken) {
     const Event& event = events[i];
-    // The registers of one request are one moment.
+    // The registers of one request make one moment.
     const bool is_more = before != nullptr && event.what == "write" && before->what == "write" &&
                          before->time == event.time && before->by == event.by;
     if (is_more) {

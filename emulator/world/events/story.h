@@ -20,7 +20,7 @@ struct Story {
   };
   SimTime at{0};
   std::string sentence;            // "failed at 6.091s: feeder.A.lost is 5; expected 0 (fail.yaml:8: ...)"
-  std::vector<std::string> names;  // those that the sentence mentions: "feeder.A.lost"
+  std::vector<std::string> names;  // the names that the sentence mentions: "feeder.A.lost"
   std::vector<Moment> moments;     // the oldest first
 };
 

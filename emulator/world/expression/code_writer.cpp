@@ -21,7 +21,7 @@ int growth(Instruction::Kind kind) {
     case Instruction::Kind::within: return -2;
     case Instruction::Kind::binary:
     case Instruction::Kind::within_share:
-    case Instruction::Kind::skip_if_false:  // unless it skips
+    case Instruction::Kind::skip_if_false:  // if it does not skip
     case Instruction::Kind::skip_if_true:
     case Instruction::Kind::choose: return -1;
     case Instruction::Kind::unary:

@@ -26,7 +26,7 @@ class CodeWriter {
   /// Appends a forward jump to the position at which land() is called.
   std::size_t emit_jump(Instruction::Kind kind, std::size_t offset);
   void land(std::size_t jump);
-  /// Called between the two branches of a choice: only one of them leaves its value.
+  /// Called between the two branches of a choice: only one of the branches leaves its value.
   void drop_value() { --stack_; }
 
   /// Returns the code and starts again. `text` is its source.

@@ -99,8 +99,8 @@ Expression parse_expression(std::string_view text, const NameResolver& names) {
 Number evaluate(const Expression& expression, const ValueSource& source) {
   const Instruction* at = nullptr;
   try {
-    // Nearly all expressions need a small stack, and clearing the largest one takes longer than evaluating
-    // them.
+    // Nearly all expressions need only a small stack, and clearing the largest possible stack would take
+    // longer than evaluating them.
     constexpr int kUsual = 8;
     return expression.stack_depth <= kUsual ? run<kUsual>(expression, source, at)
                                             : run<kDeepestStack>(expression, source, at);

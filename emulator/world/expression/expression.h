@@ -15,8 +15,8 @@
 
 namespace understudy::emulator::world {
 
-/// The meaning of a name: a handle that the resolver chooses and the value source knows, and a unit. A
-/// register is a plain number, whatever unit its manual gives.
+/// The meaning of a name: a handle that the resolver chooses and the value source understands, and a unit. A
+/// register is a plain number, even if its manual gives a unit.
 struct NamedNumber {
   std::int32_t handle = 0;
   Unit unit = Unit::none;
@@ -41,11 +41,11 @@ class ValueSource {
 /// One step of a stack machine.
 struct Instruction {
   enum class Kind : std::uint8_t {
-    constant,       // pushes constants[argument]
-    name,           // pushes the value of names[argument]
-    unary,          // replaces the top by `operation` of it
-    binary,         // replaces the two on top by `operation` of them
-    within,         // replaces value, centre and tolerance by 1 if the value is within, else 0
+    constant,  // pushes constants[argument]
+    name,      // pushes the value of names[argument]
+    unary,     // replaces the top value by the result of `operation`
+    binary,    // replaces the top two values by the result of `operation`
+    within,  // replaces value, centre and tolerance by 1 if the value is within the tolerance, otherwise by 0
     within_share,   // replaces value and centre by the result; the tolerance is `constants[argument]`
                     // millionths of a percent of the centre
     skip_if_false,  // `and`: if the top is false, it becomes 0 and the next `argument` instructions are
@@ -61,7 +61,7 @@ struct Instruction {
   std::int32_t argument = 0;
 };
 
-/// Made by parse_expression(). A default-constructed one evaluates to 0.
+/// Made by parse_expression(). A default-constructed expression evaluates to 0.
 struct Expression {
   struct Name {
     NamedNumber number;
@@ -70,8 +70,8 @@ struct Expression {
   std::string text;
   std::vector<Instruction> code;
   std::vector<Number> constants;
-  std::vector<Name> names;  // each once, in the order of the text
-  int stack_depth = 1;      // how many values the code needs at a time
+  std::vector<Name> names;  // each name once, in the order of the text
+  int stack_depth = 1;      // how many values the code holds at a time
 };
 
 /// Throws ExpressionError.

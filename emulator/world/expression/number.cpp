@@ -67,7 +67,7 @@ Number apply_to_wholes(Operator operation, std::int64_t a, std::int64_t b) {
       return a / b;
     case Operator::remainder:
       if (b == 0) division_by_zero();
-      return b == -1 ? 0 : a % b;  // INT64_MIN % -1 traps on some processors
+      return b == -1 ? 0 : a % b;  // because INT64_MIN % -1 traps on some processors
     case Operator::bit_or: return a | b;
     case Operator::bit_xor: return a ^ b;
     case Operator::bit_and: return a & b;
@@ -192,7 +192,7 @@ Number apply(Operator operation, Number a) {
 Bounds bounds_around(Number centre, Number tolerance) {
   if (tolerance < 0) throw ArithmeticError("a tolerance below zero (" + number_text(tolerance) + ")");
   if (centre.is_whole() && tolerance.is_whole()) {
-    // No whole number reaches an end that does not fit into 64 bits.
+    // No whole number reaches a limit that does not fit into 64 bits.
     std::int64_t low = 0;
     std::int64_t high = 0;
     const bool no_low = __builtin_sub_overflow(centre.whole(), tolerance.whole(), &low);

@@ -2,9 +2,9 @@
 //
 // Registers, positions, durations (nanoseconds) and voltages (millivolts) are whole. Arithmetic on whole
 // numbers is exact or refused, never rounded. Only quotients are real by nature: a speed in pulses per
-// second, or a literal with a decimal point. One type would not do for both: a double rounds a 64-bit count,
-// and an integer would turn 1500.4 pps into 1500. A real number is always finite; a result that would not be
-// is refused.
+// second, or a literal with a decimal point. A single type cannot serve both: a double rounds a 64-bit count,
+// and an integer would turn 1500.4 pps into 1500. A real number is always finite; an infinite result is
+// refused.
 #pragma once
 
 #include <compare>
@@ -37,7 +37,7 @@ class Number {
   std::variant<std::int64_t, double> value_{std::int64_t{0}};
 };
 
-/// Compares exactly, also a whole with a real number: 9007199254740993 is more than 9007199254740992.0.
+/// Compares exactly, even a whole number with a real one: 9007199254740993 is more than 9007199254740992.0.
 std::weak_ordering operator<=>(Number a, Number b);
 inline bool operator==(Number a, Number b) { return (a <=> b) == std::weak_ordering::equivalent; }
 
@@ -89,13 +89,13 @@ enum class Operator : std::uint8_t {
   absolute,
 };
 
-/// Computes as C does on 64 bits, but exactly or not at all (ArithmeticError): a whole quotient is cut
-/// towards zero, `<<` multiplies by a power of two, `>>` keeps the sign. If an operand is real, the result
-/// is real.
+/// Computes as C does on 64 bits, but throws ArithmeticError if the result is not exact: a whole quotient is
+/// cut towards zero, `<<` multiplies by a power of two, `>>` keeps the sign. If an operand is real, the
+/// result is real.
 Number apply(Operator operation, Number a, Number b);
 Number apply(Operator operation, Number a);
 
-/// The ends of `centre +- tolerance`; both are within.
+/// The limits of `centre +- tolerance`; both are included.
 struct Bounds {
   Number low;
   Number high;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kDeepestNesting = 64;
 
-// A sign that people write by mistake, and a message about it.
+// A sign that people write by mistake, and the message for it.
 struct Hint {
   std::string_view sign;
   std::string_view text;
@@ -44,7 +44,7 @@ struct ExpressionFunctionRow {
 constexpr std::array<ExpressionFunctionRow, 3> kExpressionFunctions = {
     {{"abs", Operator::absolute, false}, {"max", Operator::maximum, true}, {"min", Operator::minimum, true}}};
 
-/// Returns our word for another language's word for on or off, or an empty text for other words.
+/// Returns our word for a word that another language uses for on or off, or an empty text for any other word.
 std::string_view switch_word(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kWords = {
       {{"yes", "on"}, {"Yes", "on"}, {"YES", "on"}, {"no", "off"}, {"No", "off"}, {"NO", "off"}}};
@@ -54,7 +54,7 @@ std::string_view switch_word(std::string_view word) {
   return {};
 }
 
-// Returns the level that binds tighter by one.
+// Returns the level that binds one step tighter.
 Level above(Level level) { return static_cast<Level>(static_cast<int>(level) + 1); }
 
 }  // namespace
@@ -184,7 +184,7 @@ Term ExpressionParser::comparison(const BinaryRow& row, std::size_t offset, cons
 }
 
 bool ExpressionParser::percentage(std::int64_t& millionths) {
-  // A percent sign follows its number without a blank; a remainder's does not.
+  // A percent sign follows its number without a blank; a remainder operator does not.
   const bool is_percentage = token_.kind == Token::Kind::number && text_.substr(token_.end).starts_with('%');
   if (!is_percentage) return false;
   if (token_.unit != Unit::none) fail(offset(), "'%' after " + kind_of(token_.unit) + "; expected a number");

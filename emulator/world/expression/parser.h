@@ -29,7 +29,7 @@ class ExpressionParser {
   void expect_end() const;
   /// Returns the position of the next token.
   std::size_t offset() const { return token_.begin; }
-  /// Returns the code written since the last call.
+  /// Returns the code that was written since the last call.
   Expression take() { return code_.take(); }
 
  private:

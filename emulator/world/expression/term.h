@@ -15,12 +15,12 @@ struct Term {
     negation
   } shape = Shape::other;  // without parentheses
   Unit unit = Unit::none;
-  bool is_zero = false;  // a literal 0, which has every unit
-  bool is_real = false;  // certainly; the value of a name may be real too
+  bool is_zero = false;  // a literal 0, which fits any unit
+  bool is_real = false;  // certainly real; the value of a name may be real too
 };
 
-/// The operators of C, except that all comparisons have one level and do not chain. A higher level binds
-/// tighter.
+/// The precedence levels of C, except that all comparisons share one level and do not chain. A higher level
+/// binds tighter.
 enum class Level : std::uint8_t {
   either,
   both,
@@ -42,7 +42,7 @@ struct BinaryRow {
 /// Returns null if `sign` is not an operator of that level.
 const BinaryRow* find_binary(std::string_view sign, Level level);
 
-/// Thrown if two terms cannot be combined. The message has the reason.
+/// Thrown if two terms cannot be combined. The message gives the reason.
 struct MisfitError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -51,7 +51,7 @@ struct MisfitError : std::runtime_error {
 void check_units(const Term& left, const Term& right, std::string_view sign);
 /// Returns `left sign right`, for every level except the two logical ones and unary.
 Term combined(const BinaryRow& row, const Term& left, const Term& right);
-/// Returns one of two terms: of `a ? b : c`, or of min(b, c).
+/// Returns the term for a choice between two terms, as in `a ? b : c` or min(b, c).
 Term either_of(const Term& left, const Term& right, std::string_view sign);
 Term negated(Operator operation, const Term& term);
 

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t kLongestText = 2'000;  // bytes: some twenty lines of conditions
 
-// If signs begin alike, the longer comes first. Some are not valid in expressions; they are recognized for
-// the message.
+// If several signs begin with the same characters, the longest comes first. Some are not valid in
+// expressions; they are recognized for the message.
 constexpr std::array<std::string_view, 33> kSigns = {
     "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "<>", "+-", "..", "+", "-", "*", "/", "%", "<",
     ">",  "&",  "^",  "|",  "!",  "~",  "(",  ")",  "?",  ":",  ",",  "=", ".", "[", "]", ";"};
@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 6> kTimeUnits = {"ns", "us", "ms", "s", "
 
 struct Word {
   std::string_view spelling;
-  std::string_view sign;  // the sign that it stands for; empty for a number
+  std::string_view sign;  // the sign that it is an alias of; empty for a number
   int number = 0;
 };
 constexpr std::array<Word, 7> kWords = {{{"and", "&&"},
@@ -137,8 +137,8 @@ Token Lexer::next() {
   return token;
 }
 
-// Reads a unit after a number, with or without a space between. A word there can only be a unit, because two
-// values are never adjacent.
+// Reads a unit after a number, with or without a space in between. A word there can only be a unit, because
+// two values are never adjacent.
 std::string_view Lexer::unit_here() {
   std::size_t begin = next_;
   while (at(begin) == ' ') ++begin;

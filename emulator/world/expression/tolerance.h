@@ -12,7 +12,7 @@
 namespace understudy::emulator::world {
 
 struct Tolerance {
-  std::optional<Number> low;  // both ends are included; none: unlimited
+  std::optional<Number> low;  // both limits are included; no value: unlimited
   std::optional<Number> high;
   std::string text;  // as written
 

@@ -1,5 +1,6 @@
-// Faults that a user injects to see how a host copes: in the machine and its wiring, in devices, and in
-// messages on the line. Triggers (trigger.h) say when. docs/faults.md explains each kind.
+// Faults that a user injects to see how a host copes with them: in the machine and its wiring, in devices,
+// and in messages on the line. Triggers (trigger.h) determine when they strike. docs/faults.md explains each
+// kind.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +18,18 @@ namespace understudy::emulator::world {
 struct Fault {
   enum class Kind : std::uint8_t {
     // Faults of the machine, at an axis or (stuck) an input.
-    stall,       // the motor is blocked, every pulse is lost
+    stall,       // the motor is blocked, so every pulse is lost
     lost_steps,  // every `amount`th pulse is lost
-    slip,        // the machine is moved by `amount` pulses by force, once
+    slip,        // the machine is pushed by `amount` pulses, once
     alarm,  // the drive is in alarm; a drive model keeps the alarm until the controller clears it afterwards
     stuck,  // an input stays at the level `amount`, whatever drives it
-    encoder_noise,  // the encoder counts `amount` too many for half of `period_ticks`, then as many too few
-                    // for the other half
+    encoder_noise,  // the encoder count is `amount` too high for half of `period_ticks`, then `amount` too
+                    // low for the other half
     turn,           // a hand wheel, or another counted input, is turned by `amount` over `over_ticks`
     // Faults of a device.
     power_cut,  // it has no power
     // Faults of the adapter that connects hosts to a line.
-    echo,    // a host hears its own bytes
+    echo,    // a host receives its own bytes
     lumps,   // received bytes are delivered at multiples of `amount` ns
     unplug,  // the adapter is unplugged
     slow,    // it executes each request `amount` ns late
@@ -45,13 +46,13 @@ struct Fault {
     noise,             // preceded by `before` and followed by `after`
     collision,         // another sender sends `before` at the same time
     split,             // its first `amount` bytes arrive on time, the rest `over_ticks` later
-    // Faults of a reply on its way from a gateway to a master.
+    // Faults of a reply on the way from a gateway to a master.
     wrong_transaction,  // with the next transaction's number
     wrong_unit,         // with the next unit's number
     hang_up,            // the connection ends after its first `amount` bytes
   } kind = Kind::stall;
   std::size_t device = 0;  // for a fault of a line: the bench's first device on it
-  // An axis; for `stuck`, or a `turn` with of_input, a terminal; for a fault of a line the port by which the
+  // An axis; for `stuck`, or a `turn` with of_input, a terminal. For a fault of a line: the port by which the
   // device is connected to it.
   int place = 0;
   std::int64_t amount = 0;
@@ -67,11 +68,11 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
-/// Returns true if it changes messages on the wire.
+/// Returns true if the fault changes messages on the wire.
 constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
-/// Returns true if it acts on a request or a reply: it needs frames, whatever its trigger.
+/// Returns true if the fault acts on a request or a reply, and so needs frames whatever its trigger is.
 constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
-/// Returns true if it acts on replies to hosts connected by TCP. It has no effect on the wire.
+/// Returns true if the fault acts on replies to hosts connected by TCP. It has no effect on the wire.
 constexpr bool is_of_gateway(Fault::Kind kind) { return kind >= Fault::Kind::wrong_transaction; }
 constexpr bool is_of_adapter(Fault::Kind kind) {
   return kind == Fault::Kind::echo || kind == Fault::Kind::lumps || kind == Fault::Kind::unplug;
@@ -109,7 +110,7 @@ struct FaultPlaceError : NameError {
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
 /// Throws NameError for errors of a fault that do not depend on its place.
 void require_fault_fields(const KnownDevices& devices, const FaultText& text);
-/// Returns a fault in the form that find_fault() accepts, also as one line.
+/// Return a fault in the form that find_fault() accepts: as fields, and as one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 

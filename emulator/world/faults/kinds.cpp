@@ -18,7 +18,7 @@ using Kind = Fault::Kind;
 using Where = FaultKindRow::Place;
 
 constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; beyond the range of any counter
-// In pulses; the sum of many in one tick does not overflow.
+// In pulses; even the sum of many in one tick does not overflow.
 constexpr std::int64_t kFarthestSlip = 1'000'000'000;
 constexpr std::int64_t kMaxCounts = 1'000'000;
 constexpr std::int64_t kLongestMessage = 256;

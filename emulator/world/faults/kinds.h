@@ -36,8 +36,8 @@ struct FaultKindRow {
   Fault::Kind kind;
   Place place;
   std::span<const FaultFieldRow> fields;
-  std::string_view effect;               // for faults of messages: the description for observers
-  std::string_view effect_on_request{};  // if that differs; empty: the same
+  std::string_view effect;               // for faults of messages: the effect as observers show it
+  std::string_view effect_on_request{};  // the effect on a request; empty if it is the same
 };
 
 /// Returns the rows in the order of Fault::Kind.

@@ -92,7 +92,7 @@ bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now,
   course.looked_at = is_of_time_alone(trigger) ? now : course.looked_at;
   // An exhausted trigger no longer changes.
   if (is_exhausted(trigger, course) && !course.in_force) return false;
-  // A fault that strikes by chance lasts one tick, or longer if it says so.
+  // A fault that strikes by chance lasts one tick, or longer if its trigger has a duration.
   const bool by_chance = trigger.chance != 0;
   const SimTime lasts = by_chance ? std::max(trigger.lasts, kTickLength) : trigger.lasts;
   const bool met = is_met(trigger, now, conditions);

@@ -1,9 +1,9 @@
 // Decides when a fault strikes: at which frames and times, under which condition, how often and for how long.
 //
-// A trigger is evaluated on occasions. For faults of frames, each frame of their place is an occasion. For
-// faults of the machine or of a device it is each frame too, if the trigger is about frames; otherwise each
-// moment at which the time or a condition may have changed. A FaultCourse counts occasions and hits. The
-// result is a function of the occasions alone, so every run has the same hits.
+// A trigger is evaluated on occasions. For faults of frames, each frame at their place is an occasion. For
+// faults of the machine or of a device each frame is an occasion too if the trigger is about frames;
+// otherwise it is each moment at which the time or a condition may have changed. A FaultCourse counts
+// occasions and hits. The result is a function of the occasions alone, so every run has the same hits.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,24 @@ struct FaultTrigger {
   // These decide which frames match. Matching frames are numbered from 1.
   std::int64_t function = -1;       // -1: any
   std::int64_t station = -1;        // the addressed station; 0: broadcasts; -1: any
-  std::int64_t first_address = -1;  // the frame is about a register from here to `last_address`; -1: any
+  std::int64_t first_address = -1;  // the frame concerns a register from here to `last_address`; -1: any
   std::int64_t last_address = -1;
-  // These decide which occasions match in addition.
-  SimTime at{-1};  // the first occasion from then on; with `lasts`, all until that time is over. -1: any time
-  SimTime from{0};        // included
-  SimTime to = kForever;  // not included
-  std::string when{};     // an expression; empty: always
-  // These decide which of the matching occasions are hit: all of them must hold.
+  // These also decide which occasions match.
+  SimTime at{-1};   // the first occasion from then on; with `lasts`, all occasions until that time is over;
+                    // -1: any time
+  SimTime from{0};  // inclusive
+  SimTime to = kForever;  // exclusive
+  std::string when{};     // an expression; empty: always true
+  // These decide which matching occasions are hits; all of them must hold.
   std::int64_t first_nth = 1;
   std::int64_t last_nth = kNever;
-  std::int64_t every = 0;   // its number is a multiple of this; 0: any
+  std::int64_t every = 0;   // the match's number is a multiple of this; 0: any
   std::int64_t chance = 0;  // the probability, in parts of kAlways; 0: not by chance
   /// The seed of its own random stream; -1: derived from the world's seed and the fault's number.
   std::int64_t seed = -1;
-  // These decide how often and for how long it strikes.
+  // These decide how often and for how long the fault strikes.
   std::int64_t times = 0;  // the largest number of hits; 0: any number
-  SimTime lasts{0};        // `for`: all matching occasions within that time after a hit are hit as well
+  SimTime lasts{0};        // `for`: all matching occasions within that time after a hit are hits as well
 
   bool operator==(const FaultTrigger&) const = default;
 };
@@ -42,15 +43,16 @@ inline constexpr std::int64_t kAlways = 100'000'000;  // 100%
 
 /// The progress of a fault.
 struct FaultCourse {
-  std::int64_t seen = 0;     // frames at its place
+  std::int64_t seen = 0;     // frames at the fault's place
   std::int64_t matched = 0;  // occasions that matched
   std::int64_t hits = 0;
   SimTime until{-1};      // when the hit in effect ends
-  SimTime looked_at{-1};  // when a trigger of time alone was last evaluated
-  bool was_met = false;   // time and condition held at the last check
+  SimTime looked_at{-1};  // when a trigger that depends on time alone was last evaluated
+  bool was_met = false;   // true if the time and condition matched at the last check
   bool in_force = false;  // for faults of machines and devices
-  bool is_news = false;   // it has just begun or ended, and is still to be executed
-  // For faults of requests on a line: the last evaluated request, and the result. Each station asks about it.
+  bool is_news = false;   // the fault has just begun or ended, and this has not been applied yet
+  // For faults of requests on a line: the last evaluated request, and the result. Each station on the line
+  // asks about the same request.
   std::uint64_t judged_character = 0;
   bool was_hit = false;
 
@@ -62,8 +64,8 @@ struct FrameFacts {
   SimTime at{0};
   int station = 0;
   int function = 0;
-  int first = 0;  // register
-  int count = 0;  // of registers; 0: none
+  int first = 0;  // the first register
+  int count = 0;  // the number of registers; 0: none
 };
 
 /// Evaluates the conditions of triggers.
@@ -75,9 +77,9 @@ class ConditionSource {
   ~ConditionSource() = default;
 };
 
-/// Returns true if it is about frames, so that time alone does not trigger it.
+/// Returns true if the trigger is about frames, so that time alone does not trigger it.
 bool is_about_frames(const FaultTrigger& trigger);
-/// Returns true if only time decides, so that it strikes at exact moments rather than at ticks.
+/// Returns true if only time decides, so the fault strikes at exact moments rather than at ticks.
 bool is_of_time_alone(const FaultTrigger& trigger);
 
 /// Judges one frame and returns true if it is hit. Random numbers come from `stream` if the trigger has no
@@ -85,12 +87,13 @@ bool is_of_time_alone(const FaultTrigger& trigger);
 bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const FrameFacts& frame,
                    ConditionSource& conditions, std::uint64_t stream);
 
-/// Judges a trigger that is not about frames and returns true if it strikes now. `course` then tells whether
-/// it is in effect.
+/// Judges a trigger that is not about frames and returns true if it strikes now. Afterwards `course` shows
+/// whether the fault is in effect.
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream);
 
-/// Returns the next moment at which a trigger of time alone must be judged, or kForever if it is finished.
+/// Returns the next moment at which a trigger that depends on time alone must be judged, or kForever if it is
+/// finished.
 SimTime next_moment(const FaultTrigger& trigger, const FaultCourse& course);
 /// For other triggers: returns the first tick after `done` whose end may change something, or kNever if only
 /// a frame can.

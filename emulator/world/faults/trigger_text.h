@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns the names that set_trigger_field() knows.
+/// Returns the names that set_trigger_field() accepts.
 std::vector<std::string> trigger_fields();
 /// Returns false if there is no such field. Throws NameError if the field cannot have that value. An address
 /// must be a number here; names in `when` are not looked up.

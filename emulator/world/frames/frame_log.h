@@ -39,7 +39,7 @@ class FrameLog {
     std::string line;
     pty::Direction direction = pty::Direction::from_host;
     std::string text;
-    std::string remark;                     // why it was dropped, and the like
+    std::string remark;                     // why it was dropped, or another remark
     std::span<const std::uint8_t> bytes{};  // valid until the next frame is added
     bool is_refusal = false;                // a reply that refuses the request
     std::optional<SimTime> latency{};       // for a reply: since its request began
@@ -52,10 +52,10 @@ class FrameLog {
   /// Returns the number of the next frame.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// Forgets partly received frames, after the lines were put into another state.
+  /// Forgets partly received frames, after the lines have been put into another state.
   void restart();
 
-  /// A frame in the form in which it is kept.
+  /// A frame in the form in which the log keeps it.
   struct Frame {
     std::size_t line = 0;
     pty::Direction direction = pty::Direction::from_host;
@@ -65,7 +65,7 @@ class FrameLog {
   };
   /// Returns the last `max` of the kept frames from that number on.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
-  /// Like restart(), after these frames, the oldest first, which get new numbers.
+  /// Like restart(), but then adds these frames, the oldest first, under new numbers.
   void restart_after(std::vector<Frame> frames);
 
  private:

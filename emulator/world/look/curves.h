@@ -1,5 +1,5 @@
-// Samples the values of some names over a stretch of time. It keeps the least and the greatest value in each
-// of many equal parts ("dots"), so that a drawing of that width loses no peak.
+// Samples the values of some names over a stretch of time. It keeps the minimum and maximum in each of many
+// equal parts ("dots"), so a drawing of that width does not lose any peak.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ class Curves final : private TickWatcher {
   Curves(const Curves&) = delete;
   Curves& operator=(const Curves&) = delete;
 
-  /// Takes the values at this moment.
+  /// Samples the values at this moment.
   void look();
-  /// Takes the values at every tick from now on.
+  /// Samples the values at every tick from now on.
   void watch();
   void stop();
   /// Ends the stretch: the last values hold until its end.

@@ -16,9 +16,9 @@ namespace understudy::emulator::world {
 
 /// The sources that drive a terminal at this moment.
 struct TerminalDrivers {
-  bool device = false;   // it is an output of a device with power
-  bool fault = false;    // stuck: overrides the others
-  bool held = false;     // it is held from outside
+  bool device = false;   // the device drives it as one of its outputs, and has power
+  bool fault = false;    // a `stuck` fault, which overrides the others
+  bool held = false;     // it is held on from outside
   bool machine = false;  // a switch of the machine
   bool wire = false;
 };
@@ -38,7 +38,7 @@ class LookedNames {
 
   /// Keeps a list of names: "feeder.Cord_A" and all other names of probe_names.h, and "feeder.DIN_3@by" for
   /// the drivers of a terminal. Returns its number; the same list always has the same number. If there are
-  /// too many lists, the one unused for longest is forgotten.
+  /// too many lists, the list that has been unused for longest is forgotten.
   std::uint64_t keep(const std::vector<std::string>& names);
   bool is_kept(std::uint64_t number) const;
   /// Prepares a look: decides which names must be looked up. Unknown names are tried again when a device was
@@ -51,7 +51,7 @@ class LookedNames {
   std::size_t lists() const { return lists_.size(); }
 
  private:
-  static constexpr std::size_t kTriedAgain = 2;  // unknown names at each look
+  static constexpr std::size_t kTriedAgain = 2;  // the number of unknown names that each look tries again
   struct Known {
     enum class What : std::uint8_t { nothing, value, driver } what = What::nothing;
     std::size_t device = 0;  // the terminal's device; for a value, the device whose power it needs, if any
@@ -61,7 +61,7 @@ class LookedNames {
   };
   struct List {
     std::uint64_t number = 0;
-    std::uint64_t looked_at = 0;  // the number of the last look at it
+    std::uint64_t looked_at = 0;  // the number of the last look at this list
     std::vector<std::string> names;
     std::vector<Known> known;
     std::optional<std::vector<bool>> power;  // whether each device had power when all names were last tried

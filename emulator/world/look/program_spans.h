@@ -1,4 +1,4 @@
-// Records the lines at which the programs of a bench stand, and from when to when.
+// Records at which lines the programs of a bench stand, and for how long.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class ProgramSpans final : private TickWatcher {
     SimTime end{0};
   };
 
-  /// The world must outlive it.
+  /// The world must outlive this object.
   explicit ProgramSpans(World& world) : world_(world) {}
   ~ProgramSpans() override { stop(); }
   ProgramSpans(const ProgramSpans&) = delete;
@@ -33,7 +33,7 @@ class ProgramSpans final : private TickWatcher {
   void look() { take(world_.now()); }  // this moment alone
   void watch();                        // every tick from now on
   void stop();
-  /// Ends the spans that are under way, and returns all, in the order of their ends.
+  /// Ends the spans that are still open, and returns all spans in the order of their ends.
   std::vector<Span> finish();
 
  private:

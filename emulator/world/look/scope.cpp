@@ -85,8 +85,8 @@ Tick Scope::next_poll(Tick done) const {
   return next;
 }
 
-/// Handles ticks in which nothing changed. While the scope is armed, only as many as the ring has room for
-/// count.
+/// Handles ticks in which nothing changed. While the scope is armed, only as many ticks count as fit into the
+/// ring.
 void Scope::on_rest(Tick last) {
   const Tick first = std::max(next_tick_, last - static_cast<Tick>(rows_) + 1);
   if (state_ == State::armed && first > next_tick_) count_ = 0;

@@ -33,8 +33,8 @@ class Scope final : private TickWatcher {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  /// Called when the world was put into another state: drops earlier samples, because they did not lead
-  /// there. Has no effect once the scope is done.
+  /// Called after the world has been put into another state: drops earlier samples, because they did not lead
+  /// to that state. Has no effect once the scope is done.
   void restart();
 
   const ScopeSetup& setup() const { return setup_; }
@@ -42,7 +42,7 @@ class Scope final : private TickWatcher {
   /// Return the tick of the first sample, and the number of samples.
   Tick first_tick() const { return next_tick_ - static_cast<Tick>(count_); }
   std::size_t count() const { return count_; }
-  /// Valid only after the trigger.
+  /// Call this only after the trigger.
   Tick trigger_tick() const { return trigger_tick_; }
   /// Returns why the condition had no result, which ended the scope; otherwise an empty text.
   const std::string& diagnostic() const { return diagnostic_; }
@@ -63,7 +63,7 @@ class Scope final : private TickWatcher {
   Expression condition_;
   std::vector<std::int32_t> handles_;
   std::vector<double> present_;
-  std::vector<double> ring_;  // a row of names for each tick
+  std::vector<double> ring_;  // one row of values for each tick
   std::size_t rows_ = 0;      // the number of rows that it has room for
   std::size_t count_ = 0;
   Tick next_tick_ = 0;

@@ -62,13 +62,13 @@ struct AxisName {
   std::size_t device = 0;
   int axis = 0;
 };
-/// With `or_counted` the caller also accepts a counted input; the message then says so if there is neither.
+/// With `or_counted` the caller also accepts a counted input; the message mentions both if there is neither.
 AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_counted = false);
 
 /// Returns true if a device has something of that name.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
 /// Returns the error for a name that does not begin with a device although there are several. The name may be
-/// that of a device (then `example` shows what may follow), one that some devices have, or unknown.
+/// that of a device (then `example` shows what may follow), one something that some devices have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 

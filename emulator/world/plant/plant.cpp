@@ -24,13 +24,13 @@ PulseSpan span_of(const SwitchSetup& setup, bool is_on) {
   return wider(setup.on, is_on ? setup.hysteresis_pulses : 0);
 }
 
-/// Returns the distance from the last beginning of the index.
+/// Returns the distance from the beginning of the last index pulse.
 std::int64_t index_phase(const IndexSetup& index, std::int64_t at) {
   const std::int64_t phase = (at - index.at) % index.period;
   return phase < 0 ? phase + index.period : phase;
 }
 
-/// Returns how many counts of its turn the wheel has made. They are spread evenly over all ticks.
+/// Returns how many counts of its turn the wheel has made. The counts are spread evenly over all ticks.
 std::int64_t turned(const PlantAxis::State& state) {
   __extension__ using Wide = __int128;
   if (state.turn_ticks == 0) return 0;
@@ -46,7 +46,7 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
     state_.faults.slipped_pulses = 0;
   }
   turn_wheel();
-  // The drive's state at the beginning of the tick decides what moves.
+  // The drive's state at the beginning of the tick decides which pulses move the machine.
   const std::int64_t steps = pulses_that_step(pulses);
   state_.lost_pulses += std::abs(pulses - steps);
   if (steps != 0) move(steps);
@@ -72,7 +72,7 @@ PulseSpan PlantAxis::places_alike() const {
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   std::int64_t from = stops.first;
   std::int64_t to = stops.last;
-  // Narrows the span to where a switch that is on stays on, or one that is off stays off.
+  // Narrows the span to where a switch keeps its state.
   const auto stay = [&](bool is_on, PulseSpan on) {
     if (is_on) {
       from = std::max(from, on.first);

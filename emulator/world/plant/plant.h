@@ -24,7 +24,7 @@ struct DriveSetup {
   Tick ready_after = 0;
   /// The level of the controller's servo output that enables the drive.
   bool enabled_by = true;
-  /// True if the alarm contact opens with an alarm; false if it closes with an alarm.
+  /// True if the alarm contact opens in an alarm; false if it closes.
   bool alarm_opens = false;
 };
 
@@ -59,7 +59,7 @@ struct IndexSetup {
 };
 
 struct PlantSetup {
-  /// The machine's position at the start.
+  /// The machine's position at the start of the run.
   std::int64_t position_pulses = 0;
   /// Hard stops. The machine does not pass them; pulses beyond are lost steps.
   std::optional<PulseSpan> travel;
@@ -76,7 +76,7 @@ struct PlantSetup {
   /// True if the contact is open where the switch is on, and closed elsewhere.
   bool home_opens = false;
   bool limits_open = false;
-  /// The controller's inputs to which the switches are wired, by their terminals; -1: the model's own.
+  /// The controller's inputs to which the switches are wired, by terminal number; -1: the model's own.
   int home_input = -1;
   int lower_limit_input = -1;
   int upper_limit_input = -1;
@@ -95,7 +95,7 @@ struct MachineFaults {
   std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
   std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
   bool alarm = false;  // the cause of the drive's alarm is present; the alarm outlasts it until it is cleared
-  std::int64_t encoder_noise_counts = 0;  // how many too many the encoder shows
+  std::int64_t encoder_noise_counts = 0;  // by how much the encoder's count is too high
   bool operator==(const MachineFaults&) const = default;
 };
 
@@ -127,7 +127,7 @@ class alignas(64) PlantAxis {
   /// Moves by this many steps, as far as the stops allow. The rest is lost.
   void move(std::int64_t steps);
   /// Runs one tick with the controller's pulses, and its outputs at the end of the tick, which only a drive
-  /// uses. Wires may lead to the drive as well.
+  /// uses. Wires may also lead to the drive.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
   /// Runs a tick in which only the position and the encoder change, as in almost every tick; it touches one
   /// cache line. For any other tick it returns false and does nothing.
@@ -142,10 +142,10 @@ class alignas(64) PlantAxis {
   PulseSpan places_alike() const;
   /// Moves by this many pulses at once, within places_alike(), as that many quiet ticks would.
   void fast_forward(std::int64_t pulses) { state_.position_pulses += pulses; }
-  /// From now on a switch that the machine passes within a tick counts as having been on. (Otherwise only
+  /// From now on, a switch that the machine passes within a tick counts as having been on. (Otherwise only
   /// positions at the ends of ticks count, as for a controller that samples levels.)
   void check_between_ticks() { checks_between_ = true; }
-  /// From now on disabling the drive clears its alarm, because nothing is wired to its alarm-clear input.
+  /// From now on, disabling the drive clears its alarm, because nothing is wired to its alarm-clear input.
   void clear_alarm_by_disabling() { clears_by_disabling_ = true; }
   /// Sets the level that wires give to an input of the drive. Returns true if the level has changed.
   bool set_wired(DriveInput which, bool is_on);
@@ -170,7 +170,7 @@ class alignas(64) PlantAxis {
   const MachineFaults& faults() const { return state_.faults; }
 
   std::int64_t position_pulses() const { return state_.position_pulses; }
-  /// Counts the controller's pulses that moved nothing, in both directions.
+  /// Returns the number of the controller's pulses, in both directions, that did not move the machine.
   std::int64_t lost_pulses() const { return state_.lost_pulses; }
   bool at_home() const { return state_.at_home; }
   bool at_lower_limit() const { return state_.at_lower_limit; }
@@ -181,8 +181,8 @@ class alignas(64) PlantAxis {
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
   bool ready() const { return state_.ready; }
-  /// Returns true if a contact is closed. A contact that the machine does not have is open, but without a
-  /// drive, an injected alarm still closes the alarm contact.
+  /// Returns true if a contact is closed. A contact that the machine does not have is open, except that an
+  /// injected alarm closes the alarm contact.
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
   bool has_encoder() const { return encoder_.counts_per_revolution != 0; }
@@ -190,14 +190,14 @@ class alignas(64) PlantAxis {
   /// through 0 counts evenly; a reversed encoder counts the same edges in the other direction. The count
   /// wraps at 62 bits, so that a difference of two counts fits.
   std::int64_t encoder_counts() const;
-  /// Like encoder_counts(), after a quiet step.
+  /// Like encoder_counts(), but valid only after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
   /// Returns the counts after this many more pulses.
   std::int64_t encoder_counts_after(std::int64_t pulses) const {
     return encoder_.counts_at(state_.position_pulses + pulses);
   }
 
-  /// Returns the first tick after `done` at which something changes by itself, or kNever.
+  /// Returns the first tick after `done` at which something changes without further input, or kNever.
   Tick next_active_tick(Tick done) const;
 
   const PlantSetup& setup() const { return setup_; }
@@ -208,7 +208,7 @@ class alignas(64) PlantAxis {
     std::int64_t position_pulses = 0;
     std::int64_t lost_pulses = 0;     // magnitude
     std::int64_t pulses_to_lose = 0;  // pulses since one was lost
-    std::int64_t loses_one_in = 0;    // the fault's one_in for which they were counted
+    std::int64_t loses_one_in = 0;    // the value of the fault's `one_in` when they were counted
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
@@ -217,7 +217,7 @@ class alignas(64) PlantAxis {
     bool alarm_latched = false;
     bool ready = false;
     DriveInputs wired;
-    DriveInputs seen;  // the levels from its controller at the last tick
+    DriveInputs seen;  // the levels from the controller at the last tick
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
@@ -234,7 +234,7 @@ class alignas(64) PlantAxis {
   void restore(const State& state);
 
  private:
-  /// The part of the setup that the encoder's count depends on.
+  /// The part of the setup on which the encoder's count depends.
   struct Encoder {
     std::int64_t pulses_at_0 = 0;
     int counts_per_revolution = 0;
@@ -258,7 +258,7 @@ class alignas(64) PlantAxis {
   }
   /// Computes how far the machine can move before everything must be checked.
   void find_quiet_places();
-  /// Returns how far it has really moved.
+  /// Returns how far the machine has actually moved.
   std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
@@ -275,7 +275,7 @@ class alignas(64) PlantAxis {
   }
 
   // The members of a quiet tick are on the first cache line, including `position_pulses`. The quiet range is
-  // not state, because it follows from it.
+  // not part of the state, because it follows from the state.
   std::int64_t quiet_from_ = 1;
   std::int64_t quiet_to_ = 0;
   Encoder encoder_;

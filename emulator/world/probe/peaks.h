@@ -11,12 +11,12 @@ namespace understudy::emulator::world {
 class Peaks final : public TickWatcher {
  public:
   struct Peak {
-    double speed_pps = 0;      // at the tick before
-    double greatest_pps = 0;   // a magnitude, like the next one
-    double greatest_pps2 = 0;  // pulses per second, per second
+    double speed_pps = 0;      // in the previous tick
+    double greatest_pps = 0;   // the maximum magnitude of the speed
+    double greatest_pps2 = 0;  // the maximum magnitude of the acceleration, in pulses per second squared
     bool operator==(const Peak&) const = default;
   };
-  /// The peaks so far, as a value.
+  /// The current peaks, as a value.
   using State = std::vector<std::vector<Peak>>;  // [device][axis]
 
   /// Watches from this moment on, if added by World::add_watcher(). The view must outlive it.
@@ -24,7 +24,7 @@ class Peaks final : public TickWatcher {
 
   void on_tick(Tick tick) override;
   Tick next_poll(Tick) const override { return kNever; }
-  /// Starts again. The speed at this moment does not count.
+  /// Starts again. The speed at this moment is not counted.
   void reset();
 
   const Peak& peak(std::size_t device, int axis) const {

@@ -34,7 +34,7 @@ std::pair<std::string_view, std::string_view> at_dot(std::string_view name) {
 // The names that every device has.
 constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replies", "exceptions"};
 
-/// Returns true for registers, terminals, axes (in "A.pulses"), and the names that every device has.
+/// Returns true for registers, terminals, axes (as in "A.pulses"), and the names that every device has.
 bool has_name(const KnownDevice& device, std::string_view name) {
   return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
          find_register(*device.model, name, device.firmware) || find_terminal(*device.model, name) >= 0 ||

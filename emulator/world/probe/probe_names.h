@@ -3,7 +3,7 @@
 // (view/inventory.h); probes.h reads the values.
 //
 //   time                       simulated time, a duration
-//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
+//   feeder.Cord_A, .STATUS.4   registers and their bits, as a host would read them now; .0x1000 by address
 //   robot.T2PE                 values of devices without registers (NamedValues)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first; of a counted input its count, modulo 2^32
@@ -22,7 +22,7 @@
 //   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive; and
 //                              .near_home, .mark, .index if it has them
 //   feeder.power               1 while it has power
-//   feeder.pulse_format        the present form of the pulses, by number; if the model has several
+//   feeder.pulse_format        the current form of the pulses, by number; if the model has several
 //   feeder.requests, .replies, .exceptions    of its stations
 //   rs485.bytes_in, .bytes_out, .collisions   of a line
 #pragma once
@@ -77,8 +77,8 @@ class ProbeNames final : public NameResolver {
   };
   struct Probe {
     What what = What::time;
-    std::size_t device = 0;  // also a line
-    int place = 0;           // axis or terminal
+    std::size_t device = 0;  // the device, or the line
+    int place = 0;           // the axis or terminal
     NamedPlace reg{};
     const TerminalGroup* group = nullptr;
     std::string value_name{};

@@ -13,7 +13,7 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// Both must outlive it. Without `peaks`, the names of peaks are known but have no value.
+  /// `view` and `peaks` must outlive it. Without `peaks`, the names of peaks are known but have no value.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
       : view_(view), peaks_(peaks), names_(view) {}
 
@@ -25,8 +25,8 @@ class Probes final : public NameResolver, public ValueSource {
   Tick next_change(std::int32_t handle, Tick done) const;
   /// Like the above, for all the names of a condition.
   Tick next_change(const Expression& condition, Tick done) const;
-  /// Returns the device of a register or of a named value, which have no value without power. Nothing for
-  /// other names.
+  /// Returns the device of a register or of a named value, which have no value without power. Returns nothing
+  /// for other names.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
   /// Returns true if the value is not always a whole number; for a device without registers, if it is not a
   /// whole number now.

@@ -1,6 +1,6 @@
-// The protocol of a line: how devices are connected to it, how hosts behave there, and the meaning of its
-// messages. All differences between protocols are behind this interface; a new protocol is one more object
-// (protocol_of() lists them).
+// The protocol of a line: how it connects devices, how hosts behave on it, and what its messages mean. All
+// differences between protocols are behind this interface; a new protocol is one more object (protocol_of()
+// lists them).
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace understudy::emulator::world {
 
 /// How a line and its world treat the stations on it.
 struct StationConditions {
-  bool is_instant = false;      // characters take no time
+  bool is_instant = false;      // characters take no time on the wire
   bool strict_framing = false;  // silence alone ends a frame
   SimTime patience{0};          // as in WorldOptions
   SimTime rest_patience{0};     // LineSetup::byte_timeout in simulated time
@@ -29,14 +29,14 @@ struct StationConditions {
 class LineProtocol {
  public:
   virtual const Protocol& protocol() const = 0;
-  /// Returns "Modbus frames" or the like for messages.
+  /// Returns "Modbus frames" or a similar phrase for messages.
   virtual std::string_view messages() const = 0;
 
   // --- stations ----------------------------------------------------------------------------------
   /// Makes the station of a device at one of its ports.
   virtual std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                                     const StationConditions& conditions) const = 0;
-  /// Returns how a station of that model frames received bytes, if it does.
+  /// Returns how a station of that model splits received bytes into frames, if it does so.
   virtual pty::RtuFraming framing(const Model& /*model*/, const StationConditions& /*conditions*/) const {
     return {};
   }
@@ -44,23 +44,23 @@ class LineProtocol {
   virtual bool may_be_unasked() const { return false; }
 
   // --- hosts -------------------------------------------------------------------------------------
-  /// Returns true if scenario steps that send and receive text can use it.
+  /// Returns true if scenario steps that send and receive text can use this protocol.
   virtual bool carries_text() const { return false; }
   /// Returns true if a host leaves a silence between its messages.
   virtual bool is_framed_by_silence() const { return false; }
   /// Returns true if a host's message may change something in one of the stations.
   virtual bool may_change(const LineStations& stations, const pty::CapturedPacket& message) const = 0;
-  /// Returns true if an answer says that nothing was changed.
+  /// Returns true if an answer reports that nothing was changed.
   virtual bool is_refusal(std::span<const std::uint8_t> /*answer*/) const { return false; }
 
-  /// Like is_refusal(), for people: true for any answer of these stations that reports an error, although
-  /// something may have been changed.
+  /// Like is_refusal(), for people: true for any answer of these stations that reports an error, even if
+  /// something has been changed.
   virtual bool refuses(const LineStations& /*stations*/, std::span<const std::uint8_t> answer) const {
     return is_refusal(answer);
   }
 
   // --- observers ---------------------------------------------------------------------------------
-  /// Makes packets of the traffic on the line with that number.
+  /// Returns an object that splits the traffic of the line with that number into packets.
   virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
                                                       pty::CaptureFrames::Sink sink) const = 0;
   /// Returns a host's message in words.
@@ -77,7 +77,7 @@ class LineProtocol {
                                  std::span<const std::uint8_t> reply) const = 0;
 
   // --- faults ------------------------------------------------------------------------------------
-  /// Returns the facts of a message that a fault's trigger asks for.
+  /// Returns the facts of a message that fault triggers test.
   virtual FrameFacts facts_of(const ReceivedFrame& frame) const = 0;
   /// Throws NameError for a fault that messages of this protocol cannot have.
   virtual void require_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}

@@ -77,7 +77,7 @@ class ModbusLineProtocol final : public LineProtocol {
     return modbus_reply_text(stations, request, reply);
   }
 
-  /// Returns the facts of a request, above all the registers that it is about.
+  /// Returns the facts of a request, mainly the registers that it concerns.
   FrameFacts facts_of(const ReceivedFrame& frame) const override {
     FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
     const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };

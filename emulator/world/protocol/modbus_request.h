@@ -21,8 +21,8 @@ struct ModbusRequest {
   bool is_write() const { return !words.empty(); }
 };
 
-/// Reads a request from its function code on, without checksum. Returns nothing if it is incomplete, or has
-/// another function.
+/// Reads a request from its function code to the end, without checksum. Returns nothing if it is incomplete,
+/// or has a different function.
 std::optional<ModbusRequest> parse_request(std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

@@ -36,7 +36,7 @@ std::string number_of(int address) {
   return text.data();
 }
 
-/// Returns null if no device on the line listens to that address.
+/// Returns null if no device on the line has that address.
 const Device* device_at(const LineStations& stations, std::uint8_t address) {
   for (const auto& station : stations) {
     const ModbusStation* const modbus = station->device().modbus();
@@ -48,7 +48,7 @@ const Device* device_at(const LineStations& stations, std::uint8_t address) {
 /// Lists consecutive words or bits by the names of their registers, with their values if these are known.
 class WordsText {
  public:
-  /// `values` is as in a frame: bits are packed.
+  /// `values` has the form that it has in a frame: bits are packed.
   WordsText(const Device* device, Table table, int first, int count, std::span<const std::uint8_t> values)
       : device_(device), table_(table), first_(first), count_(count), values_(values) {}
 
@@ -71,7 +71,8 @@ class WordsText {
     return is_table_of_bits(table_) ? values_[at / 8] >> at % 8 & 1 : frame_word(values_, 2 * at);
   }
 
-  /// Returns the text of the register at word `i` and moves `i` past it. The first text names the device too.
+  /// Returns the text of the register at word `i` and moves `i` past it. The first text also names the
+  /// device.
   std::string next(int& i, bool is_first) const {
     const int word = i++;
     const RegisterBank* const bank = device_ == nullptr ? nullptr : device_->register_bank();
@@ -115,8 +116,8 @@ const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
   return nullptr;
 }
 
-/// Returns the table that a function accesses. A model without input registers has its holding registers
-/// there.
+/// Returns the table that a function accesses. A model without input registers uses its holding registers for
+/// it.
 Table table_of(const Device* device, const FunctionRow& function) {
   const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();
   const bool has_it = bank != nullptr && bank->map().has(function.table);
@@ -127,7 +128,7 @@ std::size_t bytes_for(Table table, int count) {
   return static_cast<std::size_t>(is_table_of_bits(table) ? (count + 7) / 8 : 2 * count);
 }
 
-/// Returns where a request begins: "coil 0x0010 ", "input registers 0x0010 ". For holding registers, that is
+/// Returns where a request begins: "coil 0x0010 ", "input registers 0x0010 ". For holding registers, it is
 /// only the number.
 std::string place_text(Table table, int first, int count) {
   std::string what;
@@ -140,7 +141,7 @@ std::string place_text(Table table, int first, int count) {
   return what + (count == 1 ? " " : "s ") + number_of(first) + " ";
 }
 
-/// The values that a request writes, packed like the words of a frame. written() returns nothing if the
+/// The values that a request writes, packed like the data of a frame. written() returns nothing if the
 /// request is incomplete or invalid.
 struct WrittenValues {
   int count = 0;

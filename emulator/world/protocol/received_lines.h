@@ -21,11 +21,12 @@ std::string lines_text(std::span<const std::string> lines);
 
 /// The lines that a step waits for.
 struct LinesWanted {
-  std::vector<std::string> lines;  // none: any lines, until the time is over
-  /// The lines answer what was just sent; the last one may lack a line end, as a prompt does.
+  std::vector<std::string> lines;  // the lines that are expected; none: any lines, until the time is over
+  /// True if the lines answer a line that was just sent. The last of them may lack a line end, as a prompt
+  /// does.
   bool is_answer = false;
 };
-/// Returns true if the wanted lines, or others instead, have arrived.
+/// Returns true if the wanted lines, or different ones in their place, have arrived.
 bool has_come(const LinesWanted& wanted, const ReceivedLines& received);
 
 }  // namespace understudy::emulator::world

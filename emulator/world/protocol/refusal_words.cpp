@@ -32,13 +32,13 @@ std::string hex(int address) {
   return text.data();
 }
 
-/// The registers that a request asks for or writes.
+/// The registers that a request reads or writes.
 struct Wanted {
   const FunctionRow& function;
   Table table = Table::holding;
   int first = 0;
   int count = 0;
-  std::span<const std::uint8_t> values{};  // as in the frame; empty for a request that reads
+  std::span<const std::uint8_t> values{};  // as in the frame; empty for a read request
 
   bool is_write() const { return function.kind != FunctionRow::Kind::read; }
   int value_at(int i) const {
@@ -101,14 +101,14 @@ class Reason {
            (unmapped == MapPolicy::Unmapped::holes_read_zero && !is_before_end);
   }
 
-  /// Returns true if the request has only one word of the register.
+  /// Returns true if the request contains only one of the register's two words.
   bool is_cut(const Place& place, int i) const {
     if (place.part == Place::Part::whole) return false;
     const bool is_second = place.is_second_word(bank_.low_word_first());
     return is_second ? i == 0 : i + 1 == wanted_.count;
   }
 
-  /// Returns the value that a register gets, if the request begins it here and brings all of it.
+  /// Returns the value that a register gets, if the request begins it at this word and contains all of it.
   std::optional<Value> value_at(const Place& place, int i) const {
     const RegisterRow& row = *place.row;
     const auto word = [&](int at) { return static_cast<std::uint16_t>(wanted_.value_at(at)); };
@@ -161,8 +161,8 @@ std::string functions_of(const RtuRules& rules) {
   return text;
 }
 
-/// Returns the most registers that a request of this function may have, or 0 if the model has no limit of its
-/// own.
+/// Returns the maximum number of registers that a request of this function may have, or 0 if the model has no
+/// limit of its own.
 int limit_of(const RtuRules& rules, std::uint8_t code) {
   for (const FunctionLimit& limit : rules.limits)
     if (limit.code == code) return limit.max;

@@ -1,5 +1,5 @@
-// Says why a device has refused a Modbus request, from its tables: "feeder.Aaxis_Speed takes 0 to 32768, not
-// 65000".
+// Explains why a device has refused a Modbus request, from its tables: "feeder.Aaxis_Speed takes 0 to 32768,
+// not 65000".
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// Returns the reason, or an empty text if it is not in the tables, because it lies in what the device was
+/// Returns the reason, or an empty text if it is not in the tables, because it depends on what the device was
 /// doing. `request` is the whole frame, and `exception` the code of the answer.
 std::string why_refused(const Device& device, std::span<const std::uint8_t> request, int exception);
 

@@ -43,7 +43,7 @@ class TextLineProtocol final : public LineProtocol {
 
   bool carries_text() const override { return true; }
   bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
-    return true;  // only the device could know
+    return true;  // true, because only the device could tell
   }
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
@@ -63,7 +63,7 @@ class TextLineProtocol final : public LineProtocol {
     return !meaning_of(stations, answer).empty();
   }
 
-  /// Returns the time only, because text lines have neither station nor function.
+  /// Returns only the time, because text lines have neither station nor function.
   FrameFacts facts_of(const ReceivedFrame& frame) const override { return {.at = frame.now}; }
   /// Refuses faults that need functions, stations, checksums or exceptions, which text lines do not have.
   void require_possible(const std::string& device, const Fault& fault) const override {
@@ -102,7 +102,7 @@ class TextLineProtocol final : public LineProtocol {
     }
     return {};
   }
-  /// Returns the lines side by side, each in quotes.
+  /// Returns the lines one after another, each in quotes.
   static std::string quoted(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kMaxCharacters = 200;
     std::string text(bytes.begin(), bytes.end());

@@ -12,7 +12,8 @@ using What = RecordedEvent::What;
 
 namespace {
 
-/// Loads a program that was loaded in the recording. If it was refused then, it may be refused again.
+/// Loads a program that was loaded in the recording. If it was refused in the recording, it may be refused
+/// again.
 void load_as_recorded(World& world, const RecordedEvent& event) {
   try {
     world.load_program(event.where, event.text);

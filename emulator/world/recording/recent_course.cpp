@@ -19,7 +19,7 @@ RecentCourse::RecentCourse(World& world)
       recorder_(world, [this](RecordedEvent event) { take(std::move(event)); }) {}
 
 void RecentCourse::take(RecordedEvent event) {
-  // What stations send follows from the rest.
+  // What stations send follows from the other events.
   if (is_paused_ || is_too_long_ || event.what == RecordedEvent::What::sent ||
       event.what == RecordedEvent::What::end)
     return;

@@ -1,4 +1,4 @@
-// The course of a world from a moment on, in memory, so that it can be played again.
+// The course of a world from a moment on, kept in memory so that it can be played again.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace understudy::emulator::world {
 
 class RecentCourse {
  public:
-  /// A course with more events from outside is not kept.
+  /// The limit on events from outside; a longer course is not kept.
   static constexpr std::size_t kMaxEvents = 100'000;
 
   /// Begins now. The world must outlive it.
@@ -26,14 +26,14 @@ class RecentCourse {
   /// Returns false if there were too many events.
   bool is_whole() const { return !is_too_long_; }
   SimTime begin() const { return begin_at_; }
-  /// Returns the course up to now. If no event has come since the last call and time has not gone beyond its
-  /// end, it is the same object; otherwise this plays the whole course again. Call it outside
-  /// World::advance_to(), while events are not kept (Pause).
+  /// Returns the course up to now. If no event has occurred since the last call and time has not passed its
+  /// end, returns the same object; otherwise plays the whole course again. Call it outside
+  /// World::advance_to(), while a Pause exists.
   Timeline& timeline();
-  /// Drops all events after this moment: from there the world takes another course.
+  /// Drops all events after this moment: from there, the world takes a different course.
   void drop_after(SimTime moment);
 
-  /// While it exists, events are not kept, because they are those of the course.
+  /// While this object exists, events are not kept, because they are the course's own events.
   class Pause {
    public:
     explicit Pause(RecentCourse& course) : course_(course) { course_.is_paused_ = true; }
@@ -54,7 +54,7 @@ class RecentCourse {
   std::vector<RecordedEvent> events_;
   bool is_paused_ = false;
   bool is_too_long_ = false;
-  std::unique_ptr<Timeline> timeline_;  // of `events_`; null: it must be made
+  std::unique_ptr<Timeline> timeline_;  // made from `events_`; null if it has to be made
   Recorder recorder_;                   // the last member: it calls take() as soon as it exists
 };
 

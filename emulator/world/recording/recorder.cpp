@@ -37,7 +37,7 @@ std::function<void(RecordedEvent)> lines_for(const World& world, const Recording
 
 }  // namespace
 
-/// Records one line.
+/// Records the events of one line.
 class Recorder::LineRecorder final : public pty::LineObserver {
  public:
   LineRecorder(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {

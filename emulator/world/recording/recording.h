@@ -17,13 +17,13 @@
 
 namespace understudy::emulator::world {
 
-/// The beginning of a recording, which is enough to make the world again.
+/// The beginning of a recording, which is enough to create the world again.
 struct RecordingHeader {
   std::string version;  // the version of the program that recorded it
   std::string bench;    // in the form of bench_text.h, memories included
   WorldOptions options;
   std::uint64_t seed = 0;
-  /// The world's state (snapshot_file.h) if it ran before the recording began; otherwise empty.
+  /// The world's state (snapshot_file.h) if the world ran before the recording began; otherwise empty.
   std::string snapshot;
 };
 
@@ -31,7 +31,7 @@ struct RecordingHeader {
 struct RecordedFailure {
   std::string what{};  // "feeder.Cord_A is 31999; expected 32000"; empty: there was no failure
   SimTime at{0};
-  std::string scenario{};  // includes the name of its branch
+  std::string scenario{};  // including the name of its branch
   std::string place{};     // the step's place: "fail.yaml:8"
   std::string step{};      // "expect: feeder.Cord_A = 32000"
 };
@@ -40,20 +40,20 @@ struct RecordedEvent {
   enum class What : std::uint8_t {
     opened,    // a host opened line `where`
     closed,    // a host closed line `where`
-    settings,  // the host set `host`; nothing: it left the settings as they were
-    bytes,     // wrote `bytes`
-    departed,  // bytes of a host that has closed since
+    settings,  // the host set `host`; no value: it left the settings unchanged
+    bytes,     // a host wrote `bytes`
+    departed,  // like `bytes`, from a host that has since closed the line
     purged,    // the host flushed bytes that were not on the wire yet
     nothing_more,
     sent,     // stations sent `bytes` on the line, which a replay must match
     input,    // terminal `place` of device `where` was set to `value`
     power,    // the device was switched to `value`
-    inject,   // `fault`
-    clear,    // fault number `value`
-    write,    // `write`, bypassing the line
+    inject,   // the fault `fault` was injected
+    clear,    // fault number `value` was cleared
+    write,    // `write` was made without using the line
     assign,   // a device without registers was given the value `real` by the name `text`
-    program,  // a device was given the program `text`; it refused it if `value` is not 0
-    command,  // a device was given the command `text`, bypassing the line
+    program,  // a device was given the program `text`; the device refused it if `value` is not 0
+    command,  // a device was given the command `text` without using the line
     wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` says
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;

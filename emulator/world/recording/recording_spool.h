@@ -1,6 +1,6 @@
 // The recording of a daemon that may run for months: a file that starts again from a snapshot when it has
-// grown too large. The previous file is kept as FILE.1, so that at least the last `cap_bytes` of history
-// exist.
+// grown too large. The previous file is kept as FILE.1, so that at least the last `cap_bytes` of history are
+// available.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
 /// The suffix of the previous file's name.
 inline constexpr const char* kOlderPart = ".1";
 
-/// Returns why the previous file cannot be put there: the path has something other than a recording. Empty
-/// if it can.
+/// Returns why the previous file cannot be stored: its path already has something other than a recording.
+/// Returns an empty text if it can be stored.
 std::string why_no_older_part(const std::string& path);
 
 class RecordingSpool {
@@ -33,7 +33,7 @@ class RecordingSpool {
   /// World::advance_to(); nothing is recorded afterwards.
   void finish(RecordedFailure failed = {});
 
-  /// Writes an event that the world does not know about.
+  /// Writes an event that the world does not report.
   void note(RecordedEvent event);
 
   /// Waits until everything is written. Returns why the file ended early, or an empty string.

@@ -32,7 +32,7 @@ namespace {
 
 using What = RecordedEvent::What;
 
-/// Collects what stations send in the replay until it is compared.
+/// Collects what stations send in the replay until these bytes are compared.
 class SentBytes {
  public:
   struct Sent {
@@ -119,8 +119,8 @@ std::string compare(const World& world, SentBytes& sent_bytes, const RecordedEve
 }
 
 /// Compares the world with the state at the end of the recording. Returns an empty text if they agree in
-/// everything that affects the model, which excludes bytes that a host has not read yet. A state of another
-/// version cannot be compared.
+/// everything that affects the model, which excludes bytes that a host has not read yet. A state written by
+/// another version cannot be compared.
 std::string compare_state(const World& world, const RecordingHeader& header, const std::string& text) {
   if (text.empty() || header.version != program_version()) return {};
   WorldState recorded = parse_snapshot(text, kBenchOfRecording);
@@ -132,7 +132,7 @@ std::string compare_state(const World& world, const RecordingHeader& header, con
   return found.empty() ? found : "ends in a different state: " + found + " (recorded against replayed)";
 }
 
-/// The lines of a recording. Errors name the number of the line.
+/// The lines of a recording. Errors name the line number.
 class RecordedLines {
  public:
   RecordedLines(std::istream& recording, std::string name) : recording_(recording), name_(std::move(name)) {}
@@ -221,7 +221,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
       result.bytes_sent += event.bytes.size();
       continue;
     }
-    // Everything that is due is sent before the next input from outside.
+    // Everything that is due must be sent before the next input from outside.
     expect_silence();
     result.has_end = event.what == What::end;
     if (watcher && result.difference.empty()) watcher->happened(event, lines.number());

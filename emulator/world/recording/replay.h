@@ -13,15 +13,15 @@ namespace understudy::emulator::world {
 
 struct ReplayResult {
   enum class Verdict : std::uint8_t {
-    same,       // every byte, at its time
+    same,       // every byte matches, at its time
     different,  // `difference` is the first one
-    stopped,    // at the requested time, or at the recording's end if that comes first
+    stopped,    // it stopped at the requested time, or at the recording's end if that comes first
   } verdict = Verdict::same;
   std::string difference;  // one line
   SimTime reached{0};
   std::uint64_t events = 0;
   std::uint64_t bytes_sent = 0;
-  bool has_end = false;  // false: the recording breaks off, because its program was killed
+  bool has_end = false;  // false if the recording breaks off, because its program was killed
 };
 
 struct Replayed {
@@ -30,8 +30,8 @@ struct Replayed {
   ReplayResult result;
 };
 
-/// Observes a replay. It is made when the world has been put into the recording's first state, and destroyed
-/// before the world.
+/// Observes a replay. It is created after the world has been put into the recording's first state, and
+/// destroyed before the world.
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
@@ -44,7 +44,7 @@ class ReplayWatcher {
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
 
 /// Replays a recording whose devices are of the given models. `name` stands for the file in messages:
-/// RecordingError "name:line: field: what". The replay goes no further than `until`. `watch` may return a
+/// RecordingError "name:line: field: what". The replay does not continue beyond `until`. `watch` may return a
 /// watcher. `done` receives the world at the end.
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
                 std::optional<SimTime> until, const ReplayWatcherMaker& watch = {},

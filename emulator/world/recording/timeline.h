@@ -16,13 +16,13 @@ namespace understudy::emulator::world {
 
 class Timeline {
  public:
-  /// The shortest time between keyframes. It is longer if there would be too many.
+  /// The shortest time between keyframes. The time is longer if there would be too many keyframes.
   static constexpr SimTime kApart = std::chrono::seconds(1);
   static constexpr std::size_t kMaxKeyframes = 1'000;
 
   /// Applies the events in order, from the state in which the recording begins. `on_way` is called at each
-  /// keyframe but the first, and at the end, where the world is left. The world must be made from the
-  /// recording's bench and outlive this object.
+  /// keyframe except the first, and at the end; the world stays in that state. The world must be made from
+  /// the recording's bench and outlive this object.
   Timeline(World& world, const WorldState& begin, std::vector<RecordedEvent> events, SimTime end,
            const std::function<void()>& on_way);
 
@@ -33,14 +33,14 @@ class Timeline {
   SimTime time_of_keyframe(std::size_t number) const { return keyframes_[number].at; }
 
   /// Moves the world to that time, after all events of that moment. `set_state` puts it into the state of a
-  /// keyframe; it also receives the keyframe's number, which is the number of `on_way` calls up to it.
+  /// keyframe; it also receives the keyframe's number, which equals the number of `on_way` calls before it.
   void go_to(SimTime time, const std::function<void(const WorldState&, std::size_t keyframe)>& set_state);
-  /// Plays on from where the world is up to that time, or until the world has been stopped. All events of the
-  /// moment have then happened.
+  /// Continues from the world's current time to `until`, or until the world has been stopped. Afterwards, all
+  /// events of that moment have happened.
   void play_on(SimTime until, const std::function<bool()>& is_stopped);
 
-  /// Plays a stretch once more on another world, made from the same bench, and calls `look` at its beginning,
-  /// then every `apart`, and at its end.
+  /// Plays a stretch of time once more on another world, made from the same bench, and calls `look` at its
+  /// beginning, then at intervals of `apart`, and at its end.
   void play_again(World& other, SimTime from, SimTime to, SimTime apart,
                   const std::function<void()>& look) const;
 

@@ -1,6 +1,6 @@
 // Stands between a line and a station to apply faults: messages arrive late, garbled, twice or not at all. A
-// station passes it everything that it receives and sends; the wire returns the remains to the station (End)
-// at the right time.
+// station passes everything that it receives and sends; to the wire, which returns what is left of it to the
+// station (End) at the right time.
 //
 //   received ──passes()──> whole: the station serves it       sent ──answer()──> End::transmit()
 //                 └──> pieces ──> End::serve_piece(), late ones in run()    └──> pieces, late ones in run()
@@ -19,16 +19,16 @@ namespace understudy::emulator::world {
 
 class FaultyWire {
  public:
-  /// The largest number of late messages; further ones are lost.
+  /// The maximum number of messages in transit; further ones are lost.
   static constexpr std::size_t kMaxLate = 256;
 
   /// The end of the wire: the station.
   class End {
    public:
-    /// Handles the remains of a request as if they had arrived that way.
+    /// Handles what is left of a request, as if it had been received like that.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
-    /// Sends the remains of an answer to the request with that last character.
+    /// Sends what is left of an answer to the request with that last character.
     virtual void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                           pty::Transmitter& out) = 0;
 
@@ -43,13 +43,14 @@ class FaultyWire {
     std::uint64_t last_character = 0;
     std::vector<std::uint8_t> bytes{};
   };
-  /// Throws std::invalid_argument for impossible late messages.
+  /// Throws std::invalid_argument if the late messages are impossible.
   static void check(const std::vector<Late>& late);
 
-  /// `late` is its state, in chronological order. It is a part of the station's state.
+  /// `late` is the wire's state, in chronological order. It is a part of the station's state.
   FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
-  /// Null: no faults. Each frame is passed on with the numbers of the device and the line.
+  /// Sets the source of faults; null: no faults. Each frame is passed to it with the numbers of the device
+  /// and the line.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     faults_ = faults;
     device_ = device;
@@ -57,22 +58,22 @@ class FaultyWire {
   }
 
   // --- what the station receives ------------------------------------------------------------------
-  /// Returns true if there may be faults. Without them no frame is served early.
+  /// Returns true if there may be faults. Without faults, no frame is served early.
   bool is_broken() const { return faults_ != nullptr; }
-  /// Called when a character has completed that frame, which a fault may treat as complete at once.
+  /// Called when a character has completed this frame, which a fault may treat as complete at once.
   void check_completed(const ReceivedFrame& frame);
   /// Called when the completed frame no longer exists.
   void forget_early_frame() { is_early_ = false; }
   /// Returns true once for a frame that must be served before the silence after it ends.
   bool take_early_frame();
-  /// Called when a request is complete. Returns true if it arrived whole; otherwise its remains arrive as
-  /// pieces.
+  /// Called when a request is complete. Returns true if it arrived complete; otherwise what is left of it
+  /// arrives in pieces.
   bool passes(const ReceivedFrame& request, pty::Transmitter& out);
 
-  // --- what it does and sends -------------------------------------------------------------------
+  // --- what the station does and sends -------------------------------------------------------------------
   /// Returns how a fault makes the device treat a request.
   FrameFaults::Treatment treatment_of(const ReceivedFrame& request);
-  /// Sends an answer. `delay` is that of the device itself.
+  /// Sends an answer. `delay` is the device's own delay.
   void answer(const ReceivedFrame& request, std::span<const std::uint8_t> bytes, pty::Transmitter& out,
               pty::SimTime delay = pty::SimTime{0});
 
@@ -96,7 +97,7 @@ class FaultyWire {
   FrameFaults* faults_ = nullptr;
   std::size_t device_ = 0;
   std::size_t line_ = 0;
-  bool is_early_ = false;  // within the event that brought the frame
+  bool is_early_ = false;  // true only within the event that delivered the frame
 };
 
 }  // namespace understudy::emulator::world

@@ -1,4 +1,4 @@
-// The questions that a station asks about each frame while there are faults.
+// The interface through which a station asks how faults affect each frame.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace understudy::emulator::world {
 
-/// A received request: a frame with its checksum, or a text line, with its line end only for questions about
+/// A received request: a frame with its checksum, or a text line, which has its line end only for faults of
 /// the wire.
 struct ReceivedFrame {
   std::size_t device = 0;  // the device of the station
   std::size_t line = 0;    // the line on which it was received
   std::span<const std::uint8_t> bytes;
   std::uint64_t last_character = 0;
-  bool is_for_device = false;  // broadcasts as well
+  bool is_for_device = false;  // true for broadcasts too
   pty::SimTime now{0};
 };
 
@@ -31,12 +31,12 @@ class FrameFaults {
   virtual std::vector<pty::WireFault> on_request(const ReceivedFrame& frame) = 0;
 
   struct Treatment {
-    int exception = 0;        // it is refused with this exception; 0: it is executed
-    bool is_answered = true;  // false: the power fails as soon as it has been executed
+    int exception = 0;        // the request is refused with this exception; 0: it is executed
+    bool is_answered = true;  // false if the power fails as soon as the request has been executed
   };
   /// Called before the device executes a request.
   virtual Treatment on_serving(const ReceivedFrame& frame) = 0;
-  /// Called when a request was answered. Returns the faults of the wire for the reply.
+  /// Called when a request has been answered. Returns the faults of the wire for the reply.
   virtual std::vector<pty::WireFault> on_reply(const ReceivedFrame& frame) = 0;
 
  protected:

@@ -14,9 +14,9 @@
 namespace understudy::emulator::world {
 
 struct StationCounters {
-  std::uint64_t requests = 0;  // for this station: frames, broadcasts included, or lines
+  std::uint64_t requests = 0;  // messages for this station: frames, including broadcasts, or lines
   std::uint64_t replies = 0;
-  std::uint64_t exceptions = 0;  // how many of the replies
+  std::uint64_t exceptions = 0;  // the number of replies that were exceptions
 };
 
 class LineStation : public pty::Station, private FaultyWire::End {
@@ -29,23 +29,23 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Drops incomplete input and unsent output.
   virtual void reset() = 0;
 
-  /// Sets the source of faults for frames; null: none. It receives these numbers with each frame.
+  /// Sets the source of faults for frames; null: none. The source receives these numbers with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     wire_.set_faults(faults, device, line);
   }
 
-  /// Called when the device may have something to send unasked. Returns true if it has; due() has changed
-  /// then.
+  /// Called when the device may have something to send unasked. If it has, due() changes and the function
+  /// returns true.
   virtual bool poll_text(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
   /// Returns the device's port that is connected to the line.
   std::size_t port() const { return port_; }
   const StationCounters& counters() const { return counters_; }
-  /// Counts received bytes that were ignored.
+  /// Returns the number of received bytes that were ignored.
   virtual std::uint64_t dropped_bytes() const = 0;
 
-  // --- its state: what it receives and has counted; the device's is its own ---------------------------
+  // --- its state: what it receives and has counted, without the device's state ---------------------------
   virtual void write_state(StateWriter& writer) const = 0;
   /// Reads a state. Calling the result puts it into effect, which does not throw. Throws StateError or
   /// std::invalid_argument for a state that this station cannot have.
@@ -54,7 +54,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  /// The last two arguments are parts of the station's state.
+  /// `counters` and `late` are parts of the state of the station.
   LineStation(Device& device, std::size_t port, StationCounters& counters,
               std::vector<FaultyWire::Late>& late)
       : device_(device), port_(port), counters_(counters), wire_(*this, late) {}
@@ -62,7 +62,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   Device& device_;
   std::size_t port_;
   StationCounters& counters_;
-  FaultyWire wire_;  // everything that it receives and sends passes through it
+  FaultyWire wire_;  // everything that the station receives and sends passes through it
 };
 
 using LineStations = std::vector<std::unique_ptr<LineStation>>;

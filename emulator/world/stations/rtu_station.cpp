@@ -46,7 +46,7 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
   while (const auto frame = state_.framer.take_due(now)) {
-    report_errors(state_.framer);  // the errors before the frame
+    report_errors(state_.framer);  // errors before the frame come first
     take_frame(*frame, now, out);
   }
   report_errors(state_.framer);

@@ -1,5 +1,5 @@
-// A Modbus RTU station: a device's presence on a line. It takes frames from its own framer, asks the device
-// whether the address is its own, and answers.
+// A Modbus RTU station: a device's presence on a line. It receives frames from its own framer, asks the
+// device whether the address is its own, and answers.
 #pragma once
 
 #include "emulator/world/stations/line_station.h"
@@ -46,7 +46,7 @@ class RtuStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What it has received and counted. The device's state is separate.
+  /// What the station has received and counted. The device's state is separate.
   struct State {
     pty::RtuFramer framer;
     StationCounters counters;
@@ -55,7 +55,7 @@ class RtuStation final : public LineStation {
   const State& save() const { return state_; }
 
  private:
-  /// Must be called after each call of the framer. It reports errors to the device.
+  /// Must be called after each call of the framer. Reports errors to the device.
   void report_errors(pty::RtuFramer& framer) {
     if (framer.has_errors()) report_each_error(framer);
   }

@@ -71,7 +71,7 @@ ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objectio
 
 Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
 
-/// A function that the model serves: its table, given the tables that the model has, and its own limit.
+/// A function that the model serves: the table that it uses in this model, and the model's limit.
 struct Service {
   const FunctionRow& row;
   Table table;
@@ -146,7 +146,7 @@ ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
   return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
-/// Returns null if the function cannot be served, or if the model does not know it.
+/// Returns null if the function cannot be served, or if the model does not support it.
 const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;
@@ -191,7 +191,7 @@ ModbusReply report_server_id(const RtuRules& rules, Pdu pdu) {
   return reply;
 }
 
-/// Sets and clears some bits of a holding register: (present AND and-mask) OR (or-mask AND NOT and-mask).
+/// Sets and clears some bits of a holding register: (old value AND and-mask) OR (or-mask AND NOT and-mask).
 ModbusReply mask_write(RegisterBank& bank, Pdu pdu) {
   constexpr std::size_t kSize = 7;
   const FunctionRow& writing = *function_for(Table::holding, FunctionRow::Kind::write_one);
@@ -282,7 +282,7 @@ ModbusReply identify(const RtuRules& rules, Pdu pdu) {
   for (const IdentityObject& object : rules.identity) {
     if (object.id < first || object.id > last) continue;
     if (reply.size + 2 + object.text.size() > reply.pdu.size()) {
-      reply.pdu[4] = 0xFF;  // more follows
+      reply.pdu[4] = 0xFF;  // more objects follow
       reply.pdu[5] = object.id;
       break;
     }
@@ -307,7 +307,7 @@ ModbusReply serve_other(RegisterBank& bank, const RtuRules& rules, OtherFunction
   return exception(pdu, nullptr, bad_value(Cause::unknown_function));
 }
 
-/// Returns null if the model does not know the function.
+/// Returns null if the model does not support the function.
 const OtherFunctionRow* find_other(const RtuRules& rules, std::uint8_t code) {
   if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
     return nullptr;

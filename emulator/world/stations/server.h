@@ -1,4 +1,4 @@
-// Serves Modbus requests from a device's register map. It knows functions and exceptions, but not frames,
+// Serves Modbus requests from a device's register map. It handles functions and exceptions, but not frames,
 // addresses or time. (MODBUS Application Protocol V1.1b3.)
 #pragma once
 
@@ -29,7 +29,7 @@ struct FunctionRow {
   int max = 1;  // in bits or registers; a model may allow fewer (RtuRules::limits)
 };
 
-/// All supported functions; a model knows some of them.
+/// All supported functions; a model supports some of them.
 inline constexpr FunctionRow kModbusFunctions[] = {
     {0x01, Table::coil, FunctionRow::Kind::read, 2000},
     {0x02, Table::discrete, FunctionRow::Kind::read, 2000},
@@ -41,17 +41,17 @@ inline constexpr FunctionRow kModbusFunctions[] = {
     {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
-/// Functions that are more than one access to one table. Only models that list them know them.
+/// Functions that are more than one access to one table. Only models that list them support them.
 enum class OtherFunction : std::uint8_t {
   diagnostics = 0x08,  // sub-function 0: returns the request
   server_id = 0x11,
   mask_write = 0x16,
-  read_and_write = 0x17,  // writes first
+  read_and_write = 0x17,  // writes before it reads
   identification = 0x2B,  // MEI type 14
 };
 struct OtherFunctionRow {
   OtherFunction code;
-  int max = 1;  // in registers to read; to write, the standard allows 121
+  int max = 1;  // the maximum number of registers to read; the standard allows 121 to be written
 };
 inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::diagnostics},
                                                              {OtherFunction::server_id},
@@ -59,7 +59,7 @@ inline constexpr OtherFunctionRow kOtherModbusFunctions[] = {{OtherFunction::dia
                                                              {OtherFunction::read_and_write, 125},
                                                              {OtherFunction::identification}};
 
-/// Returns the function that reads or writes a table, or null if there is none: inputs cannot be written.
+/// Returns the function that reads or writes a table, or null if there is none, as for writing inputs.
 constexpr const FunctionRow* function_for(Table table, FunctionRow::Kind kind) {
   for (const FunctionRow& row : kModbusFunctions) {
     if (row.table == table && row.kind == kind) return &row;
@@ -76,8 +76,8 @@ struct ModbusReply {
 };
 
 /// Executes one request (function code and data) and makes its reply. A request that is answered with an
-/// exception has changed nothing. Checks are in this order: function, quantity and byte count, addresses,
-/// values, and whether the device takes it now.
+/// exception does not change anything. The order of the checks is: function, quantity and byte count,
+/// addresses, values, and whether the device accepts the request now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

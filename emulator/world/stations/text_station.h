@@ -1,11 +1,11 @@
 // A device with a text protocol on its line. It joins characters into lines, passes them to the device, and
 // sends the device's text: answers to lines, or unasked text.
 //
-// The host's XOFF stops a device with flow control until its XON, or until the power goes: the device still
+// The host's XOFF stops a device with flow control until its XON, or until the power fails: the device still
 // receives, but its answers wait, and its unasked text stays in the device. It sends no XOFF itself.
 //
-// Long texts are sent in pieces as fast as the wire carries them, so that no line's buffer overflows. While
-// the wire is busy with its text, unasked text stays in the device.
+// Long texts are sent in pieces, as fast as the wire carries them, so that the line's buffer does not
+// overflow. While the wire is busy with its text, unasked text stays in the device.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ namespace understudy::emulator::world {
 
 class TextStation final : public LineStation {
  public:
-  /// The number of characters given to the line at once.
+  /// The number of characters passed to the line at once.
   static constexpr std::size_t kPiece = 1024;
   /// Like kPiece, if the host may send XOFF: characters that are already on the line cannot be stopped.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
-  /// With this many waiting characters it accepts no more text from the device until some are sent.
+  /// With this many characters waiting, the station accepts no more text from the device until some are sent.
   static constexpr std::size_t kMaxOutgoing = 64 * 1024;
 
-  /// `is_instant`: the line's characters take no time. The device must have a text protocol.
+  /// `is_instant` is true if characters take no time on the line. The device must have a text protocol.
   TextStation(Device& device, std::size_t port, bool is_instant);
 
   void receive(const pty::TimedByte& byte) override;
@@ -42,14 +42,15 @@ class TextStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// A received line that is still to be executed: at its time, within the event that completed it.
+  /// A received line that has not been executed yet. It is executed at the time of the event that completed
+  /// it.
   struct Waiting {
-    bool has_received = false;  // false: the character is only echoed
+    bool has_received = false;  // false if the character is only echoed
     pty::ReceivedText received;
     std::string echo{};
   };
   struct Outgoing {
-    std::uint64_t last_character = 0;  // of the line that it answers; 0: sent without a request
+    std::uint64_t last_character = 0;  // of the line that this answers; 0: sent without a request
     std::string text{};
   };
   struct State {
@@ -58,8 +59,8 @@ class TextStation final : public LineStation {
     std::vector<Waiting> waiting{};  // at most one
     std::vector<FaultyWire::Late> late{};
     std::vector<Outgoing> outgoing{};
-    pty::SimTime free_at{0};                  // when the wire has carried its data
-    std::optional<pty::SimTime> speaks_at{};  // when the device's unasked text is taken
+    pty::SimTime free_at{0};                  // when the wire has finished carrying this station's data
+    std::optional<pty::SimTime> speaks_at{};  // when to take unasked text from the device
     bool is_held = false;                     // by the host's XOFF
   };
   const State& save() const { return state_; }

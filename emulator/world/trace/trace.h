@@ -26,8 +26,8 @@ class TraceFormat {
  public:
   virtual ~TraceFormat() = default;
   virtual void begin(const std::vector<TraceSignal>& signals) = 0;
-  /// Values are in the order of the signals. `is_new[i]` is true if one has changed since the last call; at
-  /// first all are.
+  /// Values are in the order of the signals. `is_new[i]` is true if the value has changed since the last
+  /// call; in the first call all are new.
   virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
   /// Called at the end. Nothing has changed since the last row.
   virtual void end(SimTime at, const std::vector<Number>& values) = 0;
@@ -36,12 +36,12 @@ class TraceFormat {
 std::unique_ptr<TraceFormat> csv_format(TakeLine take);
 std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
 
-/// Returns the signals of each device: for each axis its pulses, planned speed, the machine's position and
-/// switches, and its duty; inputs and outputs, groups of them as words, and the registers that show its
-/// state. Those in `also` come last, by the names of probe_names.h (NameError).
+/// Returns the signals of each device: for each axis, its pulses, its planned speed, its machine's position
+/// and switches, and its duty; inputs and outputs, groups of them as words, and the registers that show its
+/// state. The signals in `also` (names of probe_names.h) come last. Throws NameError.
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
 
-/// Watches the world for as long as it lives.
+/// Watches the world as long as the object exists.
 class Trace final : private TickWatcher {
  public:
   Trace(World& world, const std::vector<TraceSignal>& signals, std::unique_ptr<TraceFormat> format);
@@ -52,7 +52,7 @@ class Trace final : private TickWatcher {
  private:
   void on_tick(Tick tick) override;
   Tick next_poll(Tick done) const override;
-  void on_rest(Tick) override {}  // it writes only changes
+  void on_rest(Tick) override {}  // a trace contains only changes
   void sample(SimTime at);
 
   World& world_;

@@ -11,14 +11,14 @@
 
 namespace understudy::emulator::world {
 
-/// Returns true if a path is that of a trace: FILE.csv or FILE.vcd.
+/// Returns true if a path is that of a trace file: FILE.csv or FILE.vcd.
 bool is_trace_name(const std::string& path);
 
 class TraceFile {
  public:
-  /// Opens the file; its old content stays until begin(). The trace has the signals of trace_signals().
-  /// `log` receives a line if it ends early. The world must outlive it. Throws NameError (then nothing is
-  /// opened) and GrowingFileError.
+  /// Opens the file; its old content stays until begin(). The trace has the signals of trace_signals(). `log`
+  /// receives a line if the trace ends early. The world must outlive it. Throws NameError, before anything is
+  /// opened, or GrowingFileError.
   TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
             std::function<void(const std::string&)> log);
 
@@ -33,7 +33,7 @@ class TraceFile {
   std::vector<TraceSignal> signals_;
   bool is_vcd_;
   GrowingFile file_;
-  std::unique_ptr<Trace> trace_;  // last: it ends before its file does
+  std::unique_ptr<Trace> trace_;  // the last member, because the trace must end before its file
 };
 
 }  // namespace understudy::emulator::world

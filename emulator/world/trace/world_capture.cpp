@@ -16,7 +16,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Returns "pc", or "pc (mill PC)" with the ports of devices that have several.
+/// Returns "pc", or "pc (mill PC)" with the port if the device has several.
 std::string interface_name(const WorldLine& line) {
   std::string ports;
   for (const auto& station : line.stations) {

@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 
 class BenchInventory final : public Inventory {
  public:
-  /// The bench must outlive it, and must not contain anything that its models refuse.
+  /// The bench must outlive it, and must not contain anything that the devices' models refuse.
   explicit BenchInventory(const Bench& bench);
 
   std::size_t line_count() const override { return bench_.lines.size(); }

@@ -23,7 +23,7 @@ struct WorldLine {
   pty::Line line;
   const LineProtocol& protocol;
   LineStations stations;
-  pty::RtuFraming framing{};  // from its stations; the shortest silence if they differ
+  pty::RtuFraming framing{};  // from the stations; the shortest silence if they differ
 
   /// These functions use `protocol`.
   std::string request_text(std::span<const std::uint8_t> request) const {
@@ -56,7 +56,7 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Sees ticks when they are completely over. It may act on the world as an outside event does.
+/// Sees ticks when they are completely over. The watcher may act on the world like an outside event.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
@@ -65,7 +65,7 @@ class TickWatcher {
   /// every tick, kNever if it does not need unchanged ticks. The first tick at which nothing happens is shown
   /// to all observers.
   virtual Tick next_poll(Tick done) const { return done + 1; }
-  /// Called when nothing has changed since the tick that it saw last, and nothing changes up to `last`.
+  /// Called when nothing has changed since the last tick that it saw, and nothing will change up to `last`.
   virtual void on_rest(Tick last) { on_tick(last); }
 };
 
