@@ -1,7 +1,7 @@
 // An executor runs a scenario: it has a world whose time it advances, and a host on the lines. There is one
 // in virtual time on the line itself (free_executor.h), one in real time over a real pty with libmodbus as
-// the host (real_executor.h), and one whose controllers are real (box/stage/). Scenarios must have the same
-// verdicts on all.
+// the host (real_executor.h), and one whose controllers are real (box/stage/). A scenario must have the same
+// verdict on all of them.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct HostReply {
     garbled,    // bytes that are not an answer to it
   } kind = Kind::silence;
   int exception = 0;
-  std::vector<std::uint16_t> words;  // the words that were read; in tables of bits, one bit each
+  std::vector<std::uint16_t> words;  // the words that were read; in bit tables, one word per bit
   std::vector<std::uint8_t> bytes;   // as received, with checksum; empty if libmodbus received them
 };
 
@@ -41,9 +41,9 @@ struct Awaited {
 class HostCommand {
  public:
   virtual ~HostCommand() = default;
-  /// Returns nothing while it runs.
+  /// Returns nothing while the command is running.
   virtual std::optional<int> exit_code() const = 0;
-  /// Asks it to end.
+  /// Asks the command to end.
   virtual void stop() = 0;
 };
 
@@ -57,13 +57,13 @@ class Executor {
   /// controllers, the world supplies only names, station numbers and the word order.
   virtual RealBox* box() { return nullptr; }
 
-  // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after anything before
-  // it. Each call lasts, in simulated time, until the reply has arrived or time runs out.
+  // --- the host: a master on a line that makes one request at a time, t3.5 and `gap` after any
+  // earlier traffic. Each call lasts, in simulated time, until the reply has arrived or time runs out.
   virtual HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) = 0;
   /// Writes coils or holding registers.
   virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                           std::span<const std::uint16_t> words) = 0;
-  /// Writes holding registers that take a request as one message, always by function 10.
+  /// Writes holding registers that accept a request as one message, always by function 10.
   virtual HostReply write_message(std::size_t line, int station, std::uint16_t first,
                                   std::span<const std::uint16_t> words) = 0;
   /// Sends raw bytes. Returns the bytes received until there are `wanted`, or `within` has passed.
@@ -84,8 +84,8 @@ class Executor {
   /// Acts on the world between two ticks, or reads it. Exceptions of `act` are passed on.
   virtual void with_world(const std::function<void(world::World&)>& act) = 0;
   /// Lets time pass until the condition is true at the end of a tick (or now), but not beyond `deadline`.
-  /// Returns true if it is. `is_met` is called at every tick that may make a difference, on the thread that
-  /// runs the world.
+  /// Returns true if the condition became true. `is_met` is called at every tick that may make a difference,
+  /// on the thread that runs the world.
   virtual bool run_until(const Awaited& awaited, SimTime deadline) = 0;
   virtual void advance(SimTime by) = 0;
   virtual SimTime now() = 0;
@@ -93,10 +93,11 @@ class Executor {
   virtual Tick tick_of_last_write() = 0;
 
   /// Returns since when each line has been quiet, as far as the host knows. This is not part of the world's
-  /// state, but the host's next request depends on it. Empty for a host in real time, which cannot go back.
+  /// state, but the host's next request depends on it. The result is empty for a host in real time, which
+  /// cannot go back.
   virtual std::vector<SimTime> quiet_since() { return {}; }
-  /// Sets the times that another executor of this bench returned when its world was in the state that this
-  /// world was just put into.
+  /// Sets the times that another executor of this bench returned when its world was in the state into which
+  /// this world has just been put.
   virtual void set_quiet_since(const std::vector<SimTime>&) {}
 };
 

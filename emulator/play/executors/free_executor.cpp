@@ -35,7 +35,7 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
   return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
 }
 
-/// The master on one line. It knows when the line was last busy, and receives its output.
+/// The master on one line. It keeps track of when the line was last busy, and receives the line's output.
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
@@ -62,7 +62,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
   SimTime quiet_since() const { return quiet_since_; }
   void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
   void set_quiet_since(SimTime since) { quiet_since_ = since; }
-  /// Forgets everything after `now`, because simulated time was set back.
+  /// Forgets everything after `now`, because simulated time has been set back.
   void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
 
   /// Takes the bytes that have arrived since the last call.
@@ -99,7 +99,7 @@ class FreeExecutor::Host final : public pty::LineObserver {
  private:
   world::World& world_;
   std::size_t number_;
-  pty::LineSettings settings_;  // the line's at the beginning, because a host does not follow a DIP switch
+  pty::LineSettings settings_;  // the line's initial settings, because a host does not follow a DIP switch
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;
 };

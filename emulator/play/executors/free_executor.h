@@ -1,6 +1,6 @@
 // An executor in virtual time: simulated time passes as fast as it can, and the host is on the line itself.
 // It is a correct Modbus RTU master: it leaves a silence of t3.5 before each frame (plus the scenario's gap)
-// and no gap within one. A reply ends when it is complete, or when t3.5 of silence follow its last byte.
+// and no gap within a frame. A reply ends when it is complete, or when t3.5 of silence follows its last byte.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 namespace understudy::emulator::play {
 
 struct FreeExecutorOptions {
-  SimTime gap{0};                                    // beyond t3.5
+  SimTime gap{0};                                    // in addition to t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
   std::function<void(const std::string&)> log = {};  // receives messages of devices and lines
 };
@@ -60,7 +60,7 @@ class FreeExecutor final : public Executor {
   FreeExecutorOptions options_;
   std::vector<std::unique_ptr<Host>> hosts_;  // one per line
   const Host* writing_ = nullptr;             // the host whose write is being executed
-  std::uint64_t requests_before_ = 0;         // the requests of its stations before the write
+  std::uint64_t requests_before_ = 0;         // the number of requests to its stations before the write
   Tick tick_of_last_write_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// An executor beside a host in simulated time (docs/host-time.md). The host is another program, so the
-// executor has none. It acts on the world while the host sleeps and time stands still, so it acts at the same
-// moments in each run.
+// An executor that runs beside a host in simulated time (docs/host-time.md). The host is another program, so
+// the executor has no host of its own. It acts on the world while the host sleeps and time stands still, so
+// it acts at the same moments in each run.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class HostTimeExecutor final : public Executor {
                                          const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override { act(world_); }
-  /// The waits throw ExecutionAborted if the scenario was given up.
+  /// The waits throw ExecutionAborted if the scenario has been given up.
   bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
   SimTime now() override { return world_.now(); }

@@ -11,7 +11,7 @@
 #include "emulator/serve/loop/event_loop.h"
 #include "pty/line_settings.h"
 
-struct _modbus;  // NOLINT(bugprone-reserved-identifier): libmodbus calls it that
+struct _modbus;  // NOLINT(bugprone-reserved-identifier): libmodbus uses this name
 
 namespace understudy::emulator::play {
 

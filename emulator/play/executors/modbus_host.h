@@ -1,4 +1,4 @@
-// Makes the frames of a Modbus RTU host, and judges replies. It knows neither time nor lines.
+// Makes the frames of a Modbus RTU host, and judges replies. It does not handle time or lines.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
 /// Returns how many bytes a host waits for after it has sent `request` and received `reply` so far.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// Returns what `reply`, all bytes received, means as the answer to a request of read_request() or
+/// Returns the meaning of `reply` (all received bytes) as the answer to a request of read_request() or
 /// write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 

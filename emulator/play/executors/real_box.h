@@ -1,5 +1,5 @@
-// What a scenario needs of a stage whose controllers are real, beside requests: acts on their surroundings,
-// moments as they were measured, and a stop. Nothing is known of a real controller but its answers.
+// What a scenario needs from a stage with real controllers, besides requests: actions on their surroundings,
+// measured times, and a stop. Nothing is known about a real controller except its answers.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct RigFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// When something happened, as the host's clock tells.
+/// When something happened, by the host's clock.
 struct Moment {
   SimTime earliest{0};
   SimTime latest{0};
@@ -37,10 +37,10 @@ class RealBox {
  public:
   virtual ~RealBox() = default;
 
-  /// Returns why nobody answers on a line, or nothing.
+  /// Returns why no station answers on a line, or nothing if stations answer.
   virtual std::optional<std::string> why_unreachable(std::size_t line) const = 0;
-  /// Has a rig or a person do something: {"input", "feeder.DIN_2", "on"}. Returns nothing if it is done, or
-  /// why it is not.
+  /// Has a rig or a person perform an action: {"input", "feeder.DIN_2", "on"}. Returns nothing if the action
+  /// was performed, otherwise the reason.
   virtual std::optional<std::string> act(const std::vector<std::string>& words) = 0;
   /// Asks a rig for a value that is not on the line. Returns nothing if there is none.
   virtual std::optional<std::string> tell(const std::string& name) = 0;
@@ -52,12 +52,12 @@ class RealBox {
   virtual Moment last_write() const = 0;
   /// Returns the last frames, the oldest first.
   virtual std::vector<std::string> last_frames() const = 0;
-  /// Nothing is sent: the world answers, and is acted on.
+  /// Returns true in a rehearsal: nothing is sent, and the world takes the place of the controllers.
   virtual bool is_rehearsal() const = 0;
-  /// Requests are only listed, and nothing is judged.
+  /// Returns true if requests are only listed, and nothing is judged.
   virtual bool only_plans() const = 0;
 
-  /// Stops everything, if anything was allowed that may move.
+  /// Stops everything if the user has allowed anything that may move.
   virtual void stop() = 0;
 };
 

@@ -23,9 +23,9 @@ struct ExecutionAborted : std::runtime_error {
 };
 
 struct RealExecutorOptions {
-  SimTime gap{0};                                    // beyond t3.5
+  SimTime gap{0};                                    // in addition to t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  /// If false, the hosts on its lines are other programs, and the executor has none.
+  /// If false, the hosts on its lines are other programs, and the executor has no host.
   bool has_hosts = true;
   /// Once it is true, every wait throws ExecutionAborted. Waits also throw it after the daemon has ended,
   /// because time stops then. Null: the scenario is never abandoned.
@@ -37,7 +37,7 @@ class RealExecutor final : public Executor {
   /// Another thread runs the daemon. After the daemon has ended, that thread must not touch the world as long
   /// as this executor lives. Throws pty::PortError.
   RealExecutor(serve::Daemon& daemon, RealExecutorOptions options);
-  /// Like the above, with a daemon of its own, which has been started.
+  /// Like the above, but with its own daemon, which has been started.
   RealExecutor(std::unique_ptr<serve::DaemonThread> thread, RealExecutorOptions options);
   ~RealExecutor() override;
   RealExecutor(const RealExecutor&) = delete;
@@ -76,9 +76,9 @@ class RealExecutor final : public Executor {
   serve::Daemon& daemon_;
   RealExecutorOptions options_;
   std::unique_ptr<WriteClock> writes_;
-  std::vector<pty::LineOptions> lines_;                // at the beginning; hosts do not follow a DIP switch
+  std::vector<pty::LineOptions> lines_;  // the initial settings, because hosts do not follow a DIP switch
   std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one per line
-  std::optional<SimTime> found_at_;                    // by run_until(), if no time has passed since
+  std::optional<SimTime> found_at_;  // the result of run_until(), if no time has passed since
 };
 
 /// Makes an executor in real time with the scenario's bench and gap, and with ports of its own. The devices'

@@ -1,5 +1,5 @@
-// Gives the world to one of two threads at a time: the one that runs it, or the scenario's. So the scenario
-// acts at exact moments of simulated time, which are the same in every run.
+// Gives the world to one of two threads at a time: the one that runs it, or the scenario's. The scenario
+// therefore acts at exact moments of simulated time, which are the same in every run.
 #pragma once
 
 #include <condition_variable>
@@ -20,13 +20,13 @@ class Turns final : public serve::SimulatedTask {
   std::optional<SimTime> next_act() const override;
   /// Gives the scenario up. Its wait ends at the next act().
   void give_up();
-  /// Called when the world no longer runs. The scenario may then act on it at any time.
+  /// Called when the world is no longer running. The scenario may then act on it at any time.
   void leave();
 
   // --- called by the scenario's thread -------------------------------------------------------------
   /// Waits for the first turn.
   void begin();
-  /// Gives the turn away until simulated time is `end`, or the watch has found its condition, or the scenario
+  /// Gives the turn away until simulated time reaches `end`, the watch finds its condition, or the scenario
   /// is given up.
   void wait_until(SimTime end, const ConditionWatch* watch = nullptr);
   /// Called when the scenario no longer acts.
@@ -42,7 +42,7 @@ class Turns final : public serve::SimulatedTask {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Whose turn_ = Whose::world;
-  std::optional<SimTime> end_ = SimTime{0};  // when the scenario's wait ends; nothing after finish()
+  std::optional<SimTime> end_ = SimTime{0};  // when the scenario's wait ends; no value after finish()
   const ConditionWatch* watch_ = nullptr;
   bool is_given_up_ = false;
   bool is_left_ = false;

@@ -21,7 +21,7 @@ class WriteClock {
   /// Returns the tick from which the last write takes effect, or 0 if there was none. Refused writes do not
   /// count.
   Tick tick_of_last_write() const { return last_; }
-  /// Forgets partly received frames, after the lines were put into another state.
+  /// Forgets partly received frames, after the lines have been put into another state.
   void restart();
 
  private:
@@ -32,9 +32,9 @@ class WriteClock {
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
   Tick last_ = 0;
-  Tick before_ = 0;  // the tick of the write before
+  Tick before_ = 0;  // the tick of the previous write
   static constexpr std::size_t kNone = SIZE_MAX;
-  std::size_t unanswered_ = kNone;  // the line on which the last write waits for its reply
+  std::size_t unanswered_ = kNone;  // the line on which the last write is waiting for its reply
 };
 
 }  // namespace understudy::emulator::play

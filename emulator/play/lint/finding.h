@@ -24,7 +24,7 @@ struct Finding {
   SimTime first{0};
   SimTime last{0};
   SimTime extreme{0};     // the shortest silence, the longest gap
-  std::string command{};  // the command of the first one, if it has a name
+  std::string command{};  // the name of the command in the first such request, if it has one
 
   void add(SimTime at, const std::string& its_command = {}) {
     if (count == 0) {

@@ -19,7 +19,7 @@ class HostLint final : public pty::LineObserver {
   HostLint(const HostLint&) = delete;
   HostLint& operator=(const HostLint&) = delete;
 
-  /// Forgets the traffic so far, after the line was put into another state.
+  /// Forgets the traffic so far, after the line has been put into another state.
   void restart();
   const Findings& findings() const { return findings_; }
   /// Return the silences that the line must have before a request, and may have within one. Neither is

@@ -1,5 +1,5 @@
 // Checks how hosts behave on a world's lines: behaviour that works here, or only just, but would fail with a
-// real controller. It observes as long as it lives, and reports once, at the end.
+// real controller. It observes for its whole lifetime, and reports once, at the end.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class Lint final : public Observer {
   /// The world must outlive it.
   explicit Lint(world::World& world);
 
-  /// Returns one line of text for each finding, with its count and its first moment, in the order of the
-  /// bench's lines. Empty if there are none.
+  /// Returns one line of text for each finding, with the number of occurrences and the time of the first, in
+  /// the order of the bench's lines. Empty if there are none.
   std::vector<std::string> findings() const;
 
   void world_restored(std::size_t steps) override;

@@ -1,5 +1,5 @@
-// The names of expressions as requests to real controllers: registers are read, neighbours in one request;
-// values of a text controller are queried. A rig may know other names.
+// Turns the names in expressions into requests to real controllers: registers are read (adjacent ones in one
+// request), and values of a text controller are queried. A rig may provide other names.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class AskedNames final : public world::NameResolver, public world::ValueSource {
  public:
   struct Place {
     std::optional<Target> reg{};          // a register
-    std::optional<std::size_t> device{};  // of a value that is queried,
-    std::string query{};                  // by this line
+    std::optional<std::size_t> device{};  // the device of a value that is queried
+    std::string query{};                  // the line of text that queries the value
     bool is_time = false;
     std::string name{};
   };
@@ -32,7 +32,7 @@ class AskedNames final : public world::NameResolver, public world::ValueSource {
   world::NamedNumber resolve(std::string_view name) const override;
   world::Number value(std::int32_t handle) const override { return values_.at(handle); }
 
-  /// Returns how a name is asked. A place with nothing but a name is not on the line.
+  /// Returns how to query a name. A place that has only a name cannot be read over the line.
   Place place_of(std::int32_t handle) const;
   void set(std::int32_t handle, world::Number value) { values_[handle] = value; }
   const std::map<std::int32_t, world::Number>& values() const { return values_; }

@@ -32,7 +32,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// Reading a case again takes less than a tenth of its run, but suites of an ordinary size need not do so.
+// Reading a case again takes less than a tenth of the time of its run, but suites of an ordinary size need
+// not do so.
 constexpr std::size_t kMaxHeld = 1000;
 constexpr std::size_t kMaxShared = 256;  // benches and files of steps
 constexpr std::size_t kTrimEvery = 256;  // files
@@ -41,7 +42,7 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
   return hash_of(std::as_bytes(std::span(text)), onto);
 }
 
-/// Forgets shared files if there are many.
+/// Forgets shared files if there are too many.
 void keep_few(SharedReading& shared) {
   if (shared.benches.size() > kMaxShared) shared.benches.clear();
   if (shared.included.size() > kMaxShared) shared.included.clear();

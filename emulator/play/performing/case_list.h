@@ -20,7 +20,7 @@
 
 namespace understudy::emulator::play {
 
-/// A part of a suite: number 1 has the first case and each `of`th case after it.
+/// A part of a suite: number 1 has the first case and every `of`th case after it.
 struct Shard {
   std::uint64_t number = 1;
   std::uint64_t of = 1;
@@ -28,7 +28,7 @@ struct Shard {
 /// Reads "2/4". Returns nothing for any other text.
 std::optional<Shard> parse_shard(std::string_view text);
 
-/// Returns true if the pattern (`*`, `?`, `[abc]`) matches the case's name, or is its identity.
+/// Returns true if the pattern (`*`, `?`, `[abc]`) matches the case's name, or if it is the case's identity.
 bool matches(const std::string& pattern, const std::string& name, std::uint64_t identity);
 
 class CaseList {
@@ -53,7 +53,7 @@ class CaseList {
     std::uint64_t size = 0;
     bool is_varied = false;
     std::uint64_t made_of = 0;
-    std::vector<std::shared_ptr<const Scenario>> held;  // all cases, or none
+    std::vector<std::shared_ptr<const Scenario>> held;  // all cases of the file, or none
   };
   std::uint64_t hash_of_file(const std::string& path);
   void claim_saved(const Scenario& scenario) const;
@@ -61,7 +61,7 @@ class CaseList {
   ReadingOptions options_;
   SharedReading shared_;
   std::vector<File> files_;
-  std::size_t held_ = 0;                         // cases, of all files
+  std::size_t held_ = 0;                         // the number of held cases in all files
   std::map<std::string, std::uint64_t> hashes_;  // of files, by path
   // The files that unlisted cases save: a hash of the path, and one of the case.
   mutable std::mutex saved_mutex_;
@@ -93,7 +93,7 @@ class Selection {
   /// An empty pattern matches all.
   Selection(const CaseList& case_list, std::string pattern, Shard shard);
   std::optional<CaseId> next();
-  /// Returns how many cases next() gives in total. With a pattern they are counted one by one.
+  /// Returns how many cases next() returns in total. With a pattern they are counted one by one.
   static std::uint64_t count(const CaseList& case_list, const std::string& pattern, Shard shard);
 
  private:

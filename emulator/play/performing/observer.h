@@ -15,8 +15,8 @@ namespace understudy::emulator::play {
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// Called when the world was put into another state, after this many steps: time may have gone back, and
-  /// the state of the lines has changed.
+  /// Called when the world has been put into another state, after this many steps. Time may have gone back,
+  /// and the state of the lines has changed.
   virtual void world_restored(std::size_t steps) = 0;
   virtual void step_over() {}
   /// Called when the scenario is over. Writes the observations into its result.

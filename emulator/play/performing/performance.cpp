@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::size_t kFramesReported = 10;
 
-/// Returns true if an expression needs a value that must be watched in every tick from the beginning.
+/// Returns true if an expression needs a value that must be watched at every tick from the beginning.
 bool names_peaks(const Steps& steps);
 
 struct NamesPeaks {
@@ -60,7 +60,7 @@ bool names_peaks(const Steps& steps) {
                      [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
 }
 
-/// Returns whether a step advances time or sets it back.
+/// Returns true if a step advances time or sets it back.
 struct MovesTime {
   bool operator()(const WriteStep&) const { return true; }
   bool operator()(const CommandStep&) const { return true; }

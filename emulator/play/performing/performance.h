@@ -23,7 +23,7 @@
 
 namespace understudy::emulator::play {
 
-/// The reason for which a step failed. `what`, `expected`, `came` and `details` are as in Failure.
+/// The reason why a step failed. `what`, `expected`, `came` and `details` are as in Failure.
 struct StepError : std::runtime_error {
   StepError(const std::string& what_is_wrong, std::string what_was_expected = {}, std::string what_came = {},
             std::vector<std::string> further_details = {})
@@ -50,8 +50,8 @@ class Performance {
     std::uint64_t hash = 0;
   };
 
-  /// The scenario must outlive it. `with_hash` keeps outcome_hash(), which takes time. `command` is the
-  /// command that runs with the scenario, or null.
+  /// The scenario must outlive it. `with_hash` enables outcome_hash(), which takes time to compute. `command`
+  /// is the command that runs with the scenario, or null.
   Performance(const Scenario& scenario, std::unique_ptr<Executor> executor, bool with_hash,
               HostCommand* command = nullptr);
   ~Performance();
@@ -65,12 +65,12 @@ class Performance {
   bool is_on_box() const { return on_box_ != nullptr; }
   /// Returns why the last step was not executed, or an empty text.
   const std::string& skipped() const { return skipped_; }
-  /// Brings a real controller into the state in which the scenario begins, as far as it can be asked or
-  /// written over the line. Called before the first step.
+  /// Brings a real controller into the state in which the scenario begins, as far as that state can be read
+  /// or written over the line. Called before the first step.
   std::optional<Failure> begin_on_box();
   /// Lets the next step begin now. Otherwise an `advance` makes up for the time since the last step.
   void begin_step_now();
-  /// Returns the value at this moment: of the world, or as a real controller tells it.
+  /// Returns the current value, from the world or from a real controller.
   world::Number present_value(const std::string& expression);
 
   Checkpoint save();
@@ -162,7 +162,7 @@ class Performance {
   std::vector<std::vector<std::size_t>> lines_;  // the lines of each device
   std::unique_ptr<WorldObservers> world_observers_;
   bool keeps_peaks_ = false;
-  const Step* step_ = nullptr;                               // the one that is being executed
+  const Step* step_ = nullptr;                               // the step that is being executed
   std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
   Tick last_write_ = 0;                                      // the checkpoint's, until the next write
 };

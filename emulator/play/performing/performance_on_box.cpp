@@ -164,7 +164,7 @@ std::optional<Failure> Performance::OnBox::attempt(const Step* step, const std::
   return std::nullopt;
 }
 
-/// The stop goes out first.
+/// Sends the stop before it reports the failure.
 Failure Performance::OnBox::fail(const StepError& error) {
   const SimTime at = performance_.executor_->now();
   std::vector<std::string> frames = box_.last_frames();
@@ -216,7 +216,7 @@ void Performance::OnBox::use_line(const TextStep& step) {
   due_ = performance_.executor_->now();
 }
 
-/// Nothing depends on a step that only looks.
+/// Performs a step that only reads values. Later steps do not depend on such a step.
 void Performance::OnBox::look(const std::function<void()>& at) {
   try {
     at();
@@ -225,7 +225,7 @@ void Performance::OnBox::look(const std::function<void()>& at) {
   }
 }
 
-/// A value that changes while it is read cannot be compared: the moment of the reading is not exact.
+/// A value that changes while it is read cannot be compared, because the moment of reading is not exact.
 void Performance::OnBox::expect(const ExpectStep& step) {
   for (const ExpectStep::Entry& entry : step.entries)
     if (!entry.target.is_value) require_reachable(entry.target.device, step.via);
@@ -284,7 +284,7 @@ void Performance::OnBox::open(const Step& at, const SpanStep& step) {
                     .place = place_text(at)});
 }
 
-/// Between two looks a span may be violated unseen.
+/// Checks the open spans. A violation between two checks is not noticed.
 void Performance::OnBox::check_spans() {
   for (const Span& span : spans_) {
     Asking asking(*this, {});
@@ -311,7 +311,7 @@ void Performance::OnBox::wait(const WaitStep& step) {
   Executor& executor = *performance_.executor_;
   const SimTime deadline = performance_.moment_in(step.within);
   const Moment write = box_.last_write();
-  SimTime not_yet = write.latest;  // it was not true then
+  SimTime not_yet = write.latest;  // the condition was not true at this time
   bool is_first = true;
   while (true) {
     const SimTime asked = executor.now();
@@ -357,7 +357,7 @@ std::optional<Failure> Performance::OnBox::begin() {
   });
 }
 
-/// The scenario begins after power-up, which only a rig can give, and with the values that the bench sets.
+/// The scenario begins after power-up, which only a rig can perform, and with the values that the bench sets.
 void Performance::OnBox::set_up(std::size_t device) {
   const DeviceSettings& settings = performance_.bench_.devices[device].settings;
   const Model& model = *performance_.bench_.devices[device].model;

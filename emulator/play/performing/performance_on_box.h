@@ -1,5 +1,5 @@
-// A performance whose controllers are real. All that is known of them is what they answer: names become
-// requests, waits become polls, and what needs the world is done by a rig or a person, or skipped.
+// A performance whose controllers are real. Nothing is known about them except their answers: names become
+// requests, waits become polls, and everything that needs the world is done by a rig or a person, or skipped.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +68,7 @@ class Performance::OnBox {
   RealBox& box_;
   std::vector<Span> spans_;
   std::string cut_;  // why all later steps are skipped
-  /// When the present step would have begun if looking took no time, as in simulated time.
+  /// When the current step would have begun if reading values took no time, as in simulated time.
   SimTime due_{0};
 };
 

@@ -36,7 +36,7 @@ std::string text_of_value(double value) {
   return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};  // the shortest text
 }
 
-/// Compares registers or reals. A value that an image leaves out is the factory's value.
+/// Compares registers or reals. A value that an image leaves out has the factory value.
 template <class Values>
 void compare_values(const Values& present, const Values& wanted, std::vector<std::string>& lines) {
   using Map = std::map<std::string, typename Values::value_type::second_type>;

@@ -10,8 +10,8 @@
 namespace understudy::emulator::play {
 
 /// A recording cannot go back in time. When the scenario returns to an earlier state, or is a branch that
-/// begins in one, the recording starts again from that state's snapshot. So it always leads from there to
-/// the end.
+/// begins in one, the recording starts again from that state's snapshot. It therefore always leads from that
+/// state to the end.
 class PerformanceRecorder final : public Observer {
  public:
   /// Begins with `header`, which must be for the world's power-up. The caller removes the file. Throws

@@ -83,8 +83,8 @@ Tick Performance::last_write() {
   return tick != 0 ? tick : last_write_;
 }
 
-/// Begins to watch a condition. If it becomes true while the reply to a write is still on the line, that was
-/// after the write.
+/// Begins to watch a condition. If it becomes true while the reply to a write is still on the line, this
+/// counts as after the write.
 void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
   executor_->with_world([&](world::World& world) {
     const auto [history, is_new] = world_observers_->histories.try_emplace(

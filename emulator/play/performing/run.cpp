@@ -28,7 +28,7 @@ using Checkpoints = std::map<std::string, Checkpoint>;
 
 constexpr std::string_view kBranch = " / ";  // between the name of a scenario and that of a branch
 
-/// Returns whether a step compares something with what was expected.
+/// Returns true if a step compares something with what was expected.
 struct Judges {
   bool operator()(const WriteStep& step) const { return !step.answer.is_good(); }
   bool operator()(const CommandStep& step) const { return !step.answer.is_good(); }
@@ -168,7 +168,7 @@ class Run {
     }
   }
 
-  /// Goes on from the state of options_.begin, if there is one. Returns how many steps are over.
+  /// Continues from the state of options_.begin, if there is one. Returns how many steps have been executed.
   std::size_t go_on(Performance& performance, Observers& observers, ScenarioResult& result) const {
     if (!options_.begin) return 0;
     result = options_.begin->played;
@@ -210,7 +210,8 @@ class Run {
     return result;
   }
 
-  /// A real controller cannot return to an earlier state, so its branches are not tellable.
+  /// A real controller cannot return to an earlier state, so the results of its branches cannot be
+  /// determined.
   void leave_out(const std::string& name, const Steps& steps, bool is_on_box) {
     results_.push_back(result_called(name));
     results_.back().verdict =

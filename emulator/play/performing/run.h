@@ -1,4 +1,4 @@
-// Runs scenarios (docs/scenarios.md defines each step). Time is simulated on any executor.
+// Runs scenarios (docs/scenarios.md defines each step). Times are simulated times on every executor.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct RunOptions {
   std::vector<ObserverMaker> observers{};
   HostCommand* command = nullptr;            // the command that runs with the scenario; null: none
   std::shared_ptr<const Beginning> begin{};  // null: at power-up
-  /// Called after so many steps, if none of them failed, took a snapshot or was a fork.
+  /// Called after `keep_after` steps, if none of them failed, took a snapshot or was a fork.
   std::size_t keep_after = 0;  // 0: never
   std::function<void(Beginning)> keep{};
   /// Plays further steps with real controllers, after those of the scenario.

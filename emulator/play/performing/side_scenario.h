@@ -56,7 +56,7 @@ class SideScenario {
 
   serve::HostTime* host_time_;
   RunOptions options_;
-  Turns turns_;  // in host time
+  Turns turns_;  // used in host time
   std::atomic<bool> given_up_ = false;
   bool was_given_up_ = false;
   std::vector<ScenarioResult> results_;

@@ -20,8 +20,8 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The threads may be this many cases ahead of the first unfinished one. So a slow case does not soon hold up
-// the others, but results do not pile up without limit.
+// The threads may be this many cases ahead of the first unfinished one. A slow case therefore does not hold
+// up the others at once, and results do not pile up without limit.
 constexpr std::size_t kAhead = 256;
 
 /// The state that the threads share.
@@ -107,7 +107,7 @@ class CaseQueue {
   bool is_last_taken_ = false;
 };
 
-/// Starts threads, or as many of them as the system allows, but at least one.
+/// Starts `count` threads, or as many as the system allows, but at least one.
 void add_threads(std::vector<std::jthread>& threads, int count, const std::function<void()>& work) {
   for (int i = 0; i < count; ++i) {
     try {

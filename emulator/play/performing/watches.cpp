@@ -19,7 +19,7 @@ void SpanWatch::on_tick(Tick) {
     try {
       if (world::is_true(span.condition, values_) != span.is_never) continue;
       explained = world::explain(span.condition, values_);
-    } catch (const std::runtime_error& error) {  // no result; this does not concern whatever runs the world
+    } catch (const std::runtime_error& error) {  // no result; the caller must not see this
       explained = error.what();
     }
     violation_ = {

@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::play {
 
-/// Checks the open spans of `always` and `never`. An expression without a result violates its span, too.
+/// Checks the open spans of `always` and `never`. An expression without a result also violates its span.
 class SpanWatch final : public world::TickWatcher {
  public:
   struct Span {

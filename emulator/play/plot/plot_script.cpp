@@ -144,7 +144,8 @@ std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   return "set yrange [" + world::number_text(scale.low) + ":" + world::number_text(scale.high) + "]\n";
 }
 
-/// Returns true if a machine has followed all pulses, which then show nothing that its position does not.
+/// Returns true if a machine has followed all pulses, so that its pulses show nothing that its position does
+/// not.
 bool is_followed(const TraceTable& table, std::size_t column) {
   const std::string& name = table.names[column];
   const std::string position = name.substr(0, name.rfind('.')) + kPosition;

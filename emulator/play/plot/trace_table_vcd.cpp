@@ -39,7 +39,7 @@ class VcdReader {
     throw FileError(name_ + ":" + std::to_string(line_) + ": " + what);
   }
 
-  /// Returns the next word, or an empty one at the end.
+  /// Returns the next word, or an empty text at the end.
   std::string_view next() {
     const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
     while (at_ < text_.size() && is_blank(text_[at_])) {
@@ -87,7 +87,7 @@ class VcdReader {
   }
 
   void read_change(std::string_view word) {
-    if (word.starts_with("$")) return;  // $dumpvars and the like: the changes inside count like any others
+    if (word.starts_with("$")) return;  // the changes inside $dumpvars and similar keywords count too
     if (word.front() == '#') {
       end_row();
       Tick tick = 0;

@@ -178,7 +178,7 @@ std::vector<std::uint64_t> CaseTable::typical() const {
     std::uint64_t number = rows_.empty() ? 0 : i % rows_.size();
     for (const Variation& variation : variations_) {
       const std::uint64_t values = variation.count();
-      // If there are too many values to take each, they are taken evenly from the first to the last.
+      // If there are too many values to use every one, they are picked evenly from the first to the last.
       const std::uint64_t chosen = values <= count ? i % values : i * ((values - 1) / (count - 1));
       const bool is_last = values > count && i + 1 == count;
       number = number * values + (is_last ? values - 1 : chosen);

@@ -33,7 +33,7 @@ using When = Disturbance::When;
 
 constexpr std::string_view kInject = "inject";
 
-/// The fields of a fault that say when it acts. A fault without them is given a moment.
+/// The fields of a fault that determine when it acts. A fault without them is given a moment.
 constexpr std::array<std::string_view, 7> kMoments{"at", "nth", "from", "to", "when", "every", "chance"};
 
 bool is_drawn(const world::YamlFields& field) {
@@ -167,7 +167,7 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
 }
 
 /// Finds out which moments an entry may have. The command of a `host` step runs while the scenario waits in
-/// it, so what comes before that step waits for its moment.
+/// it, so a disturbance before that step waits for its moment.
 void HuntPlan::read_ways(Entry& entry, StepsReader& reader) {
   entry.at_step = entry.first;
   entry.ways = {When::here};

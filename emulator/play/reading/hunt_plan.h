@@ -17,10 +17,11 @@ namespace understudy::emulator::play {
 
 class StepsReader;
 
-/// The step of the file that a step of the scenario was made from. Some steps of files make several.
+/// The step of the file that a step of the scenario was made from. Some steps of a file become several steps
+/// of the scenario.
 struct WrittenStep {
   world::YamlFields fields;
-  bool continues = false;  // made from the same one as the step before
+  bool continues = false;  // made from the same step of the file as the previous step
 };
 
 /// A disturbance of a course.

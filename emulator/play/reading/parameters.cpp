@@ -135,7 +135,7 @@ std::string Parameters::evaluated(std::string_view written) const {
 }
 
 std::string Parameters::apply(const std::string& written) const {
-  constexpr std::size_t kLongest = 1'000'000;  // bytes; a few short lines could grow beyond it
+  constexpr std::size_t kLongest = 1'000'000;  // bytes; a few short lines could otherwise grow without limit
   std::string made;
   std::size_t at = 0;
   for (;;) {

@@ -15,7 +15,7 @@ namespace understudy::emulator::play {
 class Parameters final : public world::ScalarRule {
  public:
   Parameters() = default;
-  /// Has the parameters of `outer`, which must outlive it, and its own.
+  /// Contains the parameters of `outer`, which must outlive this object, and its own parameters.
   explicit Parameters(const Parameters& outer) : outer_(&outer) {}
   Parameters& operator=(const Parameters&) = delete;
 

@@ -47,7 +47,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// Returns true if the file is below the folder, after all links are followed.
+/// Returns true if the file is below the folder, after all links have been followed.
 bool is_below(const std::string& path, const std::string& folder) {
   namespace fs = std::filesystem;
   std::string target = path;
@@ -89,7 +89,7 @@ void read_firmwares(const world::YamlFields& fields, world::Bench& bench) {
 }
 
 /// Makes a trial bench. The bench itself has been checked, but a memory may not suit it, and another firmware
-/// may know fewer names.
+/// may have fewer names.
 Trial make_trial(const world::YamlFields& root, world::Bench& bench) {
   const std::string key = root.has("firmware") ? "firmware" : "bench";
   const world::YamlFields field = root.at(key);
@@ -170,7 +170,8 @@ void PlayReader::define_all(std::uint64_t number, const Case& which, Parameters&
   }
 }
 
-/// Requires that every parameter is used. An unused one may mean that another was written in its place.
+/// Requires that every parameter is used. An unused parameter may mean that a different one was written in
+/// its place.
 void PlayReader::require_all_used(std::uint64_t number, const Case& which,
                                   const Parameters& parameters) const {
   const auto fail = [&](const std::string& name, const world::YamlFields& field) {

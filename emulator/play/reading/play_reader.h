@@ -23,7 +23,7 @@ namespace understudy::emulator::play {
 struct FilePlays {
   std::string path;
   std::string save_below;             // saved files must be below this folder
-  std::optional<std::uint64_t> seed;  // instead of the file's own
+  std::optional<std::uint64_t> seed;  // replaces the file's own seed
   std::vector<std::string> command;   // see ReadingOptions
   FileReading reading;
   /// The files that earlier cases save. Set only while all cases are read.

@@ -107,7 +107,7 @@ class ScenarioFile::Reader {
     diagnostics.throw_if_any();
   }
 
-  /// Returns the scenario of a case, and the number of the case in it.
+  /// Returns the scenario of a case, and the number of the case in that scenario.
   std::pair<std::size_t, std::uint64_t> find(std::uint64_t number) const {
     const auto behind = std::upper_bound(first_.begin(), first_.end(), number);
     const auto play = static_cast<std::size_t>(behind - first_.begin()) - 1;
@@ -124,7 +124,7 @@ class ScenarioFile::Reader {
       }
       take(std::move(scenario));
     } catch (const FileError& error) {
-      // The error may occur in one case only, so the message names it.
+      // The error may occur in only one case, so the message names it.
       const Case which = play.cases().at(number);
       all.add(error, which.values.empty() ? "" : "  " + to_text(which));
     }

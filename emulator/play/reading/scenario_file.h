@@ -1,5 +1,5 @@
 // Reads scenario files (YAML, docs/scenarios.md): one scenario for each row of `cases` and each combination
-// of the values of `vary`, or a single one without these.
+// of the values of `vary`, or a single scenario if it has neither.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ struct SharedReading;  // shared_reading.h
 
 struct ReadingOptions {
   /// The files that a scenario saves must be below this folder, or below the scenario's own folder if it is
-  /// empty, because a scenario may come from somebody else.
+  /// empty, because a scenario may come from an unknown author.
   std::string save_below{};
   std::optional<std::uint64_t> seed{};  // replaces the scenarios' own seeds
-  /// The words of the command that runs with each case; they may have ${...}. Empty: none.
+  /// The words of the command that runs with each case; they may contain ${...}. Empty: no command.
   std::vector<std::string> command{};
 };
 
 /// A scenario file whose cases are read one at a time, because there may be more than fit into memory. Its
-/// devices are of the shared models; paths in it are relative to its own folder.
+/// devices must be of the shared models; paths in it are relative to its own folder.
 class ScenarioFile {
  public:
   /// Reads the file, but none of its cases. `shared` must outlive this object. Throws FileError.
@@ -38,7 +38,7 @@ class ScenarioFile {
   ScenarioFile(const ScenarioFile&) = delete;
   ScenarioFile& operator=(const ScenarioFile&) = delete;
 
-  /// Returns the number of cases; 1 without `cases` and `vary`.
+  /// Returns the number of cases; it is 1 without `cases` and `vary`.
   std::uint64_t size() const;
   bool is_varied() const;
   // These two read one case, counted from 0. They check only what they need.
@@ -46,9 +46,9 @@ class ScenarioFile {
   std::string name_of(std::uint64_t number) const;
   /// Reads a case and checks everything in it. Throws FileError.
   Scenario read(std::uint64_t number);
-  /// Reads all cases and passes them to `take` one by one. From the cases that `vary` makes it takes typical
-  /// ones, which have each listed value, and both ends and some values between for each range. Throws
-  /// FileError with all mistakes.
+  /// Reads all cases and passes them to `take` one by one. Of the cases that `vary` makes, it reads only
+  /// typical ones, which together contain each listed value, and both ends and some intermediate values of
+  /// each range. Throws FileError with all mistakes.
   void check(const std::function<void(Scenario)>& take);
 
  private:
@@ -56,8 +56,8 @@ class ScenarioFile {
   std::unique_ptr<Reader> reader_;
 };
 
-/// Returns the scenarios of ScenarioFile::check(): all cases of a file, or typical ones. Nothing has run
-/// then, but everything in them has been checked. Throws FileError.
+/// Returns the scenarios of ScenarioFile::check(): all cases of a file, or typical ones. Nothing has been
+/// run, but everything in the scenarios has been checked. Throws FileError.
 std::vector<Scenario> load_scenarios(ModelList models, const std::string& path,
                                      const std::string& save_below = "");
 /// Like the above, for one of several scenarios that share the files they read.
@@ -72,7 +72,7 @@ enum class FileKind : std::uint8_t {
   bench,
   scenario,
   steps,  // for other scenarios to include
-  model,  // used by benches, which name it by its path (docs/import.md)
+  model,  // used by benches, which refer to it by its path (docs/import.md)
 };
 FileKind kind_of_file(const std::string& path);
 

@@ -80,8 +80,8 @@ inline constexpr world::Key kVaryKey{
 inline constexpr world::Key kHuntKey{"hunt", "The disturbances that `hunt` tries, and what must hold.",
                                      &kHuntSchema};
 
-/// A play has the keys of a scenario. It can omit `bench`, and everything else that the file gives to all of
-/// them.
+/// A play has the keys of a scenario. It can omit `bench`, and everything else that the file provides for all
+/// plays.
 inline constexpr std::array kPlayKeys{
     world::Key{kNameKey.key, "A sentence that describes it, different in each play.", &world::kText},
     world::Key{kBenchKey.key, "The bench; if the file also has one, the differences from it.",

@@ -20,7 +20,7 @@ void read_send(StepsReader& reader, const world::YamlFields& step, const world::
 // These are in text_steps.cpp.
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-/// Returns the line that a step names, or the only one.
+/// Returns the line that a step names, or the only line.
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value);
 
 // These are in truth_steps.cpp.

@@ -1,5 +1,5 @@
-// The kinds of steps, a row each: its spelling in a file, its purpose, the schema of its value, and its
-// reader. A new kind needs a row here, a struct in scenario.h, and its code in a performance.
+// The kinds of steps, one row each: spelling in a file, purpose, schema of the value, and reader. A new kind
+// needs a row here, a struct in scenario.h, and its code in a performance.
 #pragma once
 
 #include <array>
@@ -18,11 +18,12 @@ class StepsReader;
 
 struct StepRow {
   world::Key key;
-  /// Adds the step that `value` describes. Besides it, the map `step` may only have the keys of `beside`.
+  /// Adds the step that `value` describes. Apart from `value`, the map `step` may have only the keys in
+  /// `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::Key> beside{};
-  /// This matters when a step cannot be read: later steps may need a name that it gives, or it wants a name
-  /// of earlier steps that could not be read.
+  /// This matters when a step cannot be read: later steps may need a name that it gives, or the step wants a
+  /// name from earlier steps that could not be read.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 

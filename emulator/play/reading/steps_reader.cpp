@@ -50,7 +50,7 @@ const StepRow* row_of(const world::YamlFields& step) {
   entries.front().second.fail("is not a step" + suggestion(key, names));
 }
 
-/// Returns the size of a step's data without its text, for kinds that may have much data.
+/// Returns the size of a step's data without its text, for the kinds that may have a lot of data.
 struct BytesOf {
   std::size_t operator()(const SendStep& step) const {
     return step.bytes.size() + (step.reply ? step.reply->size() : 0);

@@ -23,7 +23,7 @@ namespace understudy::emulator::play {
 /// State that the cases of a file share.
 struct FileReading {
   static constexpr int kMaxSteps = 100'000;  // for all cases together
-  /// The limit for the bytes of their texts and messages.
+  /// The maximum size of the texts and messages of all steps, in bytes.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
   static constexpr int kDeepest = 32;  // loops, forks and includes within each other
   int steps = 0;
@@ -44,11 +44,10 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Reads the steps. Throws all mistakes in them. If `written` is given, adds for each step what it was made
-  /// from.
+  /// Reads the steps. Throws all mistakes in them. If `written` is given, adds the source of each step.
   Steps read(const world::YamlFields& list, const Parameters& parameters,
              std::vector<WrittenStep>* written = nullptr);
-  /// Reads a step that needs no parameters, and whose names no other step knows. Throws all mistakes in it.
+  /// Reads a step that needs no parameters, and whose names no other step uses. Throws all mistakes in it.
   Steps read_apart(const world::YamlFields& step);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
@@ -58,7 +57,7 @@ class StepsReader {
   /// Adds a file that a step is read from.
   void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
   const std::vector<FileClaim>& files() const { return files_; }
-  /// Adds a file that a step will write, with the position in the scenario that says so.
+  /// Adds a file that a step will write, and the position in the scenario where this is written.
   void add_saved(const std::string& path, const world::YamlFields& field) {
     saved_.emplace_back(path, field);
   }
@@ -112,16 +111,16 @@ class StepsReader {
   Story story_;
   Steps* into_ = nullptr;
   const Steps* top_ = nullptr;                   // the steps of the scenario, not of a branch
-  std::vector<WrittenStep>* written_ = nullptr;  // what they were made from
+  std::vector<WrittenStep>* written_ = nullptr;  // the sources of the steps
   std::optional<world::YamlFields> current_;     // the step being read
-  bool has_added_ = false;                       // it has already made a step
+  bool has_added_ = false;                       // the current step has already made a step
   std::vector<FileClaim> files_;
   std::vector<std::pair<std::string, world::YamlFields>> saved_;
-  std::vector<std::string> paths_;  // the files that include each other at this point
+  std::vector<std::string> paths_;  // the files that are being included at this point
   int depth_ = 0;
   world::Diagnostics diagnostics_;
   bool lacks_names_ = false;    // a step that could not be read may have given names
-  bool may_lack_name_ = false;  // the current step may need one of those
+  bool may_lack_name_ = false;  // the current step may need one of these names
   bool has_failed_ = false;     // a part of the current step could not be read
 };
 

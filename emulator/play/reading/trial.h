@@ -21,7 +21,7 @@ class Trial {
   const world::Bench& bench() const { return bench_; }
   const world::KnownDevices& known() const { return world_.known(); }
 
-  // Each of these returns what a field means, or throws an error about it.
+  // Each of these returns the meaning of a field, or throws an error about it.
   std::size_t device(const world::YamlFields& field, const std::string& name) const;
   std::size_t line(const world::YamlFields& field, const std::string& name) const;
   /// Reads a register or a number, as a key or in an expression.
@@ -33,17 +33,17 @@ class Trial {
   /// Requires an expression that a host could evaluate by reading registers. Returns the devices of these
   /// registers.
   std::vector<std::size_t> require_registers_only(const world::YamlFields& field) const;
-  /// Returns the line that a field names. All of these devices must be on it.
+  /// Returns the line that a field names. All of these devices must be on that line.
   std::size_t line_of_all(const world::YamlFields& field, const std::vector<std::size_t>& devices) const;
-  /// Reads a value to be written to a register. It may be out of the register's range if the write is to be
-  /// refused (`is_refused`).
+  /// Reads a value to be written to a register. It may be out of the register's range if the device should
+  /// refuse the write (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
   /// Requires a named command of that device.
   void require_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
   /// Checks a program for a device.
   void require_program(const world::YamlFields& field, const ProgramStep& program) const;
-  /// Reads a fault that this world can have. `other_key` is left to other readers.
+  /// Reads a fault that this world can have. `other_key` is ignored, because other code reads it.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
   /// Reads the fault `turn` at a place that `field` names, with the time in `in` (null: immediate).
   world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,

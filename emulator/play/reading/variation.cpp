@@ -42,7 +42,7 @@ Amount amount_in(const world::YamlFields& field) {
   return *amount;
 }
 
-/// Returns the keys that an entry may have, according to its kind.
+/// Returns the keys that an entry may have, which depend on its kind.
 const std::span<const world::Key> keys_of(const world::YamlFields& field) {
   if (field.has("from")) return kRangeKeys;
   if (field.has("between")) return kBetweenKeys;
@@ -53,8 +53,8 @@ const std::span<const world::Key> keys_of(const world::YamlFields& field) {
 }  // namespace
 
 std::uint64_t shuffled(std::uint64_t number, std::uint64_t count, std::uint64_t seed) {
-  // A Feistel network permutes the numbers of an even count of bits. Results that are too large are permuted
-  // again.
+  // A Feistel network permutes the numbers with an even number of bits. Results that are too large are
+  // permuted again.
   constexpr int kRounds = 6;
   if (count < 2) return 0;
   const int half = (std::bit_width(count - 1) + 1) / 2;
@@ -172,7 +172,7 @@ std::string Variation::value(std::uint64_t number) const {
 }
 
 std::string Variation::drawn_for(std::uint64_t hash) const {
-  // The upper half of the product is spread evenly over the places.
+  // The upper half of the product is spread evenly over all places.
   __extension__ using Wide = unsigned __int128;
   return value_at(static_cast<std::uint64_t>(static_cast<Wide>(stirred(hash ^ seed_)) * places_ >> 64));
 }

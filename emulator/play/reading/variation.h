@@ -46,11 +46,11 @@ class Variation {
 
   std::string name_;
   world::YamlFields field_;
-  std::vector<std::string> listed_;          // the list; empty: a range
-  AmountScale scale_{Amount::Kind::number};  // of a range: from first_ on, in steps of step_
+  std::vector<std::string> listed_;          // the list; empty if it is a range
+  AmountScale scale_{Amount::Kind::number};  // of a range, which begins at first_, in steps of step_
   std::int64_t first_ = 0;
   std::int64_t step_ = 1;
-  std::uint64_t places_ = 0;  // how many values there are to choose from
+  std::uint64_t places_ = 0;  // how many values can be chosen
   std::uint64_t count_ = 0;
   bool is_drawn_ = false;
   bool is_free_ = false;

@@ -96,7 +96,7 @@ std::string listing_of(const ShownFile& shown) {
     number = line.number;
     rows += row_of(number, line.text, line_at(number));
   }
-  // The text may no longer exist, or may have become shorter.
+  // The text may no longer exist, or may now be shorter.
   for (auto rest = lines.upper_bound(number); rest != lines.end(); ++rest) {
     rows += row_of(rest->first, "", &rest->second);
   }

@@ -19,12 +19,12 @@ class Envelope {
 
   explicit Envelope(std::size_t max_stretches = 600) : max_stretches_(max_stretches) {}
 
-  /// Adds a value. Ticks ascend; a value at an earlier tick, or at the last one again, is ignored.
+  /// Adds a value. Ticks ascend; a value at an earlier tick, or a second value at the last tick, is ignored.
   void add(Tick tick, double value);
-  /// Repeats the last value at every tick up to `last`. The cost is one step for each stretch.
+  /// Repeats the last value at every tick up to `last`. The cost is one step per stretch.
   void stay(Tick last);
 
-  /// Returns the points in chronological order. While a value stays the same only its first and last points
+  /// Returns the points in chronological order. While a value stays the same, only its first and last points
   /// are kept. A line through the points is the signal, or encloses it.
   std::vector<Point> points() const;
   /// Returns true if there were at least two different values.

@@ -51,7 +51,7 @@ std::string in(const char* tag, const std::string& text) {
   return "<" + std::string(tag) + ">" + text + "</" + tag + ">";
 }
 
-/// Returns a link to a result. A branch that did not run has nothing to show.
+/// Returns a link to a result. A branch that did not run has no section.
 std::string linked(const ScenarioResult& result, const std::string& id) {
   const std::string name = xml_escaped(result.name);
   return result.verdict == Verdict::not_reached ? name : "<a href=\"#" + id + "\">" + name + "</a>";
@@ -230,7 +230,7 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
            : "") +
       "</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
       list_of(results) + "</nav>\n";
-  // Failed scenarios are open; so is a single one.
+  // Failed scenarios are open; so is a single scenario.
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ScenarioResult& result = results[i];
     if (result.verdict == Verdict::not_reached) continue;

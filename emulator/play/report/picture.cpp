@@ -56,7 +56,7 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
          attribute("x2", number(x2)) + attribute("y2", number(y2)) + "/>\n";
 }
 
-/// Returns the class of a wait: for a line, in vain, or a sleep.
+/// Returns the CSS class of a wait: for a line, in vain, or a sleep.
 const char* wait_class(const SeenWait& wait) {
   if (wait.text.ends_with("in vain")) return "wait vain";
   return wait.text == "sleeps" ? "wait sleep" : "wait";
@@ -89,8 +89,8 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   return true;
 }
 
-/// Returns panels with the positions and pulses of the axes that did anything (or of all), the speeds of
-/// those that did, and the duties and analog inputs that varied.
+/// Returns panels with the positions and pulses of the axes that moved (or of all axes), the speeds of those
+/// that moved, and the duties and analog inputs that varied.
 std::vector<Panel> panels_of(const Stretch& stretch, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
@@ -321,7 +321,7 @@ class Drawing {
     }
   }
 
-  /// Draws a vertical line in each frame, so that none crosses a legend.
+  /// Draws a vertical line in each frame, so that the line does not cross a legend.
   std::string through_frames(double x, const char* kind) const {
     std::string lines;
     for (const auto& [top, bottom] : frames_) lines += line_between(x, top, x, bottom, kind);

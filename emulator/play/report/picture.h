@@ -18,9 +18,10 @@ struct PictureMarks {
   std::string_view of;  // the scenario's name, for screen readers
 };
 
-/// Returns an SVG element with the classes that page_parts.h styles. Empty if nothing in the stretch varies,
-/// unless it failed. Each line has its data in `points`, as milliseconds since `data-begin` of the whole and
-/// amounts beyond its own `data-base`, so that the value shown under the pointer is exact.
+/// Returns an SVG element with the classes that page_parts.h styles. The result is empty if nothing in the
+/// stretch varies, unless it failed. Each line has its data in `points`: milliseconds since the picture's
+/// `data-begin`, and amounts relative to the line's own `data-base`, so that the value shown under the
+/// pointer is exact.
 std::string picture(const Stretch& stretch, const PictureMarks& marks);
 
 }  // namespace understudy::emulator::play

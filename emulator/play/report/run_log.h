@@ -25,7 +25,7 @@ struct SeenSignal {
     Tick tick = 0;
     double value = 0;
   };
-  std::vector<Point> points{};  // include the first and the last of the stretch
+  std::vector<Point> points{};  // these include the first and the last point of the stretch
   double min = 0;
   double max = 0;
   bool varies() const { return min != max; }
@@ -35,32 +35,32 @@ struct SeenFrame {
   SimTime time{0};  // when its first character began
   std::string line;
   bool is_from_host = true;
-  std::string text;        // decoded
+  std::string text;        // the decoded text
   std::string bytes;       // "01 03 00 00"
   std::string remark;      // "dropped: bad CRC"; empty if there is no remark
-  bool is_struck = false;  // a fault acted on it; without bytes: on a dropped or earlier message
+  bool is_struck = false;  // a fault acted on it; if there are no bytes, on a dropped or an earlier message
 };
 
-/// A wait of a host in simulated time, or several within a dot of the picture.
+/// A wait of a host in simulated time, or several waits that lie within one dot of the picture.
 struct SeenWait {
   std::size_t thread = 1;
   SimTime begin{0};
   SimTime end{0};
-  std::string text;  // the text of the longest one: "waits for a reply"
+  std::string text;  // the text of the longest wait: "waits for a reply"
   SimTime longest{0};
   std::size_t count = 1;
 };
 
-/// A part of the run in which time only goes forward. Each `restore` begins another one.
+/// A part of the run in which time only goes forward. Each `restore` begins a new stretch.
 struct Stretch {
   std::size_t first_step = 0;  // an index into the result's steps
   SimTime begin{0};
   SimTime end{0};
   std::vector<SeenSignal> signals;
   std::vector<SeenWait> waits;    // in chronological order for each thread
-  std::vector<SeenFrame> frames;  // in chronological order; the first and the last ones if there were many
+  std::vector<SeenFrame> frames;  // in chronological order; if there were many, only the first and the last
   std::size_t frames_left_out = 0;
-  std::size_t left_out_at = 0;  // they were left out before the frame with this index
+  std::size_t left_out_at = 0;  // the frames that were left out came before the frame with this index
 };
 
 struct RunLog {

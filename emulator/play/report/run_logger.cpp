@@ -29,7 +29,7 @@ using SignalKind = SeenSignal::Kind;
 // A stretch keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
-// Waits are joined if the picture, which has this many dots, cannot show them apart.
+// Waits are joined if the picture, which has this many dots, cannot show them separately.
 constexpr int kDots = 1000;
 
 /// Joins the waits of a thread that lie within one dot.
@@ -160,7 +160,7 @@ void RunLogger::add(const pty::CapturedPacket& packet) {
     request.clear();
   }
   stretch_.frames.push_back(std::move(frame));
-  // Frames are removed in groups, so that a long run does not move them for each new one.
+  // Frames are removed in groups, so that a long run does not move them for each new frame.
   if (stretch_.frames.size() < 4 * kFramesKept) return;
   const auto first = stretch_.frames.begin() + kFramesKept;
   stretch_.frames.erase(first, stretch_.frames.end() - kFramesKept);

@@ -26,8 +26,8 @@ bool is_byte_at(std::string_view text, std::size_t at) {
          (at + 3 >= text.size() || text[at + 2] != '.' || !is_digit_or_letter(text[at + 3]));
 }
 
-/// Returns the length of the bytes that begin here: "01 03 C0 B8". A single byte may be a name, so it counts
-/// only at the end of a phrase.
+/// Returns the length of the bytes that begin here: "01 03 C0 B8". A single byte may be a name, so it is
+/// accepted only at the end of a phrase.
 std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   std::size_t end = begin;
   for (std::size_t at = begin; is_byte_at(text, at) && (at == begin || text[at - 1] == ' '); at += 3) {
@@ -38,7 +38,7 @@ std::size_t length_of_bytes(std::string_view text, std::size_t begin) {
   return says_no_more ? end - begin : 0;
 }
 
-/// Returns the length of a word of hexadecimal digits: a digest, or bytes after an equals sign.
+/// Returns the length of a hexadecimal word: a digest, or bytes after an equals sign.
 std::size_t length_of_hex(std::string_view text, std::size_t begin) {
   constexpr std::size_t kDigest = 8;
   if (begin > 0 && (is_digit_or_letter(text[begin - 1]) || text[begin - 1] == '.')) return 0;
@@ -59,7 +59,7 @@ std::size_t length_of_escape(std::string_view text, std::size_t at) {
   return is_one ? 4 : 0;
 }
 
-/// Adds one sign for all adjacent numbers and bytes, because they look alike.
+/// Adds a single `#` for adjacent numbers and bytes, which cannot be told apart.
 void add_sign(std::string& made) {
   if (made.ends_with("# ")) {
     made.pop_back();
@@ -68,8 +68,8 @@ void add_sign(std::string& made) {
   }
 }
 
-/// Replaces numbers with their units, and any count of bytes, by #. Numbers in names (Aaxis_2, STATUS.4)
-/// stay.
+/// Replaces numbers with their units, and any number of bytes, by #. Keeps numbers in names (Aaxis_2,
+/// STATUS.4).
 std::string without_numbers(std::string_view text) {
   std::string made;
   for (std::size_t at = 0; at < text.size();) {
@@ -79,7 +79,7 @@ std::string without_numbers(std::string_view text) {
       at += hex;
       add_sign(made);
     } else if (is_letter(text[at])) {
-      // A name, with all parts that its dots join.
+      // This is a name, including all parts that are joined by dots.
       while (at < text.size() && (is_digit_or_letter(text[at]) || (text[at] == '.' && at + 1 < text.size() &&
                                                                    is_digit_or_letter(text[at + 1])))) {
         made += text[at++];

@@ -1,5 +1,5 @@
-// Groups failures by kind: a thousand cases that fail for one reason are one thing to look at. Two failures
-// are of one kind if the same step failed with the same words, ignoring numbers and bytes.
+// Groups failures by kind: a thousand cases that fail for the same reason need to be examined only once. Two
+// failures are of the same kind if the same step failed with the same words, ignoring numbers and bytes.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::play {
 
-/// Returns "grid.yaml:17: feeder.Cord_A is #; expected #", or an empty text if it did not fail.
+/// Returns "grid.yaml:17: feeder.Cord_A is #; expected #", or an empty text if the scenario did not fail.
 std::string kind_of_failure(const ScenarioResult& result);
 
 class FailureKinds {
@@ -20,7 +20,7 @@ class FailureKinds {
 
   struct Kind {
     std::string text;
-    std::string first;  // the name of the first result of this kind
+    std::string first;  // the name of the first case of this kind
     std::uint64_t count = 0;
     std::uint64_t varied = 0;  // how many of these come from cases that `vary` made
   };

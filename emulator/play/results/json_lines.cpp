@@ -63,7 +63,7 @@ class JsonLines final : public ResultsFile {
   }
 
   void add(std::span<const ResultRow> rows) override {
-    // Branches come first, because a case counts as stored when its own row is.
+    // Branches come first, because a case counts as stored as soon as its own row is stored.
     std::string text;
     for (const ResultRow& row : rows) text += row.branch.empty() ? "" : json_text(row) + "\n";
     for (const ResultRow& row : rows) text += row.branch.empty() ? json_text(row) + "\n" : "";
@@ -86,8 +86,8 @@ class JsonLines final : public ResultsFile {
                            ": is not a row of results; expected a file that `--results` wrote");
   }
 
-  /// Returns true if an incomplete last line may be a row. The rest of a killed run is dropped, but not other
-  /// files' content.
+  /// Returns true if an incomplete last line may be a row. The remains of a killed run are dropped, but not
+  /// the content of other files.
   static bool begins_as_row(std::string_view line) {
     const std::size_t both = std::min(line.size(), kBeginOfRow.size());
     return line.substr(0, both) == kBeginOfRow.substr(0, both);

@@ -81,7 +81,7 @@ std::string case_text(const ScenarioResult& result) {
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
-  // Each pass consumes at least one character.
+  // Each pass uses up at least one character.
   for (std::size_t left = text.size(); left > 0 && !text.empty(); --left) {
     const std::size_t size = character_size(text);
     const char c = text.front();

@@ -16,9 +16,9 @@
 namespace understudy::emulator::play {
 
 /// Writes results as JUnit XML: a test suite for each file, a test case for each scenario or branch. Times
-/// are simulated seconds; the steps and the lint's findings are in system-out. Cases from `vary` have no
+/// are simulated seconds; the steps and the findings of the lint are in system-out. Cases from `vary` have no
 /// system-out if they passed, or failed like an earlier case. JUnit puts counts in front of the results, so
-/// results wait in an unnamed file.
+/// the results are kept in an unnamed file until the end.
 class Junit {
  public:
   /// Throws std::system_error if there is no room for the results.
@@ -29,7 +29,7 @@ class Junit {
 
  private:
   struct Piece {
-    long begin = 0;  // in the file
+    long begin = 0;  // position in the file
     long end = 0;
   };
   struct Suite {
@@ -48,7 +48,7 @@ class Junit {
 
 std::string junit_text(std::span<const ScenarioResult> results);
 
-/// Escapes a text for XML, also in attributes. Characters that XML cannot hold (control characters, broken
+/// Escapes a text for XML, even in attributes. Characters that XML cannot hold (control characters, broken
 /// UTF-8) become U+FFFD.
 std::string xml_escaped(std::string_view text);
 

@@ -18,10 +18,10 @@ struct StepResult {
   std::string file{};
   int line = 0;
   std::string text{};
-  SimTime begin{0};  // simulated
+  SimTime begin{0};  // simulated time
   SimTime end{0};
   bool has_failed = false;
-  std::string skipped{};  // why it was not executed; empty: it was
+  std::string skipped{};  // why the step was not executed; empty if it was
 };
 
 /// All texts are single lines.
@@ -41,26 +41,27 @@ struct ScenarioResult {
   enum class Verdict : std::uint8_t {
     passed,
     failed,
-    not_reached,   // a branch whose fork was not reached, because an earlier step failed
-    not_tellable,  // of a real controller: nothing that it judges could be executed
+    not_reached,   // a branch that was not reached, because a step before its fork failed
+    not_tellable,  // on a real controller: none of the steps that judge something could be executed
   } verdict = Verdict::passed;
   std::string name{};  // "a move takes its time"; for a branch "a move takes its time / with a stall"
   std::string file{};
   std::vector<StepResult> steps{};           // the failed step is the last; a branch has only its own steps
-  std::optional<Failure> failure{};          // if it failed
-  SimTime simulated{0};                      // how long it ran; for a branch, from its fork on
+  std::optional<Failure> failure{};          // set if it failed
+  SimTime simulated{0};                      // how long it ran; a branch is counted from its fork
   std::uint64_t outcome_hash = 0;            // the hash of all output, if requested (outcome_hash.h)
   std::shared_ptr<const RunLog> run_log{};   // for a report, if requested
   std::vector<std::string> lint_findings{};  // from a lint, if requested; single lines
-  std::string recording{};                   // the path, if there is one; the same for a trace and a capture
+  std::string recording{};                   // its path, if there is one; the same for a trace and a capture
   std::string trace{};
   std::string capture{};
-  Case which{};  // within its file
+  Case which{};  // the case within the file
   std::uint64_t seed = 0;
-  /// "with a stall"; for a nested branch "with a stall / again"; empty: the scenario itself.
+  /// "with a stall"; for a nested branch "with a stall / again"; empty for the scenario itself.
   std::string branch{};
-  bool is_unreadable = false;  // the case could not be read and did not run; its failure has the reason
-  std::string rerun{};  // the words after `understudy` that run the case alone; empty: run FILE --filter ID
+  bool is_unreadable = false;  // the case could not be read and did not run; its failure contains the reason
+  std::string rerun{};  // the words after `understudy` that run the case alone; if empty, they are run FILE
+                        // --filter ID
   std::string like{};   // the earlier case that failed in the same way, and whose recording was kept
 };
 

@@ -57,7 +57,7 @@ struct understudy::StateOf<understudy::emulator::play::ScenarioResult::Verdict> 
   static constexpr Verdict last = Verdict::not_tellable;
 };
 
-/// Everything but the run log, which is for a report by the same process.
+/// Everything except the run log, which only a report in the same process uses.
 template <>
 struct understudy::StateOf<understudy::emulator::play::ScenarioResult> {
   using ScenarioResult = emulator::play::ScenarioResult;

@@ -16,7 +16,7 @@ std::string seconds_text(SimTime time);
 
 /// Returns "ok    feed.yaml: a move takes its time (3.06s)".
 std::string verdict_line(const ScenarioResult& result);
-/// Returns a line for each step: when it began and ended, its position in the file, its text.
+/// Returns a line for each step: when it began and ended, its position in the file, and its text.
 std::vector<std::string> step_lines(const ScenarioResult& result);
 /// Returns a line for each reason why steps were skipped, with the first of these steps.
 std::vector<std::string> skipped_lines(const ScenarioResult& result);
@@ -30,7 +30,7 @@ struct Tally {
   std::uint64_t failed = 0;
   std::uint64_t not_reached = 0;
   std::uint64_t not_tellable = 0;
-  std::uint64_t unreadable = 0;  // cases, among those that failed
+  std::uint64_t unreadable = 0;  // unreadable cases, which are also counted as failed
   SimTime simulated{0};
 
   void add(const ScenarioResult& result);

@@ -19,7 +19,7 @@ namespace understudy::emulator::play {
 struct ResultRow {
   std::string file;
   std::string name;
-  std::string branch;   // empty: the scenario itself
+  std::string branch;   // empty for the scenario itself
   std::string case_id;  // 16 digits
   std::vector<std::pair<std::string, std::string>> parameters;
   std::string verdict;  // passed, failed, not reached, unreadable
@@ -32,9 +32,9 @@ struct ResultRow {
   std::optional<std::string> at_s;
   std::optional<std::string> step;       // "grid.yaml:17"
   std::optional<std::string> recording;  // the path
-  std::string made_of;                   // a hash of the files and the program that made it
+  std::string made_of;                   // a hash of the files and the program that produced it
 };
-/// `with_hash` tells that outcome_hash was requested.
+/// `with_hash` is true if outcome_hash was requested.
 ResultRow row_of(const ScenarioResult& result, std::uint64_t made_of, bool with_hash);
 /// Returns a JSON object without a line end. Parameters that are plain numbers are written as numbers.
 std::string json_text(const ResultRow& row);
@@ -55,7 +55,7 @@ class ResultsFile {
   virtual bool has_rows() = 0;
   /// Empties the file. Not called if the run continues in it.
   virtual void begin() = 0;
-  /// Returns whether that case failed, or nothing if it has not run before.
+  /// Returns true if that case failed, false if it did not, or nothing if it has not been run before.
   virtual std::optional<bool> has_failed(const CaseKey& key) = 0;
   /// Adds the rows of one case: all of them or none.
   virtual void add(std::span<const ResultRow> rows) = 0;
@@ -67,8 +67,8 @@ inline constexpr std::string_view kJsonLinesEnding = ".jsonl";
 inline constexpr std::string_view kSqliteEnding = ".sqlite";
 
 /// Opens or creates the file; its old content stays until begin(). With `continues`, the run continues in the
-/// file, so its rows are read. All functions throw GrowingFileError if a file cannot be written, or was not
-/// written by this program.
+/// file, so its rows are read. All functions of the result throw GrowingFileError if a file cannot be
+/// written, or was not written by this program.
 std::unique_ptr<ResultsFile> open_json_lines(const std::string& path, bool continues);
 std::unique_ptr<ResultsFile> open_sqlite(const std::string& path, bool continues);
 

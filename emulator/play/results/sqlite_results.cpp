@@ -23,9 +23,9 @@ namespace understudy::emulator::play {
 
 namespace {
 
-constexpr int kApplicationId = 0x55535459;  // "USTY", in the file's header
-// A run that is killed loses at most the results of this time, and readers see results with at most this
-// delay.
+constexpr int kApplicationId = 0x55535459;  // "USTY" in the header of the file
+// A run that is killed loses at most the results of the last interval, and readers see results with at most
+// this delay.
 constexpr std::chrono::milliseconds kCommitEvery{250};
 
 constexpr std::string_view kTables = R"(
@@ -73,7 +73,7 @@ class SqliteResults final : public ResultsFile {
     try {
       commit();
     } catch (const GrowingFileError&) {
-      // The run ends for another reason, which is reported.
+      // The run ends for a different reason, which is reported.
     }
   }
   SqliteResults(const SqliteResults&) = delete;
@@ -159,7 +159,7 @@ class SqliteResults final : public ResultsFile {
     }
   }
 
-  /// Refuses a file that is neither empty nor a database of ours.
+  /// Refuses a file that is neither empty nor one of our databases.
   void require_own() {
     const Statement id = prepare("PRAGMA application_id");
     const bool is_ours = step(id) && sqlite3_column_int(id.get(), 0) == kApplicationId;

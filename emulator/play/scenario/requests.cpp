@@ -92,7 +92,7 @@ std::vector<Request> read_requests(std::span<const Words> entries) {
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone) {
   std::vector<Request> requests;
-  bool is_open = false;  // true if the last request may still grow
+  bool is_open = false;  // true if the last request may still be extended
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Words& next = entries[i];
     const bool is_alone = stands_alone(i);

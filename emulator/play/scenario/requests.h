@@ -1,5 +1,5 @@
-// Finds the words of a device that names refer to, and the fewest requests that read or write them:
-// neighbours share one.
+// Finds the words of a device that names refer to, and the smallest number of requests that read or write
+// them: adjacent words share one.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::play {
 
-/// Consecutive words of one device; in tables of bits, bits.
+/// Consecutive words of one device, or bits in bit tables.
 struct Words {
   std::size_t device = 0;
   Table table = Table::holding;
@@ -24,12 +24,12 @@ struct Words {
   int end() const { return first + count; }
 };
 
-/// Returns true if the target is one bit of a register: its other bits are read before it is written.
+/// Returns true if the target is one bit of a register, whose other bits are read before it is written.
 inline bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
 
 /// Returns the table of a target.
 Table table_of(const Target& target);
-/// Returns true if there is a function that writes to the target's table.
+/// Returns true if a function can write to the target's table.
 bool can_be_sent(const Target& target);
 
 /// Returns the words of a target; for a bit, the words of its register. `low_word_first` is the device's
@@ -42,10 +42,10 @@ struct Request {
   std::vector<std::size_t> entries;
 };
 
-/// Returns requests in the order of the entries. An entry joins the request before it if its words follow
-/// those, or are among them.
+/// Returns requests in the order of the entries. An entry joins the previous request if its words directly
+/// follow the words of that request, or are among them.
 std::vector<Request> read_requests(std::span<const Words> entries);
-/// Like read_requests(), for writing: an entry joins only if its words follow, and never if it
+/// Like read_requests(), for writing: an entry joins only if its words directly follow, and never if
 /// `stands_alone`.
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone);
@@ -58,13 +58,14 @@ struct Limits {
 };
 Limits limits_of(const Target& target);
 
-/// Returns a register's value as a number, which may be real. Nothing if the bits of a real are not a number.
+/// Returns a register's value as a number, which may be real. Returns nothing if the bits of a real are not a
+/// number.
 std::optional<world::Number> number_of(const Target& target, Value value);
 /// Returns the value for a number. Returns nothing for a fraction if the target is whole, or for a number
 /// beyond single precision if the target is real.
 std::optional<Value> value_for(const Target& target, world::Number number);
 
-/// Returns the value in the words of a target.
+/// Returns the value that is in the words of a target.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);
 /// Returns the words that set a target, or one bit of it, to a value. `present` are its current words. Throws
 /// NameError for a value that does not fit.

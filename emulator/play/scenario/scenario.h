@@ -1,5 +1,5 @@
 // A scenario is a bench with steps to run on it, checked against each other. scenario_file.h makes it, run.h
-// runs it. Loops, tables of cases, includes and parameters have been resolved, so it is a plain list.
+// runs it. Loops, tables of cases, includes and parameters have been resolved, so the steps are a plain list.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class HuntPlan;  // emulator/play/reading/hunt_plan.h
 struct Step;
 using Steps = std::vector<Step>;
 
-/// A register or a bit as a host addresses it: by name (then `place` is set), or by its number in a table.
+/// A register or a bit as a host addresses it: by name (then `place` is set), or by its address in a table.
 struct Target {
   std::size_t device = 0;
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
@@ -36,17 +36,17 @@ struct Target {
 /// How a device must answer each request of a step: normally, with an exception, or not at all.
 struct Answer {
   std::optional<int> exception{};
-  std::optional<SimTime> silence{};  // how long no answer may arrive
+  std::optional<SimTime> silence{};  // the time within which no answer may arrive
   bool is_good() const { return !exception && !silence; }
 };
 
-/// The line on which a step talks to its devices (`via: LINE` next to the step); none: the first line of each
-/// device.
+/// The line on which a step talks to its devices (`via: LINE` next to the step); without a value, the first
+/// line of each device.
 using Via = std::optional<std::size_t>;
 
 /// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, with exception: 3 if the device must
-/// refuse, or reply: nothing if it must not answer. Writes over the line in this order; ascending neighbours
-/// share a request.
+/// refuse, or reply: nothing if it must not answer. Writes over the line in this order; consecutive ascending
+/// registers share a request.
 struct WriteStep {
   struct Entry {
     Target target;
@@ -88,7 +88,7 @@ struct WaitStep {
   std::optional<world::Tolerance> takes;
   /// How often the names in `until` are read over the line; without it every tick is checked.
   std::optional<SimTime> poll;
-  Via via{};  // the line on which they are read
+  Via via{};  // the line on which these names are read
 };
 
 struct AdvanceStep {
@@ -105,7 +105,7 @@ struct AssertStep {
 struct SpanStep {
   std::string expression;
   bool never = false;
-  std::string name;  // the expression, if no other was given
+  std::string name;  // the expression, if no other name was given
 };
 struct EndSpanStep {
   std::string name;
@@ -124,11 +124,11 @@ struct TurnStep {
 /// inject: { stall: feeder.A, name: NAME }
 struct InjectStep {
   world::Fault fault;
-  std::string name;  // the name for `clear`; the fault as text, if no other name was given
+  std::string name;  // the name for `clear`; the fault as text, by default
 };
 /// clear: NAME, or all
 struct ClearStep {
-  std::string name;  // empty: all
+  std::string name;  // empty for all faults
 };
 
 /// power: { feeder: off }, on or cycle
@@ -152,7 +152,7 @@ struct SendStep {
 /// sends without a request since the last `send`.
 struct TextStep {
   std::size_t line = 0;
-  std::optional<std::string> text;                // none: it only receives
+  std::optional<std::string> text;                // no value: the step only receives
   std::optional<std::vector<std::string>> lines;  // empty: nothing may arrive
   SimTime within = std::chrono::milliseconds(500);
 };
@@ -161,10 +161,10 @@ struct TextStep {
 struct ProgramStep {
   std::size_t device = 0;
   std::string text;
-  std::string file{};                         // for messages; empty: the step contains the text
+  std::string file{};                         // for messages; empty if the step contains the text
   std::optional<world::InlineText> inside{};  // the place of a text that the step contains
-  std::optional<std::string> refused{};       // it must be refused, with a reason that contains this text
-  bool asks = true;  // the step fails if the program is refused; otherwise both are accepted
+  std::optional<std::string> refused{};       // the refusal must contain this text
+  bool asks = true;  // true: the step fails if the program is refused; false: both outcomes are accepted
 };
 
 /// memory: { feeder: after.json }: the device's non-volatile memory must equal the file; save: writes the
@@ -201,7 +201,7 @@ struct ForkStep {
   std::vector<Branch> branches;
 };
 
-/// reset: peaks starts the maximum speeds and accelerations again.
+/// reset: peaks restarts the maximum speeds and accelerations.
 struct ResetPeaksStep {};
 
 /// say: TEXT is a message for the reader.
@@ -210,9 +210,9 @@ struct SayStep {
 };
 
 struct Step {
-  std::string file;  // its position
+  std::string file;  // the position in a file
   int line = 0;
-  std::string text;  // its description, on one line: "write feeder.Aaxis_SVON=1"
+  std::string text;  // the description on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, CommandStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep,
                InputStep, TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep,
                MemoryStep, CommandEndStep, SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
@@ -224,13 +224,13 @@ struct Scenario {
   std::string name;  // includes the case's parameters: "a move takes its time (speed=200)"
   std::string file;
   world::Bench bench;
-  SimTime gap{0};  // between two requests of the host, beyond t3.5
+  SimTime gap{0};  // added to t3.5 between two requests of the host
   std::uint64_t seed = 0;
   Steps steps;
   std::vector<FileClaim> files{};    // all files that it was read from, including the bench's
   std::vector<std::string> saved{};  // paths that its steps write
   Case which{};
-  std::string choice{};                // of `choice`; its option is the first of the case's values
+  std::string choice{};                // the id in `choice`; its option is the first of the case's values
   std::vector<std::string> command{};  // the words of ReadingOptions::command, with the case's values
   std::vector<std::pair<std::string, std::string>> environment{};  // for the command
   std::shared_ptr<const HuntPlan> hunt{};                          // null: the file has no `hunt`

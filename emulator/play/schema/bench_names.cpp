@@ -18,7 +18,7 @@ namespace understudy::emulator::play {
 namespace {
 
 /// Returns the beginning of names as a regular expression. Device names may contain a hyphen, but no
-/// character with a meaning there.
+/// character that has a meaning there.
 std::string before_of(const world::KnownDevice& device, bool is_alone) {
   return is_alone ? "^(" + device.name + "\\.)?" : "^" + device.name + "\\.";
 }

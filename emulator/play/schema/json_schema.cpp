@@ -60,7 +60,7 @@ class SchemaWriter {
       }
       case world::Schema::Kind::keys: {
         Json made = keys(schema.keys);
-        // A key may also be a parameter's value: { "${fault}": feeder }.
+        // A key may also come from a parameter: { "${fault}": feeder }.
         if (has_parameters_) made["patternProperties"] = Json{{kParameter, Json::object()}};
         return made;
       }
@@ -92,7 +92,7 @@ class SchemaWriter {
   Json step() const {
     Json properties = Json::object();
     Json kinds = Json::array();
-    std::map<std::string, Json> needed;  // for each key that accompanies kinds: those kinds
+    std::map<std::string, Json> needed;  // for each accompanying key, the kinds that it may accompany
     for (const StepRow& row : step_rows()) {
       properties[std::string(row.key.key)] = described(row.key);
       kinds.push_back(Json{{"required", {row.key.key}}});
@@ -127,7 +127,7 @@ class SchemaWriter {
   Json definition(const NameList& list) const {
     Json alternatives = Json::array();
     if (!list.names.empty()) alternatives.push_back(Json{{"enum", list.names}});
-    // Editors show these beside the names.
+    // Editors show these next to the names.
     if (!list.meanings.empty()) alternatives.back()["enumDescriptions"] = list.meanings;
     for (const std::string& pattern : list.patterns) {
       alternatives.push_back(Json{{"type", "string"}, {"pattern", pattern}});
@@ -155,7 +155,7 @@ class SchemaWriter {
 
   Json kinds_of_texts(const Model& model) const {
     Json kinds = Json::object();
-    // Only a device knows its kinds.
+    // Only a device knows its kinds of texts.
     const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
     const PersistentMemory* const memory = std::as_const(*device).memory();
     const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
@@ -189,7 +189,7 @@ class SchemaWriter {
     return or_parameter(Json{{"anyOf", {number, Json{{"type", "string"}, {"pattern", kWholeNumber}}}}});
   }
 
-  /// Lists words. `on` and `true` are words for us, but truth values for some YAML readers.
+  /// Lists words. `on` and `true` are words here, but truth values for some YAML readers.
   Json words(const world::Schema& schema) const {
     Json words = Json::array();
     for (const std::string_view word : schema.words) words.push_back(word);
@@ -218,10 +218,10 @@ class SchemaWriter {
   ModelList models_;
   bool has_parameters_;
   bool has_names_;
-  bool requires_ = true;  // false: required keys are optional
+  bool requires_ = true;  // if false, required keys are optional
 };
 
-/// Requires a scenario to have steps, or several scenarios that do.
+/// Requires a scenario to have steps, or to contain several scenarios that do.
 Json whole_scenario(const SchemaWriter& writer) {
   Json made = writer.keys(kScenarioKeys);
   made["oneOf"] = Json{{{"required", {kBenchKey.key, "steps"}}}, {{"required", {"plays"}}}};

@@ -16,7 +16,7 @@ std::string scenario_schema(ModelList models);
 /// Returns the schema of another kind of file, with these keys.
 std::string file_schema(const std::string& title, std::span<const world::Key> keys);
 /// Returns the schema of scenarios for one bench: it accepts only the names of its devices, lines, axes,
-/// inputs and registers. Conditions are plain texts, which only `check` understands.
+/// inputs and registers. Conditions are plain texts, which only `check` can verify.
 std::string scenario_schema(ModelList models, const world::Bench& bench);
 
 }  // namespace understudy::emulator::play
