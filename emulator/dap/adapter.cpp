@@ -24,9 +24,9 @@ namespace {
 // The intervals between checks of the bench and of signals.
 constexpr int kRunningMs = 20;
 constexpr int kStoppedMs = 100;
-constexpr int kRefusedMs = 2000;  // for the first request of a client that is refused
+constexpr int kRefusedMs = 2000;  // how long to wait for the first request of a refused client
 
-/// Returns false if nobody reads any more.
+/// Returns false if the other end no longer reads.
 bool write_all(int output, std::string_view bytes, const std::function<bool()>& is_interrupted) {
   while (!bytes.empty()) {
     const ssize_t written = write(output, bytes.data(), bytes.size());

@@ -8,12 +8,12 @@
 
 namespace understudy::emulator::dap {
 
-/// Serves until the client ends the session, or goes away, or `is_interrupted` returns true after a signal.
-/// Returns an empty text, or one sentence if the input is not the protocol; nothing after it can be read.
+/// Serves until the client ends the session or disconnects, or `is_interrupted` returns true after a signal.
+/// Returns an empty text, or one sentence if the input is not the protocol and nothing more can be read.
 std::string serve_session(int input, int output, const Launcher& launcher,
                           const std::function<bool()>& is_interrupted);
 
-/// Tells a client that it is not served, in the reply to its first request if one comes soon.
+/// Tells a client that it is not served, in the reply to its first request if one arrives soon.
 void refuse_session(int client, const std::string& why);
 
 }  // namespace understudy::emulator::dap

@@ -1,4 +1,4 @@
-// Requests and their arguments. A wrong one is refused with one sentence (RequestError).
+// Requests and their arguments. Invalid ones are refused with one sentence (RequestError).
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::dap {
 
-/// Returns null for a text that is not JSON, or is nested too deeply.
+/// Returns null for text that is not JSON or is nested too deeply.
 Json parsed_message(const std::string& text);
 
 const Json& require(const Json& arguments, const char* key);

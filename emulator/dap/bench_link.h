@@ -19,7 +19,7 @@ struct RequestError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown if the daemon has gone.
+/// Thrown if the daemon has ended.
 struct GoneError : RequestError {
   using RequestError::RequestError;
 };
@@ -28,18 +28,18 @@ class BenchLink {
  public:
   virtual ~BenchLink() = default;
 
-  /// Returns the reply. Throws RequestError if the daemon refuses, GoneError if it has gone.
+  /// Returns the reply. Throws RequestError if the daemon refuses, GoneError if it has ended.
   virtual Json ask(const Json& message) const = 0;
   /// Returns one member of the reply, or null.
   Json ask_for(const char* member, const Json& message) const { return ask(message).value(member, Json()); }
   /// Sends a message whose reply comes later. Throws GoneError.
   virtual void begin(const Json& message) = 0;
-  /// Returns true while that reply is awaited.
+  /// Returns true while that reply has not been taken.
   virtual bool is_awaiting() const = 0;
-  /// Returns the descriptor on which it arrives, or -1.
+  /// Returns the descriptor on which the reply arrives, or -1.
   virtual int awaited() const = 0;
-  /// Returns the reply once it is complete. Throws RequestError if it is a refusal, GoneError if it never
-  /// comes.
+  /// Returns the reply once it is complete. Throws RequestError if it is a refusal, GoneError if it will
+  /// never arrive.
   virtual std::optional<Json> take_reply() = 0;
   /// Ends the advance whose reply is awaited, and drops the reply.
   virtual void pause() = 0;

@@ -130,8 +130,8 @@ Json Session::set_one(const std::string& key, int id, Json message) {
   }
 }
 
-/// Returns the devices that run a source. If none does, `why_none` says so. `what_differs` says how the file
-/// differs from the programs that they have loaded.
+/// Returns the devices that run a source. If none does, `why_none` explains why. `what_differs` describes how
+/// the file differs from the programs that the devices have loaded.
 std::vector<std::size_t> Session::devices_with(const Json& source, std::string& why_none,
                                                std::string& what_differs) {
   if (const auto reference = whole_or(source, "sourceReference", 0); reference > 0)
@@ -166,7 +166,7 @@ std::vector<std::size_t> Session::devices_with(const Json& source, std::string& 
   return found;
 }
 
-/// Sets a line's breakpoint in all devices. Returns that of the first one.
+/// Sets a line's breakpoint in all devices. Returns the breakpoint of the first device.
 Json Session::set_line(const std::string& key, const Json& wanted, const std::vector<std::size_t>& devices) {
   const int id = ++last_id_;
   Json response;

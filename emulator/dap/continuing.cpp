@@ -70,7 +70,7 @@ Json Session::step(const Json& arguments, const char* what, bool is_back) {
   return nullptr;
 }
 
-/// look() sees the stop itself. A recording stops by itself, at its end.
+/// look() reports the stop. A recording also stops by itself at its end.
 Json Session::pause(const Json& /*arguments*/) {
   if (is_recording_) return nullptr;
   link_->ask({{"do", "pause"}});
@@ -114,7 +114,7 @@ void Session::report_stop(const Json& stop, const char* reason, const std::strin
     body["text"] = reason_text;
   }
   if (!devices_.empty()) {
-    if (program.empty() && devices_[device].has_many) {  // the first of its programs
+    if (program.empty() && devices_[device].has_many) {  // take the first of its programs
       const Json stacks = stack_of(device)["stacks"];
       if (!stacks.empty()) program = stacks[0].value("program", std::string());
     }

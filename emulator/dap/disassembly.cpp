@@ -1,6 +1,6 @@
 // Shows the instructions of programs with their addresses, and sets breakpoints at them. Controllers count
-// instructions, not bytes: an address is the number of a program, and in its lower half that of an
-// instruction.
+// instructions, not bytes: the upper half of an address is the number of a program, and the lower half is the
+// number of an instruction.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -48,7 +48,7 @@ Session::Address Session::parsed_address(const Json& arguments, const char* key)
   return {static_cast<std::size_t>(space), (*address & kLow) + whole_or(arguments, "offset", 0)};
 }
 
-/// Returns as many entries as the client asks for. Those outside the program are marked as invalid.
+/// Returns as many entries as the client requests. Those outside the program are marked as invalid.
 Json Session::disassemble(const Json& arguments) {
   const Address from = parsed_address(arguments, "memoryReference");
   const std::int64_t count = require_whole(arguments, "instructionCount");

@@ -46,7 +46,7 @@ std::string value_text(const Json& reply) {
 
 }  // namespace
 
-/// Returns the device whose name the text begins with, or the first device.
+/// Returns the device with whose name the text begins, or the first device.
 std::size_t Session::device_of_name(const std::string& whole) const {
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     if (whole == devices_[d].name || whole.starts_with(devices_[d].name + ".")) return d;
@@ -145,7 +145,7 @@ Json Session::set_value(const std::string& whole, const std::string& value) cons
   return reported;
 }
 
-/// Writes the register of a bit with only that bit changed.
+/// Changes one bit of a register, and writes the register.
 Json Session::set_bit(const std::string& whole, const std::string& bit, const std::string& value) {
   const std::size_t device = device_of_name(whole);
   const Json* const row = known_register(device, whole.substr(devices_[device].name.size() + 1));
@@ -181,7 +181,7 @@ Json Session::set_expression(const Json& arguments) {
   return {{"value", value_text(set_value(whole_name(name, device), require_text(arguments, "value")))}};
 }
 
-/// Returns names that contain the part: those that its program uses come first.
+/// Returns names that contain the part: the names that the device's program uses come first.
 std::vector<std::string> Session::names_of(const DeviceInfo& device, const std::string& part) const {
   std::vector<std::string> names;
   const auto add = [&](const Json& message, const char* list, const auto& take) {
@@ -204,7 +204,7 @@ std::vector<std::string> Session::names_of(const DeviceInfo& device, const std::
   return names;
 }
 
-/// Proposes names that begin with the word before the cursor: devices, axes' values, registers.
+/// Suggests names that begin with the word before the cursor: devices, axes' values, registers.
 Json Session::completions(const Json& arguments) {
   const std::string text = require_text(arguments, "text");
   const auto column = static_cast<std::size_t>(std::clamp<std::int64_t>(

@@ -38,7 +38,7 @@ std::size_t length_in(std::string_view head) {
 
 std::optional<std::string> Unframer::take() {
   const std::size_t end = bytes_.find(kEnd);
-  // After a head that is not too long, three of the end's four bytes may have arrived.
+  // If the head has the maximum length, three of the four bytes that end it may have arrived.
   if (std::min(end, bytes_.size()) > kLongestHead + (end == std::string::npos ? kEnd.size() - 1 : 0))
     throw FramingError("the header of a message has no end; expected at most 1024 bytes and an empty line");
   if (end == std::string::npos) return std::nullopt;

@@ -14,9 +14,10 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-constexpr const char* kAtLaunch = "dap";  // the snapshot to which `restart` goes back
+constexpr const char* kAtLaunch = "dap";  // the snapshot to which `restart` returns
 
-/// Returns the timeline of a recording, or null: only a daemon that serves one has it.
+/// Returns the timeline of a recording, or null, because only a daemon that serves a recording has a
+/// timeline.
 Json timeline_of(const BenchLink& link) {
   try {
     return link.ask({{"do", "timeline"}})["timeline"];
@@ -97,7 +98,7 @@ void Session::map_sources(const Json& arguments) {
   }
 }
 
-/// Prints where hosts find the lines of a launched bench.
+/// Prints the ports at which hosts can open the lines of a launched bench.
 void Session::print_ports() {
   if (is_recording_) return;
   const Json daemon = link_->ask({{"do", "identify"}})["daemon"];
@@ -134,7 +135,7 @@ Json Session::configuration_done(const Json& /*arguments*/) {
   return nullptr;
 }
 
-/// Reports the first stop, after the configuration. The recording of a failure stands at the failure.
+/// Reports the first stop, after the configuration. The recording of a failure begins at the failure.
 void Session::stop_at_entry() {
   if (failure_.empty() || stops_at_entry_) return report_stop(Json(), "entry");
   print(failure_ + "\n");
@@ -175,13 +176,13 @@ Json Session::disconnect(const Json& /*arguments*/) {
   return nullptr;
 }
 
-/// Ends a bench that was launched. Leaves another one as it was found: without our breakpoints, and with its
-/// time running if it did.
+/// Ends a bench that was launched. Leaves any other bench as it was found: without the session's breakpoints,
+/// and with its clock running if it was running before.
 void Session::end() {
   if (!link_) return;
   try {
     if (!launched_.end) {
-      // A step in progress has stopped the clock as well.
+      // A step in progress has stopped the clock too.
       const bool is_held = phase_ == Phase::stopped || link_->is_awaiting();
       if (link_->is_awaiting() && !is_recording_) link_->pause();
       delete_from_bench();

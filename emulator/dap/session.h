@@ -16,10 +16,10 @@
 
 namespace understudy::emulator::dap {
 
-/// A daemon that was started, or found.
+/// A daemon that was started or found.
 struct Launched {
   std::unique_ptr<BenchLink> link;
-  std::function<void()> end{};          // ends it; empty if it is not ours
+  std::function<void()> end{};          // ends the daemon; empty if the session does not own it
   std::function<std::string()> news{};  // what it has printed since the last call; may be empty
 };
 /// Starts or finds a daemon for the request `launch` or `attach` with these arguments. A daemon that it
@@ -60,8 +60,8 @@ class Session {
   struct DeviceInfo {
     std::string name;
     bool has_program = false;
-    bool has_many = false;  // several programs at once; otherwise it is one thread, whatever its name
-    std::vector<std::pair<std::int64_t, std::string>> sections{};  // rows, and what they are
+    bool has_many = false;  // several programs at once; otherwise it has only one thread
+    std::vector<std::pair<std::int64_t, std::string>> sections{};  // the number of rows, and the title
     std::map<std::string, Json> registers{};                       // rows of a `registers` reply
     std::string mapped{};       // the file that has the text of its program, if the bench names none
     std::string mapped_text{};  // that text
@@ -70,25 +70,26 @@ class Session {
     std::size_t device = 0;
     std::string program{};
   };
-  /// An instruction of a program, counted from 0. Clients know it as a number.
+  /// An instruction of a program, counted from 0. Clients refer to it by a number.
   struct Address {
-    std::size_t space = 0;  // in spaces_
+    std::size_t space = 0;  // an index into spaces_
     std::int64_t instruction = 0;
   };
-  /// The program of a device: its text, and the file it is from, if there is one.
+  /// The program of a device: its text, and the file that it comes from, if there is one.
   struct Source {
     std::string path;
     std::string text;
     Json lines;  // the lines that have an instruction
   };
-  /// A breakpoint in a device. A client's breakpoint in a file that several devices run becomes several.
+  /// A breakpoint in a device. A client's breakpoint in a file that several devices run becomes several of
+  /// these.
   struct SetPoint {
     int id = 0;
-    std::string key{};  // the source, or kData, kEvents
+    std::string key{};  // the source, or one of the constants below
     Json message{};
-    int number = 0;  // the daemon's; 0: it does not have it
+    int number = 0;  // the daemon's number; 0 if the daemon does not have it
     std::size_t device = 0;
-    int line = 0;  // 0: it is not at a line, or not found
+    int line = 0;  // 0 if it is not at a line, or was not found
   };
   // References above this are registers with bits: this number plus the place in with_bits_, from 1.
   static constexpr std::int64_t kFirstBits = 1'000'000'000;
@@ -202,15 +203,15 @@ class Session {
   bool is_recording_ = false;
   bool goes_back_ = false;
   std::string failure_{};    // the failure at the end of a scenario's recording, in a sentence
-  bool was_paused_ = false;  // when it was attached
+  bool was_paused_ = false;  // true if time was stopped when the session attached
   std::string speed_{};      // of a launched bench
   Launched launched_{};
   std::unique_ptr<BenchLink> link_{};
   std::vector<DeviceInfo> devices_{};
   std::vector<Thread> threads_{};         // by number, from 1
-  std::vector<Thread> spaces_{};          // programs whose instructions have got addresses
+  std::vector<Thread> spaces_{};          // programs whose instructions have been given addresses
   std::vector<std::string> with_bits_{};  // whole names of registers
-  Json stop_{};                           // the bench's present stop, or null
+  Json stop_{};                           // the bench's current stop, or null
   std::uint64_t next_event_ = 1;
   std::vector<SetPoint> points_{};
   int last_id_ = 0;

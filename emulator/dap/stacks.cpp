@@ -43,7 +43,7 @@ Json Session::stack_of(std::size_t device) const {
 }
 
 /// Returns the names of a device's programs. A device that has one program at a time has one thread, without
-/// a name, whatever it runs: with many stations, a question to each would take too long.
+/// a name, because asking each of many stations for its program would take too long.
 std::vector<std::string> Session::programs_of(std::size_t device) const {
   std::vector<std::string> names;
   if (devices_[device].has_many) {
@@ -115,7 +115,7 @@ Json Session::stack_trace(const Json& arguments) {
                            stop_.value("device", std::string()) == devices_[thread.device].name &&
                            (!has_many || text_or(stop_, "program") == thread.program);
   if (has_stopped) {
-    // The program may have continued within the tick, but people expect the line at which it stopped.
+    // The program may have continued within the tick, but users expect the line at which it stopped.
     const auto callers = stop_.value("callers", std::size_t{0});
     if (lines.size() > callers)
       lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(callers));

@@ -18,7 +18,7 @@ namespace understudy::emulator::dap {
 
 namespace {
 
-// References of a device's scopes and sections.
+// The number of references reserved for the scopes and sections of a device.
 constexpr std::int64_t kPerDevice = 1'000;
 constexpr std::int64_t kState = 1;    // the state of the programs
 constexpr std::int64_t kProgram = 2;  // the first of kScopes
@@ -51,7 +51,7 @@ bool is_plain(std::string_view word) {
   });
 }
 
-/// Returns the name as expressions spell it.
+/// Returns the name as it is spelled in expressions.
 std::string expression_of(const std::string& device, const std::string& name) {
   return (is_plain(device) ? device : "[\"" + device + "\"]") +
          (is_plain(name) ? "." + name : "[\"" + name + "\"]");
@@ -159,7 +159,7 @@ void Session::add_scope(std::size_t device, const std::string& scope, bool as_he
   }
 }
 
-/// Adds a section's registers: `count` of them from `start` on, or all.
+/// Adds a section's registers: `count` of them from `start` on, or all of them.
 void Session::add_section(std::size_t device, std::int64_t section, const Json& arguments, Json& all) {
   const std::string& name = devices_[device].name;
   const std::int64_t start = std::max<std::int64_t>(0, whole_or(arguments, "start", 0));
@@ -201,7 +201,7 @@ void Session::add_bits(const std::string& whole, Json& all) {
   }
 }
 
-/// Returns the row of a register, or null if there is none of that name.
+/// Returns the row of a register, or null if no register has that name.
 const Json* Session::known_register(std::size_t device, const std::string& name) {
   DeviceInfo& info = devices_[device];
   auto found = info.registers.find(name);
@@ -216,7 +216,7 @@ const Json* Session::known_register(std::size_t device, const std::string& name)
   return found->second.is_null() ? nullptr : &found->second;
 }
 
-/// Returns a variable. Registers have units, and bits below them.
+/// Returns a variable. Registers have units, and their bits as children.
 Json Session::entry(std::size_t device, const std::string& name, const Json& value, bool as_hex,
                     bool is_register) {
   const std::string& of = devices_[device].name;

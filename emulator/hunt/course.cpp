@@ -92,7 +92,8 @@ Disturbance draw_one(const Ground& ground, std::size_t number, Dice& dice) {
   return drawn;
 }
 
-/// Moves the disturbances of entries that have `within` to within this time of the first of each.
+/// Moves the disturbances of each entry with `within`, so that they all happen within that time of the first
+/// one.
 void gather(std::vector<Disturbance>& all, const HuntPlan& plan, Dice& dice) {
   for (std::size_t number = 0; number < plan.entries().size(); ++number) {
     const SimTime within = plan.entries()[number].within;
@@ -124,7 +125,7 @@ std::size_t count_of(const std::vector<Disturbance>& all, std::size_t entry) {
       std::count_if(all.begin(), all.end(), [&](const Disturbance& one) { return one.entry == entry; }));
 }
 
-/// Draws the moment again: near the present one, near another disturbance's, or anywhere.
+/// Draws the moment again: near the current one, near that of another disturbance, or anywhere.
 void change_moment(Disturbance& one, const std::vector<Disturbance>& all, const Ground& ground, Dice& dice) {
   const Disturbance& other = all[dice.below(all.size())];
   if (one.when == When::here || other.when != one.when || dice.one_in(4)) {
@@ -158,8 +159,8 @@ std::optional<SimTime> begin_of(const Disturbance& one, const Undisturbed& undis
   return std::nullopt;
 }
 
-/// Goes on from the state at a moment at which something new happened: keeps the disturbances before it, and
-/// draws others after it.
+/// Continues from the state at a moment at which something new happened: keeps the disturbances before it,
+/// and draws others after it.
 void go_on_from_moment(std::vector<Disturbance>& all, const Ground& ground, Dice& dice) {
   constexpr std::uint64_t kMaxMore = 3;
   const SimTime moment = ground.moments[dice.below(ground.moments.size())];
@@ -182,7 +183,7 @@ void go_on_from_moment(std::vector<Disturbance>& all, const Ground& ground, Dice
 bool has_time(const Disturbance& one) { return one.when == When::at || one.when == When::late; }
 
 Window window_of(const HuntPlan::Entry& entry, const Undisturbed& undisturbed) {
-  constexpr int kMore = 4;  // disturbances make a course longer, by a quarter as a guess
+  constexpr int kMore = 4;  // disturbances make a course longer; a quarter is a guess
   const SimTime low = undisturbed.begins[entry.first];
   const SimTime end = undisturbed.ends.back();
   const bool is_open = entry.last + 1 >= undisturbed.begins.size();
@@ -239,11 +240,11 @@ std::vector<Disturbance> changed(std::vector<Disturbance> all, std::span<const D
   const std::uint64_t changes = goes_on ? 0 : 1 + dice.below(4);
   for (std::uint64_t i = 0; i < changes; ++i) {
     const std::uint64_t how = all.empty() ? 0 : dice.below(6);
-    if (how <= 1) {  // one more, of its own or of another course
+    if (how <= 1) {  // one more, newly drawn or from another course
       const bool is_taken = how == 1 && !others.empty();
       Disturbance one =
           is_taken ? others[dice.below(others.size())] : draw_one(ground, dice.below(entries.size()), dice);
-      // What happens soon after something else often goes on with it.
+      // A disturbance soon after another one often continues its effect.
       if (!is_taken && !all.empty() && dice.one_in(2)) change_moment(one, all, ground, dice);
       const bool has_room =
           all.size() < kMaxDisturbances && count_of(all, one.entry) < entries[one.entry].max;

@@ -15,18 +15,18 @@ namespace understudy::emulator::hunt {
 struct Course {
   std::uint64_t case_number = 0;
   std::vector<play::Disturbance> disturbances{};  // in the order of their steps
-  // The shrinker left out these steps of the scenario, and all from `end` on.
+  // The shrinker left out these steps of the scenario, and all steps from `end` on.
   std::set<std::size_t> left_out{};
   std::size_t end = SIZE_MAX;
 
   bool operator==(const Course&) const = default;
 };
 
-/// A case without disturbances. It bounds what is drawn.
+/// A case without disturbances. Its times limit what can be drawn.
 struct Undisturbed {
-  std::vector<SimTime> begins;  // of each step
-  std::vector<SimTime> ends;    // likewise
-  std::int64_t requests = 0;    // of all stations
+  std::vector<SimTime> begins;  // when each step begins
+  std::vector<SimTime> ends;    // when each step ends
+  std::int64_t requests = 0;    // requests to all stations
 };
 
 /// The times at which a disturbance of an entry may begin.
@@ -38,10 +38,10 @@ struct Window {
 bool has_time(const play::Disturbance& disturbance);
 Window window_of(const play::HuntPlan::Entry& entry, const Undisturbed& undisturbed);
 
-/// Random numbers from a seed, the same everywhere.
+/// Random numbers from a seed, equal on every machine.
 class Dice {
  public:
-  /// `number` is that of the course.
+  /// `number` is the number of the course.
   Dice(std::uint64_t seed, std::uint64_t number);
   std::uint64_t next();
   /// Returns a number below `count`, which is at least 1.

@@ -65,8 +65,7 @@ CoursePlayer::CoursePlayer(std::shared_ptr<const play::Scenario> scenario, Model
   for (const play::HuntPlan::Entry& entry : plan().entries()) common_ = std::min(common_, entry.first);
 }
 
-/// Returns true if the course has all steps that the courses have in common, and nothing before or among
-/// them.
+/// Returns true if the course has all steps that the courses have in common, so that it can begin after them.
 bool CoursePlayer::begins_later(const Course& course) const {
   const bool has_all =
       course.end >= common_ && (course.left_out.empty() || *course.left_out.begin() >= common_);
@@ -121,7 +120,7 @@ Playing CoursePlayer::play_here(const Course& course, bool has_reached) {
 
 Playing CoursePlayer::playing_of(const Course& course, bool has_reached) {
   if (!player_.elsewhere) return play_here(course, has_reached);
-  put_on(course);  // the outcome needs to know its steps
+  put_on(course);  // the outcome refers to the steps
   return player_.elsewhere(course, has_reached);
 }
 
@@ -180,7 +179,7 @@ Outcome CoursePlayer::outcome_of(std::vector<ScenarioResult> results) const {
     outcome.simulated += result.simulated;
     if (!result.failure || outcome.failed || outcome.is_cut_short) continue;
     const bool is_span = is_of_span(*result.failure);
-    // The command failed, apart from the steps.
+    // The command itself failed, not a step.
     const bool is_of_command = !result.steps.empty() && !result.steps.back().has_failed;
     const bool is_branch = !result.branch.empty() || result.steps.empty() || is_of_command;
     if (!is_branch) outcome.failed_step = sources_[result.steps.size() - 1];

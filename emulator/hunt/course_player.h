@@ -1,4 +1,4 @@
-// A case of a scenario file that plays its courses. Each thread has stages of its own.
+// Plays the courses of one case of a scenario file. Each thread has its own players.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ namespace understudy::emulator::hunt {
 
 /// The end of a course.
 struct Outcome {
-  std::string kind{};                            // the kind of failure; empty: there is none that counts
+  std::string kind{};                            // the kind of failure; empty if there is none that counts
   std::optional<play::ScenarioResult> failed{};  // the scenario, or the branch, that failed
-  std::size_t failed_step = SIZE_MAX;            // the number of the scenario's step; SIZE_MAX: a branch's
+  std::size_t failed_step = SIZE_MAX;            // the index of the scenario's step; SIZE_MAX for a branch
   bool is_cut_short = false;                     // a disturbance failed as a step, so the rest was not played
   SimTime simulated{0};
 };
@@ -35,16 +35,17 @@ struct Outcome {
 struct Playing {
   std::vector<play::ScenarioResult> results;
   Reached reached{};
-  std::int64_t requests = 0;  // of all stations
+  std::int64_t requests = 0;  // requests to all stations
 };
 
-/// How courses are played. A stage uses it on one thread.
+/// How courses are played. A CoursePlayer uses it on one thread.
 struct Player {
-  /// Plays a scenario in this process: run_scenario(), or something that runs a command beside it.
+  /// Plays a scenario in this process: run_scenario(), or something that runs a command alongside it.
   std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)> here =
       play::run_scenario;
-  bool can_begin_later = true;  // `here` takes RunOptions::begin
-  /// Plays a course of a stage like this one in another process. If it is empty, all are played here.
+  bool can_begin_later = true;  // `here` supports RunOptions::begin
+  /// Plays a course of an equal CoursePlayer in another process. If it is empty, all courses are played in
+  /// this process.
   std::function<Playing(const Course&, bool has_reached)> elsewhere{};
 };
 
@@ -63,9 +64,9 @@ class CoursePlayer {
 
   /// Sets `reached`, if that is given, to what the course reaches.
   Outcome play(const Course& course, Reached* reached = nullptr);
-  /// Plays it in this process, with observers.
+  /// Plays the course in this process, with observers.
   Outcome play(const Course& course, std::vector<play::ObserverMaker> observers);
-  /// Plays it in this process.
+  /// Plays the course in this process.
   Playing play_here(const Course& course, bool has_reached);
   /// Returns the steps of all entries of the plan, with any of their values.
   play::Steps disturbing_steps();
@@ -85,11 +86,11 @@ class CoursePlayer {
   play::Trial trial_;
   play::StepsReader reader_;
   play::Steps spans_;
-  play::Scenario played_;   // with the steps of the present course
-  std::size_t common_ = 0;  // the steps of the scenario before which nothing may happen
-  std::shared_ptr<const play::Beginning> beginning_;  // after these steps; null: not known yet
-  Reached reached_before_{};                          // in these steps
-  std::vector<std::size_t> sources_;  // for each of those steps: the scenario's step, or SIZE_MAX
+  play::Scenario played_;                             // with the steps of the current course
+  std::size_t common_ = 0;                            // the number of steps before which nothing may happen
+  std::shared_ptr<const play::Beginning> beginning_;  // the state after these steps; null: not known yet
+  Reached reached_before_{};                          // what these steps reach
+  std::vector<std::size_t> sources_;  // for each step played: the scenario's step, or SIZE_MAX
   std::optional<Outcome> undisturbed_outcome_;
   Undisturbed undisturbed_;
 };

@@ -1,4 +1,4 @@
-// The stages of one thread: of the cases that it plays, those of the last ones.
+// The course players of one thread, one for each case that it has played recently.
 #pragma once
 
 #include <cstddef>

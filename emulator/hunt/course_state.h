@@ -1,4 +1,4 @@
-// Writes courses, and what they come to, as bytes, to hand them from one process to another.
+// Writes courses and their outcomes as bytes, to pass them from one process to another.
 #pragma once
 
 #include <cstdint>

@@ -157,7 +157,7 @@ std::string line_of(const play::HuntPlan& plan, const play::Disturbance& disturb
 }
 
 std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found) {
-  // The kind has the path of the file, which may be spelled differently.
+  // The kind contains the path of the file, which may be spelled differently.
   std::string what = found.outcome.kind;
   const std::string& file = course_player.scenario().file;
   for (std::size_t at = 0; (at = what.find(file)) != std::string::npos;) what.erase(at, file.size());

@@ -12,19 +12,20 @@ namespace understudy::emulator::hunt {
 
 /// The origin of a finding, for people.
 struct Origin {
-  std::string command;           // with which it is found again
+  std::string command;           // the command that finds it again
   std::string again{};           // the command that runs it, if that is not `run`
-  std::uint64_t course = 0;      // its number
-  std::size_t disturbances = 0;  // of the course
+  std::uint64_t course = 0;      // the number of the course
+  std::size_t disturbances = 0;  // the number of disturbances of the course
 };
 
 /// Returns a disturbance in one line: "inject: { drop: feeder, nth: 3 }".
 std::string line_of(const play::HuntPlan& plan, const play::Disturbance& disturbance);
-/// Returns the name of its file, without a folder and an ending: always the same one for a kind of failure.
+/// Returns the name of its file, without folder and extension. The name is always the same for a kind of
+/// failure.
 std::string name_of_finding(const CoursePlayer& course_player, const Shrunk& found);
-/// Returns true if somebody has changed the text of a found file. An empty text is not one.
+/// Returns true if somebody has changed the text of a found file. An empty text is not a found file.
 bool is_edited(const std::string& text);
-/// Returns the text of a scenario file in that folder. Its first lines have a checksum, for is_edited().
+/// Returns the text of a scenario file in that folder. Its first lines contain a checksum, for is_edited().
 std::string text_of_finding(const CoursePlayer& course_player, const Shrunk& found, const Origin& origin,
                             const std::string& folder);
 

@@ -43,15 +43,15 @@ void Hunt::give_back(std::unique_ptr<CoursePlayers> course_players) {
   course_players_.push_back(std::move(course_players));
 }
 
-/// Returns true if a course goes on from another one: half of them do, except for the first ones. A fault
-/// that is easy to find needs no guidance, and later courses have more to go on from.
+/// Returns true if a course starts from another one. Half of the courses do, except for the first ones: a
+/// fault that is easy to find needs no guidance, and later courses have more seeds to start from.
 bool Hunt::goes_on(std::uint64_t number) const {
   const bool is_early = number < kDrawnAlone * options_.shard.of;
   if (!options_.is_guided || is_early || corpus_.seeds().empty()) return false;
   return Dice(~options_.seed, number).one_in(2);  // a course that is drawn alone is the same without guidance
 }
 
-/// Draws a course: a new one, or one that goes on from a course that reached something new.
+/// Draws a course: a new one, or one that starts from a course that reached something new.
 Course Hunt::draw(CoursePlayers& course_players, std::uint64_t number) const {
   Dice dice(options_.seed, number);
   const std::vector<Seed>& seeds = corpus_.seeds();
@@ -147,7 +147,8 @@ bool Hunt::play_generation(std::uint64_t first, std::uint64_t end,
   return is_whole;
 }
 
-/// Judges the only case without disturbances, if it fails: every course would fail in the same way.
+/// Judges the only case without disturbances, if it fails, because then every course would fail in the same
+/// way.
 bool Hunt::fails_by_itself(const std::function<void(const Finding&)>& found) {
   auto course_players = take_course_players();
   const Played played{.course = {}, .outcome = course_players->of(0)->undisturbed_outcome()};
@@ -211,7 +212,7 @@ void Hunt::run(const std::function<void(const Finding&)>& found, const std::func
   play_earlier();
   const std::uint64_t end =
       options_.courses > UINT64_MAX - options_.first ? UINT64_MAX : options_.first + options_.courses;
-  // The first generations are small, so that the first new things are soon gone on from.
+  // The first generations are small, so that courses soon start from the first discoveries.
   for (std::uint64_t generation = kFirstGeneration; next_ < end;
        generation = std::min(2 * generation, kGeneration)) {
     const std::uint64_t count = std::min(generation * options_.shard.of, end - next_);

@@ -1,6 +1,6 @@
 // Plays courses of a scenario file, and shrinks the first failure of each kind. Courses are played on several
-// threads, in generations, and judged in the order of their numbers. So the findings depend on the seed
-// alone.
+// threads, in generations, and judged in the order of their numbers. The findings therefore depend only on
+// the seed.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::hunt {
 struct HuntOptions {
   std::uint64_t seed = 0;
   int jobs = 1;
-  std::uint64_t courses = UINT64_MAX;  // how many at most
+  std::uint64_t courses = UINT64_MAX;  // the maximum number of courses
   play::Shard shard{};
   std::uint64_t first = 0;                               // the number of the first course
   std::vector<Course> corpus{};                          // courses of earlier hunts, which are played first
@@ -36,17 +36,17 @@ struct HuntOptions {
 
 /// A kind of failure.
 struct Finding {
-  std::uint64_t course = 0;      // the number of the first
-  std::size_t disturbances = 0;  // how many it had
+  std::uint64_t course = 0;      // the number of the first such course
+  std::size_t disturbances = 0;  // the number of its disturbances
   Shrunk shrunk{};
-  std::shared_ptr<CoursePlayer> course_player{};  // of its case
+  std::shared_ptr<CoursePlayer> course_player{};  // plays its case
 };
 
 /// The totals so far.
 struct Tally {
   std::uint64_t courses = 0;
   std::uint64_t failed = 0;
-  std::uint64_t cut_short = 0;  // a disturbance failed as a step
+  std::uint64_t cut_short = 0;  // courses in which a disturbance failed as a step
   std::size_t findings = 0;
   SimTime simulated{0};
   Counts reached{};
@@ -69,14 +69,14 @@ class Hunt {
       const play::CaseList& cases, ModelList models, HuntOptions options,
       std::function<Player()> make_player = [] { return Player{}; });
 
-  /// Hunts until it is over. `found` gets each finding as soon as it is shrunk, on this thread, which also
-  /// calls `pause` after each generation.
+  /// Hunts until it is over. `found` receives each finding as soon as it is shrunk, on this thread, which
+  /// also calls `pause` after each generation.
   void run(
       const std::function<void(const Finding&)>& found, const std::function<void()>& pause = [] {});
 
   /// May be called on any thread.
   Tally tally() const;
-  /// Returns how many courses failed in each way, by kind.
+  /// Returns how many courses failed, by kind of failure.
   const std::map<std::string, std::uint64_t>& kinds() const { return kinds_; }
   /// Returns the courses that reached something new.
   const Corpus& corpus() const { return corpus_; }
@@ -85,8 +85,8 @@ class Hunt {
   /// Returns the number of the next course.
   std::uint64_t next_course() const { return next_; }
   const std::vector<CurvePoint>& curve() const { return curve_; }
-  /// Plays the courses that together have reached everything, with these observers.
-  /// `over` is called after each.
+  /// Plays the courses that together have reached everything, with these observers. `over` is called after
+  /// each course.
   void play_corpus(
       const std::function<std::vector<play::ObserverMaker>(const play::Scenario&)>& observers,
       const std::function<void(const Course&, const play::HuntPlan&)>& over = [](const Course&,
@@ -94,9 +94,10 @@ class Hunt {
 
  private:
   static constexpr std::uint64_t kFirstGeneration = 16;   // courses
-  static constexpr std::uint64_t kGeneration = kMaxJobs;  // later ones
+  static constexpr std::uint64_t kGeneration = kMaxJobs;  // of all later generations
 
-  /// So many courses go on from none. They fill the first generations: 16 + 32 + 64.
+  /// This many courses are drawn without starting from another one. They fill the first generations: 16 + 32
+  /// + 64.
   static constexpr std::uint64_t kDrawnAlone = 112;
 
   struct Played {
@@ -122,7 +123,7 @@ class Hunt {
   HuntOptions options_;
   std::function<Player()> make_player_;
   std::mutex stages_mutex_;
-  std::vector<std::unique_ptr<CoursePlayers>> course_players_;  // that no thread uses
+  std::vector<std::unique_ptr<CoursePlayers>> course_players_;  // those that no thread uses
   std::map<std::string, std::uint64_t> kinds_;
   Corpus corpus_;
   std::vector<Course> unplayed_;

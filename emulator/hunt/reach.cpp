@@ -75,13 +75,13 @@ class Lines final : public ProgramWatch {
   std::size_t device_;
   UserProgram& program_;
   std::uint64_t mark_ = 0;
-  std::vector<std::vector<std::uint8_t>> seen_;  // by part, by line
+  std::vector<std::vector<std::uint8_t>> seen_;  // by part and line
 };
 
 /// The values of one device that are sampled.
 struct Sights {
   std::vector<Place> words;    // registers with named bits
-  std::vector<Place> numbers;  // others that the device shows
+  std::vector<Place> numbers;  // other registers that the device shows
   std::vector<TerminalView> terminals;
 };
 
@@ -146,7 +146,7 @@ class Reach final : public play::Observer, private pty::LineObserver, private wo
   void on_character(const pty::TimedByte&, bool) override {}
   void on_nothing_more() override {}
   void on_receive(std::span<const std::uint8_t> bytes, bool) override {
-    // Enough of a frame for the station, the function and the address, but not for values.
+    // These bytes of a frame contain the station, the function and the address, but not the values.
     constexpr std::size_t kTelling = 4;
     std::uint64_t request = bytes.size() < kTelling ? bytes.size() : kTelling;
     for (const std::uint8_t byte : bytes.first(static_cast<std::size_t>(request)))

@@ -1,6 +1,6 @@
-// Notes what a course has reached: a set of numbers. Each stands for something that can be reached. There are
-// four sorts: lines of programs and their decisions; registers with classes of values; coarse states of the
-// whole bench; and orders, which are two such states in sequence and the events between them.
+// Notes what a course has reached, as a set of numbers. Each number stands for something that can be reached.
+// There are four sorts: lines of programs and their decisions; registers with classes of values; coarse
+// states of the whole bench; and orders, which are two such states in sequence and the events between them.
 //
 // It samples when something happens: at messages, faults, inputs, and after each step.
 #pragma once
@@ -26,18 +26,18 @@ using Feature = std::uint64_t;
 constexpr Sort sort_of(Feature feature) { return static_cast<Sort>(feature & 3); }
 
 struct Reached {
-  /// The time at which each was first reached. Results must not depend on the order of iteration.
+  /// The time at which each feature was first reached. Results must not depend on the order of iteration.
   std::unordered_map<Feature, SimTime> when{};
 
-  /// The observer's last sights. Orders are made of one of them and the next.
+  /// The latest observations. An order combines one of them with the next.
   struct Last {
     std::uint64_t state = 0;
     std::uint64_t event = 0;
-    std::uint64_t request = 0;  // of the hosts
-    std::uint64_t reply = 0;    // 0: it has none yet
+    std::uint64_t request = 0;  // the hosts' last request
+    std::uint64_t reply = 0;    // the reply to it; 0 if it has none yet
   };
   Last last{};
-  bool goes_on = false;  // the next observer goes on from `last`
+  bool goes_on = false;  // the next observer continues from `last`
 };
 
 /// Returns an observer that adds to `reached`, which must outlive it.

@@ -63,7 +63,7 @@ void Shrinker::end_early() {
   try_course(std::move(shorter));
 }
 
-/// Removes a disturbance. If it makes a host repeat a request, those after it have lower numbers without it.
+/// Removes a disturbance. If it makes a host repeat a request, later requests have lower numbers without it.
 bool Shrinker::try_without(std::size_t number) {
   constexpr std::int64_t kMaxRepeats = 3;
   Course smaller = best_.course;
@@ -132,7 +132,7 @@ void Shrinker::simplify(std::size_t number) {
   }
 }
 
-/// Takes the roundest time near the present one with which the course fails.
+/// Finds the roundest time near the current one with which the course still fails.
 void Shrinker::round_moment(std::size_t number) {
   using namespace std::chrono_literals;
   constexpr std::array<SimTime, 5> kUnits{1s, 100ms, 10ms, 1ms, 100us};

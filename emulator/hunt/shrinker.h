@@ -14,13 +14,13 @@ namespace understudy::emulator::hunt {
 struct Shrunk {
   Course course;
   Outcome outcome;
-  int plays = 0;            // how many courses it took
+  int plays = 0;            // the number of courses played
   bool is_minimal = false;  // each of its disturbances is needed for that failure
 };
 
 class Shrinker {
  public:
-  /// `kind` is how the course fails. Both must outlive it.
+  /// `kind` is the kind of the course's failure. Both arguments must outlive the shrinker.
   Shrinker(CoursePlayer& course_player, const std::string& kind)
       : course_player_(course_player), kind_(kind) {}
 
@@ -30,7 +30,7 @@ class Shrinker {
   static constexpr int kMaxPlays = 3000;
 
   bool fails(const Course& course);
-  /// Takes the course if it fails in the same way.
+  /// Keeps the course if it fails in the same way.
   bool try_course(Course course);
   void end_early();
   bool try_without(std::size_t number);

@@ -23,8 +23,8 @@ struct HostName {
   std::uint16_t port = 80;
   bool operator==(const HostName&) const = default;
 };
-/// Returns nothing if the text is not a host: if it has user names, paths, spaces, ports beyond 65535, or
-/// empty names.
+/// Returns nothing if the text is not a host, for example if it has user names, paths, spaces, ports beyond
+/// 65535, or empty names.
 std::optional<HostName> parse_host(std::string_view text);
 
 struct WebAccess {

@@ -30,7 +30,7 @@ void for_each_line(std::string_view text, Act act) {
   }
 }
 
-/// Returns the names behind `before`: "small.js" for "from './small.js'".
+/// Returns the names that follow `before`: "small.js" for "from './small.js'".
 std::vector<std::string_view> names_behind(std::string_view text, std::string_view before) {
   std::vector<std::string_view> names;
   for (std::size_t at = text.find(before); at != std::string_view::npos; at = text.find(before, at + 1)) {

@@ -35,7 +35,7 @@ class Drawing {
   Drawing(double width, double height) : width_(width), height_(height) {}
 
   void box(double left, double top, double right, double bottom, Colour colour);
-  /// A line through one point is a dot.
+  /// A line with one point is drawn as a dot.
   void line(std::vector<Point> points, Colour colour, double wide = 1);
   /// `y` is the middle of its letters. A text wider than `room` is cut off.
   void text(double x, double y, std::string_view text, Colour colour, double room = 1e9,

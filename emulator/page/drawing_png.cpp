@@ -144,8 +144,8 @@ class Raster {
   std::size_t last_ = 0;
 };
 
-/// Compresses by Deflate with its fixed codes. For a repetition it knows only the last place of the next four
-/// bytes.
+/// Compresses by Deflate with its fixed codes. To find repetitions, it remembers only the last position of
+/// each sequence of four bytes.
 class Deflated {
  public:
   explicit Deflated(const std::string& data) : data_(data), last_(std::size_t{1} << kHashBits, kNowhere) {
@@ -210,8 +210,9 @@ class Deflated {
   }
   void literal(unsigned byte) { byte < 144 ? code(0b00110000 + byte, 8) : code(0b110010000 + byte - 144, 9); }
 
-  /// Finds the group of a number: groups of `each` have one bit more than those before. Returns the number of
-  /// its group, and writes to `base` and `extra` where that begins and how many bits follow.
+  /// Finds the group of a number: each run of `each` groups has one more extra bit than the run before.
+  /// Returns the number of the group, and sets `base` to the first number in it and `extra` to the number of
+  /// extra bits.
   static unsigned group_of(unsigned number, unsigned first, unsigned each, unsigned& base, unsigned& extra) {
     base = first;
     extra = 0;
@@ -234,7 +235,7 @@ class Deflated {
   }
 
   const std::string& data_;
-  std::vector<std::size_t> last_;  // by the hash of four bytes: their last place
+  std::vector<std::size_t> last_;  // by the hash of four bytes: their last position
   std::string bytes_{"\x78\x01"};
   unsigned waiting_ = 0;
   std::uint64_t count_ = 0;
@@ -262,7 +263,7 @@ std::string png_of(const Drawing& drawing) {
   Raster raster(static_cast<std::size_t>(std::ceil(drawing.width() * kScale)),
                 static_cast<std::size_t>(std::ceil(drawing.height() * kScale)));
   for (const Shape& shape : drawing.shapes()) raster.draw(shape);
-  constexpr char kUp = 2;  // the kind of row: the difference to the one above
+  constexpr char kUp = 2;  // the filter of a row: the difference from the row above
   std::string rows;
   for (std::size_t y = 0; y < raster.height(); ++y) {
     rows += kUp;

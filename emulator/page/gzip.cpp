@@ -34,7 +34,7 @@ void add_low_first(std::string& text, std::uint32_t number) {
 }  // namespace
 
 std::string gzipped(std::string_view bytes) {
-  // Deflate, without a name, a time or the name of a system.
+  // The header: Deflate, without a file name, a time or a system.
   std::string packed{"\x1F\x8B\x08\x00\x00\x00\x00\x00\x02\xFF", 10};
   zlib::deflate_stream stream;
   stream.reset(kLevel, kWindowBits, kMemoryLevel, zlib::Strategy::normal);

@@ -1,6 +1,6 @@
 // The live page: it observes running benches through their control sockets and shows them in browsers
-// (docs/page.md). It asks each socket at most 30 times per second, once for all browsers. The bench runs on
-// if the page fails.
+// (docs/page.md). It asks each socket at most 30 times per second, once for all browsers. The bench continues
+// to run if the page fails.
 #pragma once
 
 #include <chrono>
@@ -24,9 +24,9 @@ struct PageOptions {
   std::vector<std::string> sockets;  // control sockets, one per bench
   std::vector<std::string> hosts;    // names of this machine besides those of the loopback
   bool is_read_only = false;
-  std::string folder;  // a folder with the page's files; empty: those in the program
+  std::string folder;  // a folder with the page's files; empty: the files in the program
   WebLimits limits{};
-  std::size_t browsers = 16;  // browsers with the token
+  std::size_t browsers = 16;  // the maximum number of browsers with the token
 };
 
 struct BrowserMessage;
@@ -50,7 +50,7 @@ class Page final : private WebEvents {
   struct Browser {
     bool is_known = false;                    // the browser has sent the token
     std::map<std::size_t, Watching> watched;  // by bench
-    std::size_t asked = 0;                    // replies that it waits for
+    std::size_t asked = 0;                    // the number of replies that it is waiting for
   };
 
   std::optional<WebFile> file(std::string_view path) override;
@@ -70,7 +70,7 @@ class Page final : private WebEvents {
   void send(BrowserId browser, std::string text);
 
   PageOptions options_;
-  std::map<std::string, WebFile, std::less<>> files_;  // built in, by name; made when somebody asks for them
+  std::map<std::string, WebFile, std::less<>> files_;  // built in, by name; created on first request
   std::string token_;
   std::map<BrowserId, Browser> browsers_;
   Web web_;

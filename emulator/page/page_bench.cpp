@@ -26,9 +26,9 @@ std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 std::string quoted_json(const std::string& text) { return text_of(Json(text)); }
 
-/// Writes `"frames":[...]` with the frames from `next` on, and the number of those that were missed before or
-/// between them, because the browser or this page was too slow. Frames with a number below `from` are gone
-/// and do not count as missed.
+/// Writes `"frames":[...]` with the frames from `next` on, and the number of frames that were missed before
+/// or between them, because the browser or this page was too slow. Frames with a number below `from` no
+/// longer exist and do not count as missed.
 template <class Ring>
 std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, const std::string& key) {
   if (ring.empty() || ring.back().number < next) return {};
@@ -47,15 +47,15 @@ std::string listed(const Ring& ring, std::uint64_t from, std::uint64_t& next, co
   return text + "]" + (lost > 0 ? ",\"" + key + "_lost\":" + std::to_string(lost) : "");
 }
 
-/// Returns the number of the first frame or event in a look. If it has none, it returns the number of the
+/// Returns the number of the first frame or event in a look. If the look has none, returns the number of the
 /// next one.
 std::uint64_t first_of(const Json& look, const char* key, const char* next_key) {
   const Json& list = look.at(key);
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
-/// Takes the frames or events from a look, if it has any. If they were forgotten after the request, its list
-/// does not fit, and it is ignored.
+/// Takes the frames or events from a look, if it has any. If they were discarded after the request, the list
+/// no longer fits and is ignored.
 template <class Ring>
 void take_list(const Json& look, const char* key, const char* next_key, std::uint64_t asked, Ring& ring,
                std::uint64_t& next) {
@@ -73,7 +73,7 @@ PageBench::PageBench(Web& web, std::string socket, Callbacks callbacks)
 void PageBench::want(Wanted wanted) {
   for (const std::string& name : wanted.names) values_.try_emplace(name);
   std::erase_if(values_, [&](const auto& known) { return !wanted.names.contains(known.first); });
-  // A browser that wants them later gets the ones that the daemon still has.
+  // A browser that requests them later gets those that the daemon still has.
   if (!wanted.frames) {
     frames_.clear();
     next_frame_ = 0;
@@ -92,7 +92,7 @@ void PageBench::ask(std::string message, ControlWire::Answered answered) {
   plan(kTurn);
 }
 
-/// Schedules the next turn at this time after the last one.
+/// Schedules the next turn `time` after the last one.
 void PageBench::plan(std::chrono::milliseconds time) {
   if (std::exchange(is_planned_, true)) return;
   const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_turn_);
@@ -201,7 +201,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
       if (is_by_number) return;
       restart(who);
     }
-    // The frames and events before a restore do not belong to the present run.
+    // The frames and events before a restore do not belong to the current run.
     const std::uint64_t restores = look.value("restores", std::uint64_t{0});
     if (std::exchange(restores_, restores) != restores) {
       frames_.clear();

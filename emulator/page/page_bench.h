@@ -19,7 +19,7 @@
 
 namespace understudy::emulator::page {
 
-/// Holds what a browser wants of a bench, and what the page has already sent.
+/// Holds what a browser wants from a bench, and what the page has already sent.
 struct Watching {
   std::vector<std::string> names;
   bool frames = false;
@@ -44,7 +44,7 @@ class PageBench {
   static constexpr std::size_t kAsksATurn = 16;
   static constexpr std::size_t kMaxNames = 4'000;  // for all browsers together
   static constexpr std::size_t kNamesAMessage = 1'000;
-  static constexpr std::size_t kBytesAMessage = 48 * 1024;  // size of the names
+  static constexpr std::size_t kBytesAMessage = 48 * 1024;  // the size of the names in one message
 
   enum class State : std::uint8_t { unknown, there, silent, gone };
 
@@ -56,7 +56,7 @@ class PageBench {
 
   const std::string& socket() const { return socket_; }
   State state() const { return state_; }
-  /// Grows when another daemon, or a restarted one, answers: numbers of frames and events begin again.
+  /// Grows when another daemon, or a restarted one, answers: numbers of frames and events restart.
   std::uint64_t epoch() const { return epoch_; }
 
   /// The data that the page observes from now on. If no browser watches, it sends no requests to the bench.
@@ -141,7 +141,7 @@ class PageBench {
     ControlWire::Answered answered;
   };
   std::deque<Ask> asks_;
-  // One for each message without a reply yet.
+  // One wire for each message that has no reply yet.
   std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;
   std::uint64_t last_ask_ = 0;
   std::shared_ptr<bool> alive_ =

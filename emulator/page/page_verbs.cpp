@@ -14,7 +14,7 @@ namespace understudy::emulator::page {
 namespace {
 
 /// A verb that the page passes on. With `only_with`, it changes the bench only if it has one of these keys.
-/// Without it, it always or never does.
+/// Otherwise it always or never changes the bench.
 struct PassedVerb {
   std::string_view name;
   bool changes = false;
@@ -68,7 +68,7 @@ constexpr int kDeepest = 8;
 constexpr std::size_t kMaxNames = 2'000;
 constexpr std::size_t kLongestName = 200;
 
-/// Returns null for a text that is not JSON, or is nested too deeply.
+/// Returns null for text that is not JSON or is nested too deeply.
 Json parse_json(std::string_view text) {
   bool is_too_deep = false;
   Json parsed = Json::parse(

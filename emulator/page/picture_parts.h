@@ -47,10 +47,10 @@ struct StoryAxis {
 };
 std::vector<StoryAxis> axes_of(const Asker& ask);
 
-/// Returns the least and the greatest value of a curve.
+/// Returns the minimum and the maximum of a curve.
 std::pair<double, double> range_of(const Json& curve);
 
-/// Each draws a panel below `top`, and returns its lower end.
+/// Each function draws a panel below `top`, and returns its lower end.
 double draw_timeline(Drawing& drawing, double top, const Asker& ask, const Json& timeline);
 double draw_axes(Drawing& drawing, double top, const Asker& ask);
 double draw_path(Drawing& drawing, double top, const Asker& ask, const Json& timeline);

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxAxes = 8;
 constexpr std::size_t kMaxSignals = 120;
 constexpr std::size_t kMaxShown = 24;  // signals that change
 
-/// Draws one lane after the other over a stretch of time.
+/// Draws one lane after another over a stretch of time.
 class Lanes {
  public:
   Lanes(Drawing& drawing, double top, std::int64_t from, std::int64_t to)

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxListed = 4'000;      // frames, and as many events
 constexpr std::size_t kListedAtOnce = 200;     // how many a daemon lists from before a moment
 constexpr std::int64_t kTick_ns = 1'000'000;
 constexpr std::int64_t kOverlap_ns = 50'000'000;    // a frame is listed only after its last character
-constexpr std::int64_t kBefore_ns = 3'000'000'000;  // of the stretch with every tick
+constexpr std::int64_t kBefore_ns = 3'000'000'000;  // the part before the current moment
 constexpr std::int64_t kAfter_ns = 1'000'000'000;
 
 // The values that the axes panel shows of each axis, the most important first.
@@ -30,7 +30,8 @@ constexpr std::array<std::string_view, 15> kOfAxes{
 
 std::string text_of(const Json& object, const char* key) { return object.at(key).get<std::string>(); }
 
-/// Returns the names whose courses a file has: the most important value of every axis first, then the next.
+/// Returns the names whose courses a file contains: the most important value of every axis first, then the
+/// next.
 std::vector<std::string> names_of(const Json& devices) {
   std::vector<std::string> names;
   for (const std::string_view what : kOfAxes) {
@@ -44,7 +45,7 @@ std::vector<std::string> names_of(const Json& devices) {
   return names;
 }
 
-/// Returns the present values of the names, and who drives each terminal.
+/// Returns the current values of the names, and what drives each terminal.
 Json values_of(const Asker& ask, const std::vector<std::string>& names) {
   Json values = Json::object();
   constexpr std::size_t kAtOnce = 1'000;
@@ -61,7 +62,7 @@ Json values_of(const Asker& ask, const std::vector<std::string>& names) {
   return values;
 }
 
-/// Returns a curve as a list of runs: the first dot, its least and its greatest value.
+/// Returns a curve as a list of runs: the first dot, its minimum and its maximum.
 Json runs_of(const Json& curve) {
   Json runs = Json::array();
   const Json& min = curve.at("least");
@@ -110,7 +111,7 @@ class Listed {
     return is_all ? 0 : first;
   }
 
-  /// Returns them all, in their order.
+  /// Returns all entries, in order.
   Json finish() {
     std::stable_sort(all_.begin(), all_.end(), [](const Json& one, const Json& other) {
       return one.at("time_ns").get<std::int64_t>() < other.at("time_ns").get<std::int64_t>();

@@ -27,7 +27,7 @@ Json require_reply(const Asker& ask, const Json& message);
 /// Returns the whole timeline of the recording: its marks and its story.
 Json timeline_of(const Asker& ask);
 
-/// A stretch of the recording. Curves have the least and greatest value in each of its `dots`.
+/// A stretch of the recording. Curves have the minimum and the maximum in each of its `dots`.
 struct Course {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
@@ -41,7 +41,7 @@ std::vector<Json> curves_of(const Asker& ask, const std::vector<std::string>& na
 /// Returns all spans of the stretch.
 Json spans_of(const Asker& ask, const Course& course);
 
-/// Returns the data of the page's told.js.
+/// Returns the data for the page's told.js.
 Json story_data(const Asker& ask, const std::string& name, const std::string& version);
 
 }  // namespace understudy::emulator::page

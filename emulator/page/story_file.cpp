@@ -12,7 +12,8 @@ namespace understudy::emulator::page {
 
 namespace {
 
-// Browsers load no modules from other files on a disk, so the page contains them. An import map names each.
+// Browsers do not load modules from other files on disk, so the page contains them. An import map names each
+// module.
 constexpr std::string_view kHere = "from './";
 constexpr std::string_view kMapped = "from 'page/";
 constexpr std::string_view kLater = "import('./";

@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::page {
 
-/// Returns the file, an HTML page. `name` is the recording's. Throws RefusedError with the reason.
+/// Returns the file, an HTML page. `name` is the name of the recording. Throws RefusedError with the reason.
 std::string story_file(const Asker& ask, const std::string& name, const std::string& version);
 
 }  // namespace understudy::emulator::page

@@ -12,11 +12,11 @@ namespace understudy::emulator::page {
 
 inline constexpr std::array<std::string_view, 4> kPicturePanels{"timeline", "axes", "path", "bus"};
 
-/// Draws a panel at the present moment of the recording, below its name and its story. Throws RefusedError
+/// Draws a panel at the current moment of the recording, below its name and its story. Throws RefusedError
 /// with the reason.
 Drawing story_picture(const Asker& ask, const std::string& name, std::string_view panel);
 
-/// Returns a line that says what the picture shows.
+/// Returns a line that describes the picture.
 std::string picture_words(const Asker& ask, const std::string& name, std::string_view panel);
 
 }  // namespace understudy::emulator::page

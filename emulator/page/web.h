@@ -39,7 +39,7 @@ class WebEvents {
   virtual std::optional<WebFile> file(std::string_view path) = 0;
   virtual void opened(BrowserId browser) = 0;
   virtual void received(BrowserId browser, std::string_view text) = 0;
-  /// Called when a browser has gone, also after close().
+  /// Called when a browser has disconnected, even after close().
   virtual void closed(BrowserId browser) = 0;
   /// Called when all queued data has been sent.
   virtual void drained(BrowserId browser) = 0;
@@ -49,11 +49,11 @@ class WebEvents {
 };
 
 struct WebLimits {
-  std::size_t unauthenticated = 64;           // connections that are not authenticated yet
-  std::size_t request_bytes = 8 * 1024;       // size of a request's head; it has no body
-  std::size_t message_bytes = 64 * 1024;      // size of a browser's message
-  std::size_t waiting_bytes = 8 << 20;        // queued for a browser that does not read; then it is closed
-  std::size_t reply_bytes = 16 << 20;         // size of a control socket's reply
+  std::size_t unauthenticated = 64;       // connections that are not authenticated yet
+  std::size_t request_bytes = 8 * 1024;   // size of a request's head; it has no body
+  std::size_t message_bytes = 64 * 1024;  // size of a browser's message
+  std::size_t waiting_bytes = 8 << 20;  // queued for a browser that does not read; beyond this, it is closed
+  std::size_t reply_bytes = 16 << 20;   // size of a control socket's reply
   std::chrono::milliseconds request{5'000};   // for a whole request
   std::chrono::milliseconds silence{30'000};  // of a browser that does not answer pings
 };
@@ -90,7 +90,7 @@ class Web {
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
   /// Returns the number of bytes that are queued and not sent yet.
   std::size_t waiting(BrowserId browser) const;
-  /// Sends the reason and closes the browser. It has no effect on a browser that has gone.
+  /// Sends the reason and closes the browser. It has no effect on a browser that has disconnected.
   void close(BrowserId browser, std::string_view why);
   void after(std::chrono::milliseconds time, std::function<void()> act);
   std::unique_ptr<ControlWire> wire(const std::string& socket);

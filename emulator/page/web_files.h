@@ -12,9 +12,9 @@ struct EmbeddedFile {
   std::string_view bytes;
 };
 std::span<const EmbeddedFile> embedded_files();
-/// Returns the bytes of one of them, or an empty text if there is no such file.
+/// Returns the bytes of the file, or an empty text if there is no such file.
 std::string_view embedded_text(std::string_view name);
-/// Returns the text with `with` wherever it had `what`.
+/// Returns the text with every `what` replaced by `with`.
 std::string replaced(std::string text, std::string_view what, std::string_view with);
 
 /// Returns the type for the ending of a name: "text/javascript; charset=utf-8".
