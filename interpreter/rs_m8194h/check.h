@@ -17,8 +17,8 @@ inline constexpr Options kAnyChoice{option("rectangle_radius", "drawn_shorter"),
                                     option("uneven_scan_start", "starts_all_the_same"),
                                     option("initial_in_macros", "stored_when_the_line_runs")};
 
-/// Returns the first parameter that is not in its range or list, or nothing if all are good. References are
-/// good; their values are checked when the line runs. bad_operand() checks operators, and all of
+/// Returns the first parameter that is not in its range or list, or nothing if all are valid. References are
+/// accepted; their values are checked when the line runs. bad_operand() checks operators, and all of
 /// VAR_CALCULATE.
 std::optional<std::size_t> bad_parameter(const Command& command, const Options& options = {});
 

@@ -9,8 +9,9 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Values that are not parameters are 0. A signed number is in two's complement, a real number is its bits.
-/// Comparison operators have the codes of operators.h, in whatever order the host wrote their letters.
+/// Values that are not parameters are 0. A signed number is in two's complement, a real number is stored as
+/// its bits. Comparison operators have the codes of operators.h, whichever order the host used for their
+/// letters.
 struct Command {
   std::uint16_t code = 0;
   std::array<std::uint32_t, kMaxParameters> values = {};

@@ -47,7 +47,7 @@ struct Parameter {
   Width width = Width::byte;
   std::int64_t min = 0;
   std::int64_t max = 0;
-  std::uint32_t only = 0;  // if not 0: bit n is set if n is one of the list
+  std::uint32_t only = 0;  // if not 0, bit n is set if n is in the list
   Reference reference = Reference::none;
   std::string_view values = {};  // the meanings of the numbers
 
@@ -57,7 +57,7 @@ struct Parameter {
   }
 };
 
-/// What happens to the real-time code.
+/// How a real-time code is handled.
 enum class RealTime : std::uint8_t {
   none,       // there is no real-time code
   queued,     // into the FIFO

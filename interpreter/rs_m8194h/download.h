@@ -49,7 +49,7 @@ struct Closed {
   Fault fault = Fault::none;        // of CLOSE itself
   std::optional<Macro> macro = {};  // replaces the old macro if there was no error
 };
-/// Ends the download. If there is an error, `download` then holds it.
+/// Ends the download. If there is an error, `download` contains it afterwards.
 Closed close(Download& download, const Options& options = {});
 
 /// Returns what inputs 110 to 114 show after a CLOSE; the number of the other kind of macro does not change.

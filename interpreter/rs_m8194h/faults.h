@@ -1,4 +1,4 @@
-// The reasons for which a request or a macro line is refused, in both numberings of input 102, with their
+// The reasons why a request or a macro line is refused, in both numberings of input 102, with their
 // exceptions and with the download's error codes of input 114.
 #pragma once
 
@@ -44,7 +44,7 @@ enum class Fault : std::uint8_t {
 
 struct FaultRow {
   Fault fault;
-  std::uint8_t reason_4_16_2;   // shown in input 102; beyond the end of that list, the other one continues
+  std::uint8_t reason_4_16_2;   // shown in input 102; after the end of that list, as in the other numbering
   std::uint8_t reason_12_1_12;  // the same in the other numbering
   std::uint8_t exception;       // Modbus
   std::uint8_t download_error;  // shown in input 114; 0: not a download error

@@ -225,7 +225,7 @@ class LineRun {
 
   Ran exit_macro(const Command&) {
     level().loops.clear();
-    level().line = UINT16_MAX;  // after its end, whatever its length
+    level().line = UINT16_MAX;  // beyond the end of the macro, whatever its length
     return Ran::on;
   }
 

@@ -158,7 +158,7 @@ class ListingReader {
   void end_macro() {
     if (!download_) return;
     Closed closed = close(*download_);
-    // After an earlier error, the line may not be CLOSE's, or may not be one that was accepted.
+    // After an earlier error, the reported line may not be the CLOSE, or may be one that was refused.
     if (closed.fault != Fault::none && is_sound_) fail_structure(places_[download_->line], *download_);
     if (closed.macro) {
       listing_.macros.push_back({download_->name, std::move(*closed.macro)});
@@ -232,7 +232,7 @@ class ListingReader {
   std::vector<TextError> errors_;
   std::optional<Token> first_trigger_;
   std::optional<Download> download_;
-  std::vector<Token> places_;  // of its lines
+  std::vector<Token> places_;  // of the macro's lines
   bool is_sound_ = true;
   std::vector<MacroName> begun_;
 };

@@ -42,13 +42,13 @@ struct ListedMacro {
   bool operator==(const ListedMacro&) const = default;
 };
 struct ListedTrigger {
-  int channel = 0;  // 0 to 127: of group 8 first
+  int channel = 0;  // 0 to 127, beginning with group 8
   Trigger trigger = {};
 
   bool operator==(const ListedTrigger&) const = default;
 };
 
-/// The macros and triggers of a text, in its order.
+/// The macros and triggers of a text, in the order of the text.
 struct Listing {
   std::vector<ListedMacro> macros = {};
   std::vector<ListedTrigger> triggers = {};
@@ -58,7 +58,7 @@ struct Listing {
 
 struct ParsedListing {
   Listing listing = {};                           // only if there is no error
-  std::vector<std::vector<int>> text_lines = {};  // of each macro: where its lines are, from 1
+  std::vector<std::vector<int>> text_lines = {};  // for each macro, the text line of each of its lines
   std::vector<TextError> errors = {};             // the first kMaxMistakes, in the order of the text
   std::optional<Token> first_trigger = {};        // first word of the first trigger in the text
 };

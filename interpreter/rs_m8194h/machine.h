@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// The result of a line. A line that waits has changed nothing, and is given again at the next tick.
+/// The result of a line. A line that waits has not changed anything, and is given again at the next tick.
 enum class Took : std::uint8_t { done, waits };
 
 /// A fault during execution, for inputs 115 to 119. The line is skipped.

@@ -23,7 +23,8 @@ constexpr int count_of(bool is_isr) { return is_isr ? kIsrCount : kMpCount; }
 constexpr bool exists(const MacroName& name) {
   return name.number >= 1 && name.number <= count_of(name.is_isr);
 }
-/// The part of the program for its observers (base/program_watch.h): MP1 to MP157, then ISR1 to ISR20.
+/// Returns the number of the program's part for its observers (base/program_watch.h): MP1 to MP157, then ISR1
+/// to ISR20.
 constexpr int part_of(const MacroName& name) { return name.number + (name.is_isr ? kMpCount : 0); }
 /// Returns "MP21" or "ISR3".
 std::string to_string(const MacroName& name);

@@ -1,5 +1,5 @@
-// The macros that a memory holds as texts, compiled. A macro is not compiled again while its text stays the
-// same.
+// Keeps the macros of a memory, which holds them as texts, in compiled form. A macro is not compiled again
+// while its text stays the same.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Compiles the text of exactly one macro; returns nothing if it is not that.
+/// Compiles the text of exactly one macro; returns nothing for any other text.
 std::optional<Macro> macro_of(const MacroName& name, std::string_view text);
 
 class MacroStore {
@@ -23,8 +23,8 @@ class MacroStore {
     SharedText text;
   };
 
-  /// Replaces the stored macros by these, each at most once. A text that is not a listing of its macro counts
-  /// as no macro.
+  /// Replaces the stored macros with these, of which each may appear only once. A text that is not a listing
+  /// of its macro counts as no macro.
   void update(std::span<const Stored> stored);
 
   /// Returns null if there is no such macro. The pointer is valid until the next update().

@@ -56,8 +56,8 @@ constexpr bool is_arithmetic(std::uint32_t code) {
   return code < 0x80 && code != 0 && kArithmetic.find(static_cast<char>(code)) != std::string_view::npos;
 }
 
-/// Calculates with two 32-bit numbers; a division by 0 is not allowed. The caller wraps the result to 32
-/// bits, if it must.
+/// Calculates with two 32-bit numbers; a division by 0 is not allowed. The caller wraps the result to 32 bits
+/// if necessary.
 constexpr std::int64_t calculate_exactly(char arithmetic, std::int32_t left, std::int32_t right) {
   const auto a = std::int64_t{left};
   const auto b = std::int64_t{right};

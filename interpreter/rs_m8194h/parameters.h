@@ -1,4 +1,4 @@
-// Functions by which the rows of the command table define their parameters.
+// Functions with which the rows of the command table define their parameters.
 #pragma once
 
 #include <cstdint>

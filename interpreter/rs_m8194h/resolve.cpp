@@ -40,7 +40,7 @@ Fault resolve(Command& command, const Machine& machine, const Options& options) 
   }
   if (!has_any) return Fault::none;
   Command plain = command;
-  plain.code = real_time_code(command.verb());  // in which nothing is a reference
+  plain.code = real_time_code(command.verb());  // a real-time command has no references
   return bad_parameter(plain, options) ? Fault::parameter : Fault::none;
 }
 

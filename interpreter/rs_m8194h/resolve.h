@@ -1,4 +1,4 @@
-// Replaces the references of a macro line by their values.
+// Replaces the references of a macro line with their values.
 #pragma once
 
 #include "interpreter/rs_m8194h/check.h"

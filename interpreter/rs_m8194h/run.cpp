@@ -36,7 +36,7 @@ void settle(Execution& execution, Machine& machine) {
   machine.mp_ended();
 }
 
-/// Checks waits, also while an ISR runs.
+/// Checks waits, even while an ISR runs.
 void watch(Execution& execution, std::int64_t now_ms, const Options& options, Machine& machine) {
   const auto look = [&](Run& run) {
     const bool is_watched = run.hold != Hold::nothing && run.hold != Hold::machine;

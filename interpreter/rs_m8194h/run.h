@@ -46,11 +46,11 @@ enum class Hold : std::uint8_t {
 
 struct Run {
   bool is_isr = false;
-  std::vector<Level> levels = {};  // the current macro is last; empty: the run is not alive
+  std::vector<Level> levels = {};  // the current macro is last; empty if the run is not alive
   Hold hold = Hold::nothing;
   std::int64_t until_ms = 0;
   std::uint32_t awaited = 0;
-  bool saw_other_level = false;  // for FRNET_WAIT that needs an edge
+  bool saw_other_level = false;  // for an FRNET_WAIT that needs an edge
 
   bool is_alive() const { return !levels.empty(); }
   bool operator==(const Run&) const = default;
@@ -103,7 +103,8 @@ bool run_line(Execution& execution, std::int64_t now_ms, bool is_paused, const O
 /// no ISR for it, or kNever. While a run polls the machine (axes, FRnet, a drive), that is the next tick.
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms);
 
-/// Returns true if a run of these macros can have reached this state. For states restored from a file.
+/// Returns true if a run of these macros can have reached this state. Used for states that are restored from
+/// a file.
 bool is_sound(const Execution& execution, const Machine& machine);
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -313,7 +313,7 @@ ParsedCommand parse_command(std::span<const Token> tokens, const Options& option
   }
   if (const std::optional<std::size_t> bad = bad_parameter(command, options)) {
     if (bad_parameter(command)) return misfit(*bad);
-    // A choice refuses it, not its range.
+    // It is refused by a choice, not because of its range.
     return failed(tokens[*bad + 1], "parameter " + std::string(row.parameters[*bad].name) + ": " +
                                         quoted(tokens[*bad + 1].text) +
                                         " is refused by a choice of the bench; expected " +

@@ -1,4 +1,4 @@
-// A mistake in a text: what and where.
+// A mistake in a text, and its position.
 #pragma once
 
 #include <string>

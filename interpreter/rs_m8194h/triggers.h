@@ -10,9 +10,9 @@ namespace understudy::interpreter::rs_m8194h {
 enum class TriggerCondition : std::uint8_t { none, on, off, off_to_on, on_to_off, change };
 enum class TriggerEvent : std::uint8_t {
   none,
-  call_mp,        // its number
-  hold,           // an axis
-  abort_command,  // the command that waits
+  call_mp,        // its argument is the number of the MP
+  hold,           // its argument is an axis
+  abort_command,  // aborts the command that is waiting
   abort_macro,
   pause,
   clear_stop,

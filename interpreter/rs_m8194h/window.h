@@ -27,7 +27,7 @@ struct Decoded {
 };
 
 /// Decodes a message that begins at 8000, with the checks in the order of [1.3]: undefined code, class
-/// refused in this state, count of registers, parameters. The download may still refuse a macro line
+/// refused in this state, number of registers, parameters. The download may still refuse a macro line
 /// afterwards.
 Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder order = WordOrder::high_first,
                const Options& options = {});
@@ -37,7 +37,7 @@ Fault why_not_now(std::uint16_t code, State state);
 Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
                      const Options& options = {});
 
-/// Encodes a command as decode() accepts it with the same options.
+/// Encodes a command in the form that decode() accepts with the same options.
 std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first,
                                   const Options& options = {});
 

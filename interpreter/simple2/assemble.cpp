@@ -59,7 +59,7 @@ class Assembler {
   }
 
  private:
-  /// Called after the whole text was read.
+  /// Called after the whole text has been read.
   void check_labels() {
     if (pending_.mark)
       fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
@@ -78,7 +78,7 @@ class Assembler {
 
   struct FlagUse {
     Token token;
-    int number;  // of the program's line, whose DATA1 it is
+    int number;  // the program line whose DATA1 it is
   };
 
   void fail(const Token& token, std::string field, std::string what, std::string expected) {

@@ -276,7 +276,7 @@ constexpr bool is_defined(Operand operand, std::uint8_t value) {
   return true;
 }
 
-/// Which operand names a parameter that the instruction writes.
+/// The operand that names a parameter which the instruction writes, if any.
 enum class Written : std::uint8_t { nothing, data1, data2 };
 constexpr Written written_by(std::uint8_t opcode) {
   switch (opcode) {

@@ -37,7 +37,7 @@ std::string to_string(const ListingError& error);
 
 struct Assembly {
   std::optional<Lines> lines;                // only if there is no error
-  std::array<int, kLineCount> text_lines{};  // where each line comes from, from 1; 0: nowhere
+  std::array<int, kLineCount> text_lines{};  // the line of the text that each comes from, or 0
   std::vector<ListingError> errors;          // the first kMaxMistakes, in the order of the text
 };
 

@@ -18,8 +18,8 @@ class MachineView {
   virtual bool input(int din) const = 0;
   /// Returns bit 0 to 15 of STATUS, as a register read would show it now.
   virtual bool status_bit(int bit) const = 0;
-  /// Returns parameter 0 to 255; an undefined one reads 0. 32-bit values come unchanged, 16-bit values
-  /// unsigned, except ENCx_RPM.
+  /// Returns parameter 0 to 255; an undefined one reads 0. 32-bit values are returned unchanged, 16-bit
+  /// values as unsigned, except ENCx_RPM.
   virtual std::int32_t parameter(int number) const = 0;
   /// Returns true while a position move or homing is in progress, from the moment when it was accepted until
   /// it ended for any reason.

@@ -22,7 +22,7 @@ constexpr Verb kForHosts[] = {
     Verb::download,     Verb::exit,           Verb::list_parameters, Verb::reboot,
 };
 
-/// Commands with which a host changes the memory; in some machines the programs do it, too.
+/// Commands with which a host changes the memory; in some machines, programs use them too.
 constexpr Verb kSaves[] = {Verb::save_data, Verb::save_parameters, Verb::save_program,
                            Verb::default_parameters};
 

@@ -1,4 +1,4 @@
-// The contents of a line, as values.
+// The contents of a program line, as values.
 #pragma once
 
 #include <algorithm>

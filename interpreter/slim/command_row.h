@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// The functions of commands. A row's `variant` distinguishes related commands, as the comments say.
+/// The functions of commands. A row's `variant` distinguishes related commands, as the comments explain.
 enum class Verb : std::uint8_t {
   // one motor
   move_absolute,
@@ -111,7 +111,7 @@ enum class Verb : std::uint8_t {
   continuous_path,  // variant: mode 0 to 2
 };
 
-/// The operands that a place after a command's name can take.
+/// The operands that a place after a command's name can accept.
 enum class Slot : std::uint8_t {
   none,
   real,           // a constant
@@ -139,7 +139,7 @@ enum class Slot : std::uint8_t {
   whole,         // a whole number
   variant,       // exactly the number in the row's `variant`
   event,         // EV1 to EV8
-  condition,     // of an event, with everything that follows
+  condition,     // of an event, including everything that follows
   word,          // the second word of the command's name
   text,          // in quotes
 };
@@ -157,11 +157,11 @@ enum class Condition : std::uint8_t {
   not_greater,
 };
 
-/// The contents of the manual's columns; its first list has no columns.
+/// The contents of the manual's columns; the first list has none.
 enum class Printed : std::uint8_t { no, yes, nothing };
 
 struct CommandRow {
-  std::string_view command;  // "Tp" in front: takes a module; "?": a query
+  std::string_view command;  // "Tp" in front: can have a module; "?": a query
   std::string_view syntax;   // as the manual writes it; with "=": an assignment
   std::string_view meaning;
   std::string_view group;

@@ -13,7 +13,7 @@ namespace understudy::interpreter::slim {
 struct Editor {
   enum class Mode : std::uint8_t {
     none,
-    lines,     // PG, PA: all lines, until an empty line (unless those are ignored), EXIT or ESC
+    lines,     // PG, PA: all lines, until EXIT, ESC, or an empty line (unless those are ignored)
     replace,   // PE: the next good line replaces `line`
     insert,    // PI: the next good line is inserted before `line`
     download,  // DLP: all lines, until END, EXIT or ESC
@@ -29,8 +29,8 @@ constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::
 Error begin_edit(Editor& editor, Program& program, const Command& command,
                  const ProgramOptions& options = {});
 
-/// Takes a line that arrives during editing. A line with an error is not stored, and editing continues,
-/// because the next line is meant for the program, too. A line that contains ESC (0x1B) ends the editing and
+/// Handles a line that arrives during editing. A line with an error is not stored, and editing continues,
+/// because the next line is meant for the program too. A line that contains ESC (0x1B) ends the editing and
 /// is not stored.
 Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options = {});
 

@@ -1,5 +1,5 @@
-// The numbers of SLIM's error replies (`ERR n`, `?ERR`, `?ERC`). The manual lists none; these numbers are
-// ours.
+// The numbers of SLIM's error replies (`ERR n`, `?ERR`, `?ERC`). The manual does not list any, so these
+// numbers are ours.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace understudy::interpreter::slim {
 
 enum class Error : std::uint8_t {
   none = 0,
-  syntax = 1,          // not a command, or not in one of its forms
+  syntax = 1,          // not a command, or not in one of its known forms
   range = 2,           // a value or index out of range
   not_allowed = 3,     // not in this mode: typed, stored, or from outside while a program runs
   axis = 4,            // not assigned, or its module is reserved for an axis

@@ -39,7 +39,7 @@ bool compare(Condition condition, double comparand, double variable) {
     case Condition::zero:
     case Condition::not_zero: break;
   }
-  return false;  // they look at something else
+  return false;  // these conditions do not compare two values
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ struct EventOptions {
   /// If its condition is already true when an event becomes complete (SET EV and ON EV) or when the program
   /// starts, the event fires, or it waits until the condition has been false.
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
-  /// If an event occurs during another event's routine and its condition is false again at the RET, it fires,
-  /// or it is dropped.
+  /// If an event occurs during another event's routine and its condition is false again at the RET, the event
+  /// fires, or it is dropped.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
-  /// Conditions are checked in the milliseconds that this divides; changes in between are not seen.
+  /// Conditions are checked at every multiple of this time; changes in between are not noticed.
   int check_interval_ms = 1;
 
   bool operator==(const EventOptions&) const = default;
@@ -32,7 +32,7 @@ struct Event {
   bool has_address = false;
   Operand address = {};
   bool armed = false;    // fires when its condition is true
-  bool pending = false;  // has fired and waits for its turn
+  bool pending = false;  // has fired and is waiting for its turn
 
   bool operator==(const Event&) const = default;
 };
@@ -47,7 +47,7 @@ void arm_events(Events& events, const EventOptions& options);
 
 /// Checks all conditions. Returns the error of a condition that cannot be tested; that event is disabled.
 Error check_events(Events& events, const EventOptions& options, const Machine& machine);
-/// Takes the event whose turn it is; it is then no longer pending.
+/// Returns the event whose turn it is, which is then no longer pending.
 std::optional<Operand> take_event(Events& events);
 /// Returns true if the next check would change anything, if only the machine's clock advances.
 bool would_change(const Events& events, const Machine& machine);

@@ -80,7 +80,7 @@ class LineRun {
   Error next_line() { return go_to(execution_.line + 1); }
 
  private:
-  /// Tells an observer that the line begins. One that waits has begun already.
+  /// Tells an observer that the line begins. A line that waits has begun already.
   void begin() {
     begins_ = execution_.hold == Hold::nothing;
     if (begins_) machine_.watch()->runs(0, execution_.line, 1);
@@ -89,7 +89,7 @@ class LineRun {
     if (ProgramWatch* const watch = machine_.watch()) watch->decides(0, execution_.line, outcome, 1);
     return outcome;
   }
-  /// A wait decides as it begins.
+  /// Reports the decision of a wait when the wait begins.
   bool decide_wait(bool is_over) const { return begins_ ? decide(is_over) : is_over; }
 
   static bool has_variable_index(const Command& command) {
@@ -122,7 +122,7 @@ class LineRun {
     return outcome.waits ? hold(Hold::machine) : next_line();
   }
 
-  /// Lets the routine of an event continue to its RET, after which the program is over.
+  /// Lets the routine of an event continue to its RET, where the program then ends.
   void forget_what_was_interrupted() {
     for (Frame& frame : execution_.stack) {
       if (frame.of_event) frame = {.line = program_.size(), .of_event = true};
@@ -256,7 +256,7 @@ constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(
                     {Verb::get_real, &LineRun::take_bare_number},
                 }));
 
-/// Enters the routine of the event whose turn it is, if any.
+/// Enters the routine of the event whose turn it is, if there is one.
 Error serve_events(Execution& execution, const Program& program, const FlowOptions& options) {
   // A line that has received its number from the host runs first; otherwise the routine would take the
   // number.

@@ -13,22 +13,22 @@
 
 namespace understudy::interpreter::slim {
 
-/// The value for "no further tick without a command".
+/// Means that no tick will do anything until a command arrives.
 inline constexpr std::int64_t kNever = INT64_MAX;
 
 /// Options about running that the manual leaves open.
 struct FlowOptions {
   ProgramOptions program = {};
   int lines_per_tick = 1;  // a line that waits or fails is the last one in its tick
-  int lines_every_ms = 1;  // lines run in the milliseconds that this divides
+  int lines_every_ms = 1;  // lines run at every multiple of this time
   int window_unit_ms = 1;  // unit of tm in JTI and JNTI
   int call_depth = 16;
   EventOptions events = {};
-  /// The number of a GETI or GETR alone on its line is dropped, or stored in N0 or R0.
+  /// The number of a GETI or GETR that is alone on its line is dropped, or is stored in N0 or R0.
   enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
-  /// True: events need a running program; false: they also call their routine without one.
+  /// If true, events need a running program; if false, they also call their routine without one.
   bool events_need_program = true;
-  /// If an event interrupts WT or JTI, it starts again afterwards, or its time has continued.
+  /// If an event interrupts WT or JTI, the wait starts again afterwards, or its time has continued to run.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
     continues
@@ -59,7 +59,7 @@ enum class Hold : std::uint8_t {
 };
 
 struct Frame {
-  int line = 0;  // where to continue
+  int line = 0;  // where the program continues afterwards
   bool of_event = false;
   Hold hold = Hold::nothing;  // what the interrupted line waited for
   std::int64_t until_ms = 0;
@@ -75,15 +75,15 @@ struct Execution {
   Hold hold = Hold::nothing;
   std::int64_t until_ms = 0;
   std::vector<Frame> stack = {};
-  Events events = {};       // they outlive the program
+  Events events = {};       // they persist after the program has ended
   bool has_number = false;  // the host has sent the number for GETI or GETR
   double number = 0;
 
   bool operator==(const Execution&) const = default;
 };
 
-/// `G`: starts at an address (null: line 0), from the next tick. Returns Error::address if there is no such
-/// line; nothing has changed then.
+/// `G`: starts at an address (null: line 0), from the next tick. If there is no such line, returns
+/// Error::address and changes nothing.
 Error start(Execution& execution, const Program& program, const Operand* address, const FlowOptions& options);
 /// Returns true between an event and the RET of its routine.
 bool in_event_routine(const Execution& execution);
@@ -94,8 +94,8 @@ void stop(Execution& execution);
 constexpr bool wants_number(const Execution& execution) {
   return execution.running && execution.hold == Hold::number && !execution.has_number;
 }
-/// Takes the host's line while wants_number(). If it is refused (syntax, range), the program continues to
-/// wait.
+/// Handles the host's line while wants_number() is true. If it is refused (syntax, range), the program
+/// continues to wait.
 Error give_number(Execution& execution, const Program& program, std::string_view text,
                   const Dialect& dialect = {});
 
@@ -109,7 +109,8 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                             const FlowOptions& options, const Machine& machine);
 
-/// Returns true if a run of this program can have reached this state. For states restored from a file.
+/// Returns true if a run of this program can have reached this state. Used for states that are restored from
+/// a file.
 bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options);
 
 }  // namespace understudy::interpreter::slim

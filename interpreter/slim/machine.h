@@ -11,7 +11,7 @@ namespace understudy::interpreter::slim {
 
 /// The result of a command.
 struct Outcome {
-  bool waits = false;  // not executed yet: nothing has changed, and the program asks again at the next tick
+  bool waits = false;  // not executed yet; the program gives the command again at the next tick
   Error error = Error::none;
   /// The effect on the program that gave the command.
   enum class Program : std::uint8_t {
@@ -35,7 +35,7 @@ class Machine : public Watched {
   /// Returns the value of a variable, an array element (its index is a constant, within its range), AIN, TM
   /// or a quantity.
   virtual double value(const Operand& operand) const = 0;
-  /// Executes all commands except program flow, program editing, and GETI and GETR alone. That includes DN,
+  /// Executes all commands except program flow, program editing, and GETI and GETR alone. These include DN,
   /// TpDN and XDN, which wait. Indices are constants, and GETI and GETR are replaced by the numbers that the
   /// host has sent.
   virtual Outcome carry_out(const Command& command) = 0;

@@ -25,7 +25,7 @@ using Kind = Operand::Kind;
 ParseResult refused(Error error) { return {.error = error}; }
 ParseResult understood(Command command) { return {.line = {.command = std::move(command)}}; }
 
-/// Returns the first word of a row's name, as it follows a prefix.
+/// Returns the first word of a row's name (the word that follows a prefix).
 constexpr std::string_view head_of(const CommandRow& row) {
   std::string_view head = row.command;
   if (head.starts_with("Tp")) head.remove_prefix(2);
@@ -137,7 +137,7 @@ ParseResult assign(const Prefixed& name, int row_number, std::string_view data, 
   return understood(std::move(command));
 }
 
-/// Returns the row of a variable. Anything else is treated as R#: its error is found elsewhere.
+/// Returns the row of a variable. Anything else is treated as R#, because its error is found elsewhere.
 int row_of_variable(Kind kind, bool is_query) {
   if (is_query) return holds_integer(kind) ? row_of("?N#") : row_of("?R#");
   if (is_array(kind)) return holds_integer(kind) ? row_of("NS(i)=data") : row_of("RS(i)=data");

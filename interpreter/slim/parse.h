@@ -23,7 +23,7 @@ struct Dialect {
     refused,
     accepted
   } module_move_from_variable = ModuleMoveFromVariable::refused;
-  std::size_t longest_line = kLineLength;  // longer ones are refused
+  std::size_t longest_line = kLineLength;  // longer lines are refused
   int integer_min = kIntegerMin;           // the minimum of integer variables
   int event_count = kEventCount;           // EV1 to EVn; 1 .. kEventCount
   bool helix_constants = true;  // SAA R0,R1,90,5 is accepted, as its form is printed, besides four variables
@@ -33,8 +33,8 @@ struct Dialect {
 };
 
 struct ParseResult {
-  Error error = Error::none;  // syntax or range
-  ParsedLine line = {};       // without an error
+  Error error = Error::none;  // syntax or range, if there is an error
+  ParsedLine line = {};       // valid if there is no error
 
   bool operator==(const ParseResult&) const = default;
 };

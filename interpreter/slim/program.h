@@ -1,5 +1,5 @@
 // The stored program: lines of text, each parsed when it is entered. Operands that name a line or a label are
-// looked up when the program runs. Lines are counted from 0 here, whatever numbers a host uses.
+// looked up when the program runs. Lines are counted from 0 here, even if a host numbers them differently.
 #pragma once
 
 #include <cstddef>
@@ -60,14 +60,15 @@ class Program {
   /// change nothing: a line that does not parse, or is empty; a command that is not allowed in a program
   /// (not_allowed); a label of another line (address); a number that does not exist (range); more lines than
   /// fit (buffer_full). With Check::as_run they refuse only empty lines, lines that are too long, and lines
-  /// that end a transfer; of lines with the same label the first is good, and the others fail with `address`,
-  /// whichever was entered first.
+  /// that end a transfer; of several lines with the same label, the first one is valid and the others fail
+  /// with `address`, in whatever order they were entered.
   Error insert(int number, std::string_view text, const ProgramOptions& options = {});
   Error replace(int number, std::string_view text, const ProgramOptions& options = {});
   Error remove(int number, const ProgramOptions& options = {});
   void clear() { lines_.clear(); }
 
-  /// Returns the line that an address (a label or a number) means. Of two equal labels the first counts.
+  /// Returns the line to which an address (a label or a number) refers. Of two equal labels, the first one
+  /// counts.
   std::optional<int> find(const Operand& address, const ProgramOptions& options = {}) const;
 
   /// Returns the lines for `PL`.
@@ -75,8 +76,8 @@ class Program {
   /// Returns the lines for `ULP`: all lines, then END.
   std::vector<std::string> upload() const;
 
-  /// Save and restore the program. set_texts() returns false for texts that no program can hold; the program
-  /// is then unchanged.
+  /// Save and restore the program. set_texts() returns false for texts that no program can hold, and leaves
+  /// the program unchanged.
   std::vector<std::string> texts() const;
   bool set_texts(const std::vector<std::string>& texts, const ProgramOptions& options = {});
 

@@ -12,7 +12,7 @@ namespace understudy::interpreter::slim::rows {
 using enum Slot;
 using enum Condition;
 
-/// Abbreviations for rows: one word for what the manual's columns print.
+/// Abbreviations for rows: one name for the contents of the manual's columns.
 struct PrintedColumns {
   Printed program, immediate, external;
 };

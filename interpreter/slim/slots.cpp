@@ -83,7 +83,7 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
   return Error::syntax;
 }
 
-/// Checks the value of an assignment. A real variable takes integers, too; a parameter takes any number.
+/// Checks the value of an assignment. A real variable accepts integers too; a parameter accepts any number.
 Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
   const bool is_number = is_constant(operand) || (operand.kind == Kind::quantity && dialect.quantities) ||
                          is_variable(operand.kind) || operand.kind == Kind::analog ||
@@ -125,7 +125,7 @@ class Matching {
   static constexpr bool rules_are_in_order();
 
  private:
-  /// How the operand of a slot is read, and how it is checked if other operands do not matter.
+  /// How the operand of a slot is read, and how it is checked where that does not depend on other operands.
   struct Rule {
     Slot slot;
     void (Matching::*take)(Slot) = &Matching::take_one;

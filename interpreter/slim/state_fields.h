@@ -84,8 +84,8 @@ struct StateOf<interpreter::slim::Editor> {
   static constexpr auto fields = FieldList{field<&Value::mode>(), field<&Value::line>()};
 };
 
-/// A program is saved as its lines, as they were entered. After reading, the program is that of the widest
-/// dialect; set_texts() applies the device's own options.
+/// A program is saved as its lines, as they were entered. After reading, the program has the widest dialect;
+/// set_texts() applies the device's own options.
 template <>
 struct StateOf<interpreter::slim::Program> {
   static void write(const interpreter::slim::Program& program, StateWriter& writer);

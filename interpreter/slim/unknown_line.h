@@ -1,4 +1,4 @@
-// Explains a line that is not a command to its author: its word may be known, but not its form.
+// Explains a line that is not a command to its author: the word may be known even if the form is not.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Verbs by the part that executes them. The machine (machine.h) executes all that flow.h and editor.h do not.
+// Verbs by the part that executes them. The machine (machine.h) executes all verbs that flow.h and editor.h
+// do not execute.
 #pragma once
 
 #include <algorithm>

@@ -23,12 +23,12 @@ namespace {
 
 using Kind = Operand::Kind;
 
-constexpr double kExactWhole = 9007199254740992.0;  // 2^53: beyond, a double does not hold every whole number
+constexpr double kExactWhole = 9007199254740992.0;  // 2^53; doubles hold all whole numbers up to this one
 
 Item wrong(Error error) { return {.error = error}; }
 Item right(Operand operand) { return {.operand = std::move(operand)}; }
 
-/// Reads digits only; a number that is too long becomes a large one.
+/// Reads digits only; a number that is too long becomes a large number.
 std::optional<int> whole_number(std::string_view digits) {
   if (digits.empty()) return std::nullopt;
   int number = 0;

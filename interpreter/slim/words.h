@@ -15,10 +15,10 @@ constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 constexpr bool is_letter(char c) { return capital(c) >= 'A' && capital(c) <= 'Z'; }
 
-std::string_view without_blanks(std::string_view text);  // in front and after
+std::string_view without_blanks(std::string_view text);  // blanks in front and at the end
 std::string in_capitals(std::string_view text);
-/// Takes the leading letters and digits of the text, in capitals. So JG0 is a different word from JG, and HON
-/// from H.
+/// Removes the leading letters and digits from the text and returns them in capitals. JG0 is therefore a
+/// different word from JG, and HON from H.
 std::string take_word(std::string_view& text);
 /// Splits a text into its items between commas, without surrounding blanks; none for an empty text.
 std::vector<std::string_view> split_at_commas(std::string_view text);
@@ -26,8 +26,8 @@ std::vector<std::string_view> split_at_commas(std::string_view text);
 /// Returns true if the text is `letters` followed by a number: "EV12", "N0".
 bool is_numbered(std::string_view word, std::string_view letters);
 
-/// Returns `number`, or the largest 32-bit real if the number exceeds it only by rounding: written with fewer
-/// digits, that real can become slightly larger.
+/// Returns `number`, or the largest 32-bit real if the number exceeds it only by rounding: if that real is
+/// written with fewer digits, it can become slightly larger.
 double rounded_real(double number);
 
 struct Item {

@@ -20,7 +20,7 @@ struct AreaRow {
   std::string_view name;
   int steps;          // its capacity
   int base;           // number of its first step
-  int older_base;     // as the Logic chapter, MOV, ZRST and FMV count: C has 500 steps
+  int older_base;     // the count that the Logic chapter, MOV, ZRST and FMV use: C has 500 steps
   char letter;        // in the manual's lists of areas
   int run_contact;    // M: 1 runs, 0 pauses; 0 for the PLC
   int step_register;  // D: the step about to be executed; 0 for the PLC

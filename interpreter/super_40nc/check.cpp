@@ -94,7 +94,7 @@ class Checker {
     const auto row =
         std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaRow& r) { return r.name == name; });
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
-    is_lost_ = true;  // its lines are not checked further
+    is_lost_ = true;  // the lines of an AREA or FILE with an error are not checked further
     if (row == kAreas.end()) {
       return fail(at, Code::unknown, name.empty() ? "AREA has no name" : quoted(at.text) + " is not an area",
                   "C, X, Y, Z, U or PLC");
@@ -327,7 +327,7 @@ class Checker {
     }
   }
 
-  /// Looks for labels that an earlier area has as well.
+  /// Looks for labels that an earlier area has too.
   void check_common_labels() {
     std::map<std::int32_t, std::pair<std::size_t, int>> first;  // area, step
     for (const AreaRow& row : kAreas) {
@@ -354,13 +354,13 @@ class Checker {
   Checked checked_;
   Program program_;
   bool is_in_area_ = false;
-  bool is_lost_ = false;  // its AREA or FILE was wrong
+  bool is_lost_ = false;  // true if its AREA or FILE was wrong
   int file_ = -1;
   Area area_ = Area::c;
   AreaProgram current_;
-  std::vector<Token> places_;  // of its lines
+  std::vector<Token> places_;  // of its lines in the text
   std::array<std::vector<Token>, kAreaCount> places_of_areas_;
-  int step_ = 0;  // of the next line, within the area
+  int step_ = 0;  // of the next line, counted within the area
 };
 
 }  // namespace

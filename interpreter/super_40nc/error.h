@@ -1,4 +1,4 @@
-// The numbers of D8094. The manual prints none; these numbers are ours.
+// The numbers of D8094. The manual does not print any, so these numbers are ours.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@ namespace understudy::interpreter::super_40nc {
 
 enum class Code : std::uint8_t {
   none = 0,
-  unknown = 1,     // instruction or operand; a pointer to a step at which no instruction begins
+  unknown = 1,     // an unknown instruction or operand, or a pointer to a step at which no instruction begins
   wrong_area = 2,  // not allowed, or void, in this area
   label_missing = 3,
   label_twice = 4,  // D8096 has the other label's step
-  pairing = 5,      // of CAL and RET, or IF, ELSE and ENDI; or a stack is full
+  pairing = 5,      // CAL and RET, or IF, ELSE and ENDI, do not match; or a stack is full
   no_end = 6,
-  logic = 7,  // blocks, branches, groups without a jump
+  logic = 7,  // wrong blocks or branches, or contacts without a jump
   division_by_zero = 8,
   out_of_range = 9,  // a register
   memory_full = 10,
@@ -30,7 +30,7 @@ enum class Code : std::uint8_t {
   alarm = 18,
   emergency_stop = 19,   // M8002
   no_such_file = 20,     // or recipe
-  axis_taken = 21,       // or it moves
+  axis_taken = 21,       // or it is moving
   emergency_input = 22,  // CEMG
   comparator = 23,
 };

@@ -10,21 +10,21 @@ namespace understudy::interpreter::super_40nc {
 
 enum class Phase : std::uint8_t {
   idle,       // its contact is OFF and its pointer 0
-  executing,  // executes lines
-  moving,     // waits for its LIN, arc, DRV, MRK or VDRV 0
-  homing,     // waits for its HOM
-  waiting,    // waits in WAT, WTN or TMR, for an axis that is taken, or because of M8004
-  paused,     // between lines, or with its wait suspended
+  executing,  // it is executing lines
+  moving,     // it is waiting for its LIN, arc, DRV, MRK or VDRV 0
+  homing,     // it is waiting for its HOM
+  waiting,    // it is waiting in WAT, WTN or TMR, for an axis that is taken, or because of M8004
+  paused,     // it is between lines, or its wait is suspended
   held,       // its motion or wait is frozen
 };
 inline constexpr std::size_t kPhaseCount = 7;
 
 enum class Event : std::uint8_t {
-  start,           // its contact turns from 0 to 1, STR, a START key
-  contact_off,     // M8000 or M8x00 is written 0
-  hold,            // M8006 rising, a PAUSE key
+  start,           // its contact turns from 0 to 1; STR; a START key
+  contact_off,     // M8000 or M8x00 is set to 0
+  hold,            // M8006 rises, or a PAUSE key
   motion_ended,    // the motion of its line has ended
-  single_step,     // likewise, with M8001 or M8x01 ON
+  single_step,     // the same, with M8001 or M8x01 ON
   end,             // END
   end_continuous,  // END of C with M8007 or M8600 ON
   stop,            // STP, a STOP key
@@ -36,7 +36,7 @@ enum class Event : std::uint8_t {
   file_changed,  // D9001
   plc_stop,
   plc_run,       // STOP to RUN, power-up
-  limit_pauses,  // like broken, by a limit, if that only pauses a program
+  limit_pauses,  // like broken, for a limit, if limits only pause a program
 };
 inline constexpr std::size_t kEventCount = 16;
 
@@ -57,7 +57,7 @@ enum class Reaction : std::uint8_t {
   broken,        // forgets; the machine has stopped the motors
   motions_wait,  // the next motion line waits
   rest_waits,    // frozen motion continues only afterwards
-  same_step,     // continues at the same step of the new file
+  same_step,     // continues at the same step in the new file
 };
 
 /// The reactions by event and phase.

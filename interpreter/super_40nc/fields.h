@@ -1,4 +1,4 @@
-// Converts the fields of a line to values of axes.
+// Converts the fields of a line to axis values.
 #pragma once
 
 #include <cstddef>

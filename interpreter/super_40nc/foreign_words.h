@@ -15,7 +15,7 @@ constexpr bool is_decimal_digit(char letter) { return letter >= '0' && letter <=
 /// Parses digits with an optional sign; returns nothing if they do not fit 64 bits.
 std::optional<std::int64_t> decimal(std::string_view text);
 
-/// Finds a mnemonic in capitals; null if there is none.
+/// Finds a mnemonic in capitals; null if there is no such mnemonic.
 const InstructionRow* find_mnemonic(std::string_view word);
 /// Returns the end of the message about an unknown instruction: "; expected AD=".
 std::string nearest_instruction(std::string_view written);

@@ -122,10 +122,10 @@ enum class Group : std::uint8_t { logic, data, sequence, motion, undocumented };
 
 /// The role of a field in its instruction.
 enum class Slot : std::uint8_t {
-  none,        // the field has to be unset
+  none,        // the field must be unset
   contact,     // read
   bit,         // switched
-  resettable,  // for RST: like bit; timers and counters if that is chosen
+  resettable,  // for RST: like bit, and also timers and counters if a choice allows it
   timer,       // the coil of a timer or counter
   preset,
   source,  // a value
@@ -133,7 +133,7 @@ enum class Slot : std::uint8_t {
   range,   // an end of ZRST's range
   label,   // K 0 to 9999999
   times,   // unset means once
-  amount,  // unset has a meaning, the row's `unset`
+  amount,  // a value; the row's `unset` describes an unset field
   needed,  // must be set
 };
 
@@ -179,7 +179,7 @@ constexpr bool may_be_unset(Slot slot) {
   return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
 }
 
-/// Returns the field without which F, TMR, CWR and CCWR mean nothing, or none for other instructions.
+/// Returns the field without which F, TMR, CWR and CCWR have no meaning, or none for other instructions.
 constexpr std::size_t place_of_needed(Op op) {
   constexpr std::size_t kNone = 4;
   if (op == Op::f || op == Op::tmr) return 0;
@@ -189,7 +189,7 @@ constexpr std::size_t place_of_needed(Op op) {
 /// How an instruction uses its condition in the PLC.
 enum class ConditionUse : std::uint8_t {
   nothing,  // not in the PLC, or without a condition
-  contact,  // it makes the condition
+  contact,  // it contributes to the condition
   every_scan,
   every_scan_on_or_off,
   rising_edge,
@@ -214,8 +214,8 @@ struct InstructionRow {
   std::string_view section;  // of the manual
   Waits waits = Waits::no;
   bool ends_single_step = false;
-  Areas void_in = 0;            // areas in which it is allowed, has no effect, and reports that in D8094
-  std::string_view unset = {};  // what an unset field means
+  Areas void_in = 0;            // areas in which it is allowed but has no effect, which D8094 reports
+  std::string_view unset = {};  // the meaning of an unset field
 
   constexpr int fields() const {
     int count = 0;
@@ -223,7 +223,7 @@ struct InstructionRow {
     return count;
   }
 
-  // Properties that few rows have.
+  // These functions set properties that few rows have.
   constexpr InstructionRow waits_for(Waits what) const {
     InstructionRow row = *this;
     row.waits = what;
@@ -246,7 +246,7 @@ struct InstructionRow {
   }
 };
 
-// Functions that make rows, by the manual's groups.
+// These functions make rows, grouped as in the manual.
 constexpr InstructionRow logic(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
                                ConditionUse in_plc, std::string_view meaning, std::string_view section) {
   return {op, mnemonic, Group::logic, areas, steps, slots, in_plc, meaning, section};

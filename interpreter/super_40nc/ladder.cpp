@@ -195,8 +195,7 @@ class LadderMaker {
     if (line.op == Op::fmv) note(second, third.letter == Letter::k ? third.number : INT32_MAX);
   }
 
-  /// Marks timers whose value is read, or that another instruction uses as well: these must not run
-  /// unobserved.
+  /// Marks timers whose value is read, or that another instruction also uses: these must not run unobserved.
   void check_timers() {
     std::set<std::uint32_t> seen = timers_read_;
     for (const std::uint32_t index : ladder_.timers_) {

@@ -48,8 +48,8 @@ struct Checked {
   std::array<std::vector<int>, kAreaCount> area_lines;
   std::map<int, std::vector<int>> file_lines;
   std::vector<Diagnostic> errors;    // the first kMaxMistakes, in the order of the text
-  std::vector<Diagnostic> warnings;  // loads, but is reported: a duplicate label
-  std::vector<Diagnostic> notes;     // loads, and is not reported: a jump whose label is missing
+  std::vector<Diagnostic> warnings;  // it loads, but this is reported: a duplicate label
+  std::vector<Diagnostic> notes;     // it loads, and this is not reported: a jump without its label
 };
 
 inline constexpr int kGreatestFile = 29999;

@@ -12,14 +12,14 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// The positions of the plain contacts and registers in Machine::cells(): the cell of number 0 of each. A
-/// contact is 0 or 1, a register its 32 bits.
+/// The positions of the plain contacts and registers in Machine::cells(): for each letter, the cell of number
+/// 0. A contact is 0 or 1, a register its 32 bits.
 struct CellLayout {
   std::uint32_t x = 0;        // X0 to X47
   std::uint32_t y = 0;        // Y0 to Y31
   std::uint32_t m = 0;        // M0 to M511
   std::uint32_t t = 0;        // T0 to T63: contacts
-  std::uint32_t c = 0;        // C0 to C31
+  std::uint32_t c = 0;        // T0 to T63: current values
   std::uint32_t t_value = 0;  // T0 to T63: present values
   std::uint32_t c_value = 0;
   std::uint32_t d = 0;  // D0 to D999
@@ -32,7 +32,7 @@ enum class Begun : std::uint8_t {
   runs,     // runs until is_running() returns false
   taken,    // an axis is taken: nothing has changed, and the program tries again at the next tick
   ignored,  // has no effect; the machine has reported why, if there is a code for it
-  refused,  // a limit or an alarm, which is reported and resets the program
+  refused,  // because of a limit or an alarm, which is reported and resets the program
 };
 
 /// The interface to the device. Any call may start, stop and replace programs, even the one whose line makes
@@ -44,18 +44,18 @@ class Machine : public Watched {
 
   // --- contacts and registers ---------------------------------------------------------------------
   virtual CellLayout layout() const = 0;
-  /// The cells stay at the same place as long as the machine exists.
+  /// The cells stay in the same place as long as the machine exists.
   virtual std::span<std::uint32_t> cells() = 0;
   /// Called when a retentive plain cell (kBlocks) has changed.
   virtual void retentive_cell_written(std::uint32_t cell) = 0;
   /// Returns M8000 to M8699, as a read from outside would show it now.
   virtual bool special_contact(int number) const = 0;
-  /// Writes like a host. Returns true if anything has changed, or will change because of it.
+  /// Writes the contact as a host would. Returns true if anything has changed, or will change because of it.
   virtual bool set_special_contact(int number, bool on) = 0;
-  /// The same for D8000 to D8599 and D9000 to D9499.
+  /// Like the above, for D8000 to D8599 and D9000 to D9499.
   virtual std::int32_t special_register(int number) const = 0;
   virtual bool set_special_register(int number, std::int32_t value) = 0;
-  /// Returns the parameter value in effect; a written value may act later.
+  /// Returns the parameter value in effect; a written value may take effect later.
   virtual std::int32_t parameter_in_force(int number) const { return special_register(number); }
   /// Returns X14 as at power-up: the speed of an axis until the first RPM.
   virtual std::int32_t rpm_at_power_up(int axis) const = 0;
@@ -65,7 +65,8 @@ class Machine : public Watched {
   virtual void report(Code code, Area area, int step) = 0;
 
   // --- step programs ------------------------------------------------------------------------------
-  /// Returns true if M8x02, M8002 or CEMG is ON, or the axis's STOP key pressed, so the program cannot start.
+  /// Returns true if M8x02, M8002 or CEMG is ON, or the axis's STOP key is pressed, so the program cannot
+  /// start.
   virtual bool is_held_in_reset(Area area) const = 0;
   /// Called when a program starts or continues; clears D8094 to D8096, unless a choice keeps them.
   virtual void program_starts(Area area) = 0;
@@ -92,19 +93,20 @@ class Machine : public Watched {
   virtual void resume_motions(Area by) = 0;
   /// Drops held motion.
   virtual void drop_held(Area by) = 0;
-  /// STP: for C, stops everything that C moves; for another area, whatever moves its axis. Returns the other
-  /// programs that have thereby lost the motion of a line: they are reset.
+  /// STP: for C, stops everything that C moves; for another area, everything that moves its axis. Returns the
+  /// other programs that have thereby lost the motion of a line: they are reset.
   virtual Areas stop(Area area) = 0;
-  /// Called when a program is over, or begins again: the motion that it waited for continues without it.
+  /// Called when a program is over, or restarts: the motion for which it waited continues without it.
   virtual void waits_no_more(Area by) = 0;
 
   // --- the PLC --------------------------------------------------------------------------------------
-  /// Starts each free axis; the others are skipped. `rpm` is the PLC's own, `step` that of the line, counted
-  /// as by D8095.
+  /// Starts each free axis; the others are skipped. `rpm` has the PLC's own speeds; `step` is the step of the
+  /// line, counted as in D8095.
   virtual void plc_drive(const Drive& drive, int step) = 0;
   virtual void plc_home(const HomeSearch& search, int step) = 0;
-  /// Called at the end of each scan in which an axis is to be jogged, or was to be in the scan before.
-  /// `steps` are those of the lines, counted as by D8095. Returns true if anything may change because of it.
+  /// Called at the end of each scan that requests the jog of an axis, or that follows a scan which requested
+  /// one. `steps` has the steps of the lines, counted as in D8095. Returns true if anything may change
+  /// because of it.
   virtual bool plc_jog(const Jogs& jogs, const JogSteps& steps) = 0;
 
   // --- both -----------------------------------------------------------------------------------------

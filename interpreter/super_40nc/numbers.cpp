@@ -25,7 +25,7 @@ constexpr std::int32_t wrapped(std::int64_t value) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
 }
 
-/// Returns the register after another one of its block; unset at the end of the block.
+/// Returns the register that follows another one in its block, or unset at the end of the block.
 Operand next_to(Operand reg) {
   const Block* const block = block_of(reg);
   if (block == nullptr || reg.number == block->last) return {};

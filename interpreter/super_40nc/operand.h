@@ -29,7 +29,7 @@ constexpr bool has(Letters some, Letter letter) {
   return ((some >> static_cast<unsigned>(letter)) & 1U) != 0;
 }
 
-/// Devices of one letter with consecutive numbers. Those from `kept` on are retentive.
+/// Devices of one letter with consecutive numbers. The devices from `kept` on are retentive.
 struct Block {
   Letter letter;
   int first;
@@ -43,7 +43,7 @@ inline constexpr std::array<Block, 9> kBlocks{{
     {Letter::y, 0, 31, 32, false},
     {Letter::m, 0, 511, 400, false},
     {Letter::m, 8000, 8699, 8600, true},
-    {Letter::t, 0, 63, 56, false},  // contact and present value
+    {Letter::t, 0, 63, 56, false},  // contact and current value
     {Letter::c, 0, 31, 16, false},
     {Letter::d, 0, 999, 500, false},
     {Letter::d, 8000, 8599, 8600, true},

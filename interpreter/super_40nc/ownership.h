@@ -1,4 +1,4 @@
-// The axes that a program may move: C21 (D9003) gives the first ones to C. (Manual, C21, 故障排除.)
+// The axes that a program may move: C21 (D9003) assigns the first axes to C. (Manual, C21, 故障排除.)
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ inline int axes_of_c(const Machine& machine) {
 }
 
 /// Returns true if a program may move an axis: C its own axes, an axis program its own axis unless that is
-/// C's, and the PLC those of C only while C does not run.
+/// C's, and the PLC those of C only while C is not running.
 inline bool may_move(const Machine& machine, const Options& options, Area by, int axis) {
   const bool is_of_c = axis < axes_of_c(machine);
   if (by == Area::c) return is_of_c;

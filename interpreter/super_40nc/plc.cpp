@@ -23,8 +23,8 @@ namespace {
 constexpr std::int32_t kNotTimedYet = INT32_MIN;
 constexpr auto kWatchedPart = static_cast<int>(Area::plc);
 
-/// The registers of a scan: cells and constants side by side, blocks and branches as shift registers of bits,
-/// whose bit 0 is the top.
+/// The registers of a scan: cells and constants next to each other, blocks and branches as shift registers of
+/// bits, whose bit 0 is the top.
 class Scan {
  public:
   Scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs, const Options& options)
@@ -38,8 +38,8 @@ class Scan {
         a_unit_is_over_(plc.unit_ms + scan_ms(options) >= timer_unit_ms(options)),
         growth_(timer_unit_ms(options) <= 1 ? scan_ms(options) : 1) {}
 
-  /// `is_watched`: an observer is notified of each step. Anything that costs a call is inlined in both: with
-  /// two callers, the compiler would call it, which makes a scan slower by a fifth.
+  /// `is_watched`: an observer is notified of each step. Anything that costs a call is inlined in both
+  /// variants; with two callers, the compiler would not inline it, and a scan would take a fifth longer.
   template <bool is_watched>
   void steps(const LadderStep* step) {
     for (;; ++step) {
@@ -163,7 +163,7 @@ class Scan {
     if ((flags & kRetentive) != 0) machine_.retentive_cell_written(cell);
   }
 
-  /// Runs a timer. Its value is 0 in the scan that turns it ON, and grows in each later one.
+  /// Runs a timer. Its value is 0 in the scan that turns it ON, and grows in each later scan.
   [[gnu::always_inline]] void time(const LadderStep& step) {
     const bool is_on = result();
     const bool was_on = remember(step.memory, is_on);
@@ -322,7 +322,7 @@ void fast_forward(PlcState& plc, const Ladder& ladder, Machine& machine, std::in
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
     const bool is_retentive = (timer.flags & kRetentive) != 0;
-    // A retentive value is saved once for each scan, so it is counted scan by scan.
+    // A retentive value is saved once for each scan, so the scans are counted one by one.
     for (std::int64_t scan = is_retentive ? 1 : scans; scan <= scans; ++scan) {
       cells[timer.c] = static_cast<std::uint32_t>(present + scan);
       if (is_retentive) machine.retentive_cell_written(timer.c);

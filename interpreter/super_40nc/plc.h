@@ -16,7 +16,7 @@ namespace understudy::interpreter::super_40nc {
 struct PlcState {
   bool runs = false;
   bool is_first_scan = false;          // the first scan since RUN
-  std::vector<std::uint8_t> memories;  // the last state that each edge contact has seen
+  std::vector<std::uint8_t> memories;  // the last state that each edge contact has read
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
   bool has_modes = false;    // the modes are those of an earlier RUN, if they survive it
@@ -37,14 +37,15 @@ class StepControl {
 
 struct Scanned {
   /// True if the scan has changed anything except timers whose value is not read. If false, all further scans
-  /// would do the same until something in Ladder::reads() changes, or `quiet_scans` scans have passed.
+  /// would have the same result until something in Ladder::reads() changes, or `quiet_scans` scans have
+  /// passed.
   bool has_changed = false;
   std::int64_t quiet_scans = INT64_MAX;
 };
 
-/// Goes to RUN, also at power-up and after another program is loaded; X must be up to date.
+/// Goes to RUN, including at power-up and after another program has been loaded; X must be up to date.
 void run(PlcState& plc, const Ladder& ladder, Machine& machine, const Options& options = {});
-/// Goes to STOP: jogs of the PLC stop along a ramp; everything else continues, and stays unchanged.
+/// Goes to STOP: jogs of the PLC stop along a ramp; everything else continues, and keeps its state.
 void stop(PlcState& plc, Machine& machine);
 
 /// Runs one scan, of 1 ms. Does nothing in STOP.

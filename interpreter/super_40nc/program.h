@@ -24,14 +24,14 @@ constexpr int steps_of(const Instruction& instruction) { return row_of(instructi
 
 /// The program of one area, or of one path file.
 struct AreaProgram {
-  int base = 0;  // number of its first step in the listing
+  int base = 0;  // the number of its first step in the listing
   std::vector<Instruction> lines = {};
 
   bool operator==(const AreaProgram&) const = default;
 };
 
 struct Program {
-  // areas that a listing does not name are empty
+  // areas that a listing does not contain are empty
   std::array<std::optional<AreaProgram>, kAreaCount> areas = {};
   std::map<int, AreaProgram> files = {};  // programs of C, by number
 

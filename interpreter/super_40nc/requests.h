@@ -16,7 +16,7 @@ using AxisValues = std::array<std::optional<std::int32_t>, kAxisCount>;
 /// Bit n: axis n.
 using AxisSet = std::uint8_t;
 
-/// ABSC: relative to the work zero. INCC: relative to the last commanded place, or to the present one (ABSC ,
+/// ABSC: relative to the work zero. INCC: relative to the last commanded place, or to the current one (ABSC ,
 /// INCC 指令).
 enum class Targets : std::uint8_t { absolute, relative };
 enum class Plane : std::uint8_t { xy, xz, yz };
@@ -31,7 +31,7 @@ constexpr std::array<int, 2> axes_of(Plane plane) {
   }
   return {0, 1};
 }
-/// Two coordinates of a plane; an unset one does not change.
+/// Two coordinates of a plane; an unset coordinate does not change.
 using PlanePoint = std::array<std::optional<std::int32_t>, 2>;
 
 /// LIN. All axes start and arrive together.
@@ -46,14 +46,14 @@ struct LinearMove {
 struct CentreArc {
   Plane plane = Plane::xy;
   Turn turn = Turn::clockwise;
-  PlanePoint end_lu;                        // both unset, or equal to the start: a full circle
+  PlanePoint end_lu;                        // if both are unset, or equal to the start: a full circle
   std::array<std::int32_t, 2> centre_lu{};  // unset: 0
   Targets targets = Targets::absolute;
   std::int32_t feed_lu_per_s = 0;
   bool operator==(const CentreArc&) const = default;
 };
 
-/// C3P. It is ignored if the points are on a line.
+/// C3P. The arc is ignored if the points lie on a line.
 struct PointArc {
   Plane plane = Plane::xy;
   PlanePoint through_lu;

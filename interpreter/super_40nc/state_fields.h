@@ -62,7 +62,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                            field<&Value::rpm>(),
                                            field<&Value::waits_for_drive>()};
   static constexpr std::size_t apart = 1;  // owns_pointer, which is always false between lines
-  /// Accepts any step: a program stops at a step at which no instruction begins.
+  /// Accepts any step: a program stops at a step where no instruction begins.
   static void check(const Value& state);
 };
 

@@ -1,4 +1,4 @@
-// A compiled step program: where its steps begin, and where its jumps lead.
+// A compiled step program: where its steps begin, and the targets of its jumps.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace understudy::interpreter::super_40nc {
 class StepCode {
  public:
   StepCode() = default;
-  /// Labels in `others` belong to other areas: jumps to them find none.
+  /// Labels in `others` belong to other areas: jumps to them do not find a target.
   explicit StepCode(const AreaProgram& program, const std::set<std::int32_t>& others = {});
 
   bool is_empty() const { return program_.lines.empty(); }

@@ -22,7 +22,7 @@
 
 namespace understudy::interpreter::super_40nc {
 
-/// Tells an observer that the line begins. One that waits has begun already.
+/// Tells an observer that the line begins. A line that waits has begun already.
 void StepPrograms::begin_line(Area area) {
   const StepState& program = state(area);
   const bool waits = program.phase == Phase::waiting || program.left_ms > 0;
@@ -159,7 +159,7 @@ bool StepPrograms::follows_register(Area area) const {
          code(area).line(line).fields[0].letter == Letter::d;
 }
 
-/// Reads the time once, and waits that many ticks after the one that has reached the line.
+/// Reads the time once, and waits that many ticks after the tick in which the line was reached.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
   if (program.left_ms > 0) {

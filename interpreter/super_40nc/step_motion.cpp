@@ -85,8 +85,8 @@ bool StepPrograms::drop_forbidden_axes(Area area, AxisValues& values) {
   return false;
 }
 
-/// D9005: the program does not wait for a LIN or an arc that is followed by another one, so the corner is run
-/// through.
+/// D9005: the program does not wait for a LIN or an arc that is followed by another one, so the axes do not
+/// stop at the corner.
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
   if (!options_.chose(option("continuous_path", "corners_are_run_through")) || !is_path(line.op) ||

@@ -240,7 +240,7 @@ void StepPrograms::run_slice(Area area) {
   }
   for (int executed = 0; executed < slice(options_) || is_in_group(area); ++executed) {
     if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
-    if (is_stopped_short(area)) return;  // the contacts are obeyed before the next slice
+    if (is_stopped_short(area)) return;  // the contacts take effect before the next slice
     if (!contact_is_on(area)) return take(Event::contact_off, area);
     if (!finds_line(area)) return;
     if (execute(area, code(area).line(code(area).line_at(program.step))) == Slice::is_over) return;
@@ -294,7 +294,7 @@ std::int64_t StepPrograms::quiet_ms(Area area) const {
   if (program.waits_to_resume) return is_inhibited() ? kForEver : 0;
   const Operand contact = awaited(area);
   if (!contact.is_set())
-    return is_inhibited() ? kForEver : 0;  // an axis that is taken is requested in each tick
+    return is_inhibited() ? kForEver : 0;  // a taken axis is requested again in each tick
   const bool waits_for_on = code(area).line(code(area).line_at(program.step)).op == Op::wat;
   return access_.contact(contact) == waits_for_on ? 0 : kForEver;
 }

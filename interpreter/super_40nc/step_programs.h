@@ -1,6 +1,6 @@
-// The five step programs of a SUPER-40NC at run time. The state of each is a plain value; events change it by
-// the table of events.h, and one slice in each tick advances it over its lines. (Manual, 軟體架構, STR 指令,
-// M8000.)
+// The five step programs of a SUPER-40NC at run time. The state of each is a plain value; events change it
+// according to the table in events.h, and one slice in each tick advances it over its lines. (Manual,
+// 軟體架構, STR 指令, M8000.)
 #pragma once
 
 #include <array>
@@ -27,13 +27,13 @@ struct Call {
 struct StepState {
   Phase phase = Phase::idle;
   Phase resumes = Phase::executing;  // phase in which a paused or held program continues
-  bool is_paused_by_key = false;     // by M8006 or PAUSE
+  bool is_paused_by_key = false;     // paused by M8006 or PAUSE
   bool machine_holds = false;        // the machine holds motions, until resume_motions()
-  bool waits_to_resume = false;      // M8004
+  bool waits_to_resume = false;      // because of M8004
   int step = 0;                      // the next or current step, counted from the beginning of its area
   int next_step = 0;                 // step after a motion
   std::int64_t left_ms = 0;          // time left of TMR; 0: it has not begun
-  std::int32_t wait_ms = 0;          // the last time that TMR has read, if it keeps reading
+  std::int32_t wait_ms = 0;          // the last time that TMR has read, if it reads repeatedly
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // result of the last contacts
   // Not state: a line is running, and nothing else has moved its program's pointer.
@@ -54,14 +54,14 @@ struct StepStates {
 
 using StepCodes = std::array<StepCode, kStepProgramCount>;
 
-/// Make one for a tick, or for an event: it only refers to its arguments.
+/// Make an object for each tick or event, because it only refers to its arguments.
 class StepPrograms : public StepControl {
  public:
   StepPrograms(StepStates& states, const StepCodes& codes, Machine& machine, const Options& options)
       : states_(states), codes_(codes), access_(machine), machine_(machine), options_(options) {}
 
-  /// Takes an event from outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop,
-  /// plc_run; and reset and emergency in each tick in which they are ON, before the slices.
+  /// Handles an event from outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop,
+  /// plc_run. Call it with reset and emergency before the slices of each tick in which they are ON.
   void take(Event event, Area area);
   void start(Area area) override;
   void stop(Area area) override { take(Event::stop, area); }
@@ -76,12 +76,12 @@ class StepPrograms : public StepControl {
 
   /// Returns D8000 or D8x00.
   int step(Area area) const { return state(area).step; }
-  /// Writes D8000 or D8x00: ignored while the program runs; otherwise held motion is dropped.
+  /// Writes D8000 or D8x00. The write is ignored while the program runs; otherwise it drops held motion.
   void set_step(Area area, int step);
   /// Returns M8022.
   bool shows_pausing() const;
 
-  /// Returns how many ticks a slice would only count, if no contact, register or axis changes.
+  /// Returns how many ticks a slice would do nothing but count, if no contact, register or axis changes.
   std::int64_t quiet_ms(Area area) const;
   /// Runs `ticks` ticks at once, at most quiet_ms().
   void fast_forward(Area area, std::int64_t ticks);
@@ -101,8 +101,8 @@ class StepPrograms : public StepControl {
   bool is_single_step(Area area) const {
     return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
   }
-  /// Returns true under M8002, or under M8x02 of the axis: lines after the one that switched it ON do not
-  /// run.
+  /// Returns true under M8002, or under M8x02 of the axis: lines after the one that switched it ON are not
+  /// executed.
   bool is_stopped_short(Area area) const {
     const int axis = axis_of(area);
     return machine_.special_contact(named::kEmergencyStop) ||
@@ -126,7 +126,7 @@ class StepPrograms : public StepControl {
   bool finds_line(Area area);
 
   // step_flow.cpp
-  /// `line` is a copy: the line may replace its own program by another one (D9001).
+  /// `line` is a copy: the line may replace its own program with another one (D9001).
   Slice execute(Area area, Instruction line);
   void begin_line(Area area);
   bool decide(Area area, bool outcome);
@@ -161,7 +161,7 @@ class StepPrograms : public StepControl {
   Access access_;
   Machine& machine_;
   const Options& options_;
-  int watched_line_ = -1;  // by an observer; -1: none, or the line has begun before
+  int watched_line_ = -1;  // watched by an observer; -1: none, or the line has begun before
 };
 
 }  // namespace understudy::interpreter::super_40nc

@@ -1,4 +1,5 @@
-// Checks an area's lines as a whole: blocks and branches, IF and its partners, labels, END, room.
+// Checks an area's lines as a whole: blocks and branches, IF with ELSE and ENDI, labels, END, and the
+// available memory.
 #pragma once
 
 #include <cstdint>

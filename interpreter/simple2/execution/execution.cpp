@@ -40,7 +40,7 @@ bool must_be_reread(const Execution& execution, const Program& program, const Di
          without_flag(program.line(execution.now_line)) != execution.held;
 }
 
-/// Returns the present line of the program, or the line with which it began to wait.
+/// Returns the current line of the program, or the line with which it began to wait.
 const Line& line_to_run(const Execution& execution, const Program& program, const Dialect& dialect) {
   const bool as_it_began = dialect.rewritten_line == Dialect::RewrittenLine::waits_on && holds(execution);
   return as_it_began ? execution.held : program.line(execution.next_line);
@@ -194,7 +194,7 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
       execution.waits_for_b = false;
       execution.held = {};
       if (next_line_runs_at_once) break;
-      return;  // the slot in which the move is found over still belongs to its line
+      return;  // the slot in which the end of the move is noticed still belongs to its line
   }
   const bool has_waited = std::exchange(execution.waits, false);
   execute_line(execution, now_ms, program, dialect, machine);

@@ -12,7 +12,7 @@ namespace understudy::interpreter::simple2 {
 
 /// 500 lines per second (appendix B). Slots are at even milliseconds.
 inline constexpr std::int64_t kSlotMs = 2;
-/// The value for "no further slot without a command".
+/// Means that no slot will do anything until a command arrives.
 inline constexpr std::int64_t kNoSlot = INT64_MAX;
 
 /// Why a program is not running.
@@ -27,7 +27,7 @@ enum class Ending : std::uint8_t {
   wait_cut_short,
 };
 
-/// The next slot starts with one of these.
+/// What the next slot starts with.
 enum class Phase : std::uint8_t {
   line,   // a line
   delay,  // the end of a delay
@@ -55,8 +55,8 @@ struct Execution {
   bool waits_for_b = false;
   bool waits = false;  // the current line was tested and holds the program; set only if a choice needs it
   LoopState loop = {};
-  // The current line as it was when it began to wait, without its flag. NOP, which never waits, if none
-  // waits.
+  // The current line as it was when it began to wait, without its flag. It is NOP, which never waits, if no
+  // line waits.
   Line held = {};
 
   bool operator==(const Execution&) const = default;

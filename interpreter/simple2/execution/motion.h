@@ -110,7 +110,7 @@ inline bool wait_is_cut_short(const Execution& execution, const MachineView& mac
   return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
          (execution.waits_for_b && machine.cut_short(Axis::b));
 }
-/// Returns true if that move was cut short, and the line waits for a later one.
+/// Returns true if that move was cut short and the line waits for a later move.
 inline bool waits_on(const Execution& execution, const Dialect& dialect, const MachineView& machine) {
   return dialect.wait_cut_short == Dialect::WaitCutShort::waits_on && wait_is_cut_short(execution, machine);
 }

@@ -13,7 +13,7 @@ using Number = std::int32_t;
 /// 64 bits hold every result of two 32-bit numbers, INT32_MIN / -1 included.
 using Result = std::int64_t;
 
-/// Returns what 32 bits keep of a result.
+/// Returns a result as 32 bits store it.
 constexpr Number kept(const Dialect& dialect, Result result) {
   if (dialect.overflow == Dialect::Overflow::saturates) {
     return static_cast<Number>(std::clamp<Result>(result, INT32_MIN, INT32_MAX));

@@ -8,7 +8,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// Where the program continues after a line.
+/// The place where the program continues after a line.
 enum class Then : std::uint8_t {
   next_line,
   line_after_next,
