@@ -99,7 +99,7 @@ function Axis({ device, axis }) {
   </section>`;
 }
 
-/// For somebody without a host yet: what a first move of the model takes, done one after the other.
+/// Makes the model's first move step by step, for users without a host.
 function FirstMove({ device }) {
   const isNew = store.frames.length === 0 && !store.timeline;
   if (!device.first_move || !isNew) return null;

@@ -69,7 +69,7 @@ function exampleFor(line, status) {
   return `mbpoll -m rtu -a ${station.address} -b ${baud} -P ${word} -s ${stop} -0 -r 0 -c 1 -1 ${status.link}`;
 }
 
-/// Where a host connects, and whether one has: open where nothing has been said yet.
+/// Where a host connects, and whether one has; open until there is traffic.
 function Connections({ isFirst }) {
   const lines = store.status?.lines ?? [];
   if (lines.length === 0) return null;
@@ -82,7 +82,7 @@ function Connections({ isFirst }) {
   })}</ul></details>`;
 }
 
-/// Bars of how often a duration lies between two bounds.
+/// A histogram of durations: a bar for each pair of bounds.
 function Bars({ title, counts, least, greatest }) {
   const most = Math.max(1, ...counts);
   const sum = counts.reduce((all, one) => all + one, 0);
@@ -95,7 +95,7 @@ function Bars({ title, counts, least, greatest }) {
     <small>${counts.map((_, i) => html`<span key=${i}>${i < kBounds_ms.length ? kBounds_ms[i] : ''}</span>`)}</small></figure>`;
 }
 
-/// Of each line, counters and how long answers and the host's pauses take.
+/// The counters of each line, and how long answers and the host's pauses take.
 function Traffic() {
   if (store.heard.lines.size === 0) return null;
   return html`<details class="traffic"><summary>counters and durations</summary>${[...store.heard.lines].map(([name, line]) => html`<section key=${name}>

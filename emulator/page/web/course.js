@@ -1,12 +1,13 @@
-// The course of a bench, for the timeline: of each name the least and the greatest value in each dot, and the spans of
-// frames, programs, faults and events. A recording is asked for it; of a bench that runs, the page keeps the last minute.
+// The course of a bench, for the timeline: the minimum and the maximum of each name in each dot, and the spans of
+// frames, programs, faults and events. Requested for a recording; for a running bench, the page keeps the last
+// minute.
 import { askQuietly, onLook, store, valueOf } from './store.js';
 
 const kMaxPoints = 200_000;
 const kPast_s = 60;
 const kMaxDots = 2000;
 
-/// All names at once, as many dots as they may have.
+/// Requests all names at once, with as many dots as they may have.
 async function curvesOf(names, [from_ns, to_ns], dots) {
   if (names.length === 0) return {};
   const reply = await askQuietly({ do: 'curves', names, from_ns, to_ns, dots: Math.min(dots, kMaxDots, Math.floor(kMaxPoints / names.length)) });
@@ -24,13 +25,13 @@ export async function spansOf([from_ns, to_ns], dots) {
   return spans;
 }
 
-/// Of a recording.
+/// The course of a recording.
 export async function recordedCourse(names, stretch, dots) {
   const [curves, spans] = await Promise.all([curvesOf(names, stretch, dots), spansOf(stretch, dots)]);
   return { stretch, curves, spans };
 }
 
-// Of a bench that runs: what the page was told, since the timeline was opened first.
+// The course of a running bench: what the page has received since the timeline was first opened.
 const past = { times: [], rows: new Map() };
 onLook((look) => {
   if (past.rows.size === 0 || store.timeline) return;

@@ -4,8 +4,8 @@ import { store } from './store.js';
 import { Choice } from './small.js';
 import { useKept } from './kept.js';
 
-/// `panel`: which one asks. `weigh`: how much of a panel a device fills; more than `most` of it together is too much to be told at once.
-/// Returns the devices, and a choice to put above them (nothing where there is only one).
+/// `weigh` returns how much of a panel a device fills; if all fill more than `most`, only one is shown at a time.
+/// Returns the devices, and a choice to put above them (nothing if there is only one device).
 /** @type {(panel: string, weigh: (device: any) => number, most: number) => [any[], unknown]} */
 export function useDevices(panel, weigh, most) {
   const [chosen, choose] = useKept(`devices of ${panel}`, null);

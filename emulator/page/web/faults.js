@@ -5,7 +5,7 @@ import { Button, Field, seconds } from './small.js';
 import { EventList } from './events.js';
 import { FaultForm } from './fault_form.js';
 
-/// A fault that was to happen so often, and has.
+/// Returns true for a fault that has no hits left.
 function isSpent({ fault, hits }) {
   const times = / times=(\d+)/.exec(fault)?.[1] ?? (/ nth=\d+/.test(fault) ? 1 : undefined);
   return times !== undefined && hits >= Number(times);

@@ -3,7 +3,8 @@ import { useEffect, useRef } from './preact.js';
 
 const kSlack = 5;  // dots; less is a click
 
-/// `on`: { time(x), left, zoom, pan, go, marks, setMark, hover, stretch, dots }. Returns what a canvas listens to.
+/// `on`: { time(x), left, zoom, pan, go, marks, setMark, hover, stretch, dots }. Returns the event handlers of a
+/// canvas.
 export function useHands(canvas, on) {
   const fingers = useRef(new Map());
   const drag = useRef(null);  // { x, y, stretch, isMark, isMoved }
@@ -12,7 +13,7 @@ export function useHands(canvas, on) {
 
   useEffect(() => {
     const box = canvas.current;
-    // Not passive, because the page must not scroll as well; over the labels it does.
+    // Not passive, because the page must not scroll too; over the labels it does.
     const wheel = (event) => {
       const { left, time, zoom, pan, stretch, dots } = latest.current;
       const x = event.offsetX;

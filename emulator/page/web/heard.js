@@ -1,10 +1,10 @@
-// What hosts use, from the frames on the lines: of each register how often it is read and written, and of each line how
-// long answers take and how long the host waits.
+// How often hosts read and write each register, and how long answers and the hosts' pauses take on each line, as seen
+// in the frames.
 const kTables = { 1: 'coil', 2: 'discrete', 3: 'holding', 4: 'input', 5: 'coil', 6: 'holding', 15: 'coil', 16: 'holding',
                   22: 'holding', 23: 'holding' };
 const kOne = [5, 6, 22];  // functions that access one register
 const kReads = [1, 2, 3, 4];
-export const kBounds_ms = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];  // of the bars; the last bar has what is longer
+export const kBounds_ms = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];  // of the bars; the last bar has all longer durations
 
 const newLine = () => ({ requests: 0, replies: 0, exceptions: 0, dropped: 0, latency: new Array(kBounds_ms.length + 1).fill(0),
   gaps: new Array(kBounds_ms.length + 1).fill(0), least: {}, greatest: {}, last: [], end_ns: undefined });

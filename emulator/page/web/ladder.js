@@ -1,4 +1,4 @@
-// The ladder of a PLC: contacts and coils as a drawing, in which what conducts is lit. A click on one sets a breakpoint.
+// The ladder of a PLC: contacts and coils as a drawing; live parts are lit. A click on one sets a breakpoint.
 import { html, useEffect } from './preact.js';
 import { unwant, valueOf, want } from './store.js';
 import { conducts, nameOf, namesOf, partsOf, rungsOf } from './rungs.js';
@@ -29,7 +29,7 @@ function sizeOf(part) {
   return [sum(blocks.map(([w]) => w)) + wide(sizes), Math.max(high(blocks), sum(sizes.map(([, h]) => h)))];
 }
 
-/** Draws rungs. What is live is lit; `null` is what nobody can see, and is drawn as dead. */
+/** Draws rungs. Live parts are lit; a part whose state is unknown (`null`) is drawn as dead. */
 class Drawing {
   constructor(device, point) {
     this.shapes = [];

@@ -6,7 +6,7 @@ const kDigital = ['digital_in', 'digital_out', 'pulse_out', 'dip_switch'];
 const kMaxSignals = 120;
 export const kRuler = 26;
 
-/// The names whose curves the timeline wants of these devices.
+/// The names whose curves the timeline shows for these devices.
 export function namesOf(devices) {
   const axes = devices.flatMap((device) => device.axes.flatMap((axis) => ['position', 'speed'].map((it) => `${device.name}.${axis.name}.${it}`)));
   const signals = devices.flatMap((device) => device.terminals.filter((it) => kDigital.includes(it.kind)).map((it) => `${device.name}.${it.name}`));
@@ -20,7 +20,7 @@ function rangeOf(curve) {
   return [low, high];
 }
 
-/// Where switches and stops are, as stretches of positions that a machine should not be in.
+/// The ranges of switches and stops, in which a machine should not be.
 function bandsOf(machine) {
   const at = (place) => (typeof place === 'number' ? place : undefined);
   const [low, high] = [at(machine.lower_limit?.at), at(machine.upper_limit?.at)];
@@ -28,7 +28,7 @@ function bandsOf(machine) {
     .filter(([from, to]) => from !== undefined && to !== undefined);
 }
 
-/// What there is to see, each with its `height`; signals only where they change.
+/// The lanes to show, each with its `height`; signals only if they change.
 export function lanesOf(devices, { curves, spans }) {
   /** @type {any[]} */
   const lanes = [];
@@ -65,7 +65,7 @@ export function lanesOf(devices, { curves, spans }) {
 
 export const heightOf = (lanes) => (lanes.length > 0 ? lanes.at(-1).top + lanes.at(-1).height : kRuler) + 4;
 
-/// A round number of nanoseconds between marks of time that are at least so far apart.
+/// A round number of nanoseconds between marks of time that are at least this far apart.
 function stepOf(rough_ns) {
   const power = 10 ** Math.floor(Math.log10(Math.max(rough_ns, 1)));
   return [1, 2, 5, 10].map((factor) => factor * power).find((it) => it >= rough_ns);
@@ -74,7 +74,7 @@ const placesFor = (step_ns) => Math.max(0, Math.min(9, 9 - Math.floor(Math.log10
 
 const lengthOf = (ns) => (ns < 1e9 ? `${+(ns / 1e6).toPrecision(3)} ms` : `${+(ns / 1e9).toFixed(3)} s`);
 
-/// How a span is told, in a line.
+/// Describes a span in one line.
 export function wordsOf(span) {
   if (span.count > 1) return `${grouped(span.count)} ${span.kind}s${span.bad ? ', one of them: ' : ', the first: '}${wordsOf({ ...span, count: 1 })}`;
   if (span.kind === 'frame') {
@@ -91,7 +91,7 @@ export function wordsOf(span) {
   return span.text ?? span.kind;
 }
 
-/// Draws all of them. `look`: { context, width, left, stretch, course, now, failed_ns, hover, mark, find }.
+/// Draws all lanes. `look`: { context, width, left, stretch, course, now, failed_ns, hover, mark, find }.
 export function drawLanes(lanes, look) {
   const { context, width, left, stretch: [from, to], course } = look;
   const style = getComputedStyle(context.canvas);
@@ -240,7 +240,7 @@ function drawSpans(lane, { context, find, width }, colour, x) {
   context.globalAlpha = 1;
 }
 
-/// A mark each; words where there is room until the next.
+/// Draws each mark, with its words if there is room before the next one.
 function drawEvents(lane, { context, find, width }, colour, x) {
   lane.spans.forEach((span, i) => {
     const at = x(span.begin_ns);
@@ -266,7 +266,7 @@ function drawEvents(lane, { context, find, width }, colour, x) {
   context.globalAlpha = 1;
 }
 
-/// What is at that place of a lane: a span, or nothing.
+/// Returns the span at that place of a lane, or nothing.
 export function spanAt(lane, time, slack_ns) {
   let found = null;
   for (const span of lane.spans ?? []) {

@@ -1,15 +1,15 @@
-// A moment by link: the panel, the time of a recording, the plotted names and the filters stand in the address, behind the
-// token. The browser's back button goes to the panel and the moment before.
+// Links to a moment: the panel, the time of a recording, the plotted names and the filters are in the address, after
+// the token. The browser's back button returns to the previous panel and moment.
 import { ask, complain, draw, store } from './store.js';
 import { keep, kept } from './kept.js';
 import { isTold } from './told.js';
 
-// What of a bench is in the address: the word there, and the name by which it is kept.
+// The state of a bench that is in the address: the word used there, and the name under which it is kept.
 const kKept = [['names', 'plotted'], ['lanes', 'find in the timeline'], ['stretch', 'stretch of the timeline'], ['signals', 'filter of signals'],
                ['section', 'section'], ['register', 'find a register'], ['frame', 'filter of frames'], ['frames', 'which frames'],
                ['event', 'filter of events']];
 const kLists = ['names', 'stretch'];
-const kPause_ms = 400;  // browsers do not like many new addresses
+const kPause_ms = 400;  // browsers limit changes of the address
 
 const textOf = (word, value) => (kLists.includes(word) ? value?.join(',') : value) ?? '';
 const listOf = (word, text) => (word === 'stretch' ? text.split(',').map(Number) : text.split(',').filter(Boolean));
@@ -20,7 +20,7 @@ let planned = 0;
 
 let panel = '';  // the one in view
 
-/// Where the page is now.
+/// The current place of the page.
 function address() {
   const words = new URLSearchParams();
   words.set('panel', panel);
@@ -33,7 +33,7 @@ function address() {
   return `#${token}&${words}`.replaceAll('%2C', ',').replace(/&$/, '');
 }
 
-/// The present place replaces the one before in the address, unless the panel is another: that is a step to go back from.
+/// The current place replaces the previous one in the address; a different panel is a new step, to go back from.
 function put() {
   planned = 0;
   if (!store.bench || panel === '') return;
@@ -42,13 +42,13 @@ function put() {
   history[lastPanel !== null && lastPanel !== panel ? 'pushState' : 'replaceState'](null, '', to);
   lastPanel = panel;
 }
-/// Whenever the page was drawn: its place may be another.
+/// Called whenever the page has been drawn.
 export function noteMoment(shown) {
   panel = shown;
   planned ||= setTimeout(put, kPause_ms);
 }
 
-/// Goes where the address says, once the bench is known.
+/// Goes to the place in the address once the bench is known.
 export function goThere() {
   if (!given || !store.bench) return;
   const words = given;
@@ -67,7 +67,7 @@ addEventListener('popstate', () => {
   draw();
 });
 
-/// A step to go back from, before the moment changes by much.
+/// Adds a step to go back to, before the moment changes a lot.
 export function leaveMoment() {
   put();
   history.pushState(null, '', location.hash);

@@ -20,27 +20,27 @@ function withDrawing(panel) {
   return isThere.then(() => panel);
 }
 
-// What is not needed for the first sight comes after it.
+// Panels that are not needed for the first view are loaded after it.
 /** @type {Record<string, () => Promise<any>>} */
 const kLater = {
   Axes: async () => ({ Axes }), Signals: () => import('./signals.js'), Plot: () => withDrawing(import('./plot.js')), Timeline: () => import('./timeline.js'),
   Registers: () => import('./registers.js'), Bus: () => import('./bus.js'), Program: () => import('./program.js'),
   Events: () => import('./events.js'), Faults: () => import('./faults.js'),
 };
-// A recording in one file holds no registers and no text of programs, and nothing in it can be changed.
+// A recording in one file has no registers or program texts, and cannot be changed.
 const kPanels = Object.keys(kLater).filter((name) => !isTold || !['Registers', 'Program', 'Faults'].includes(name));
 /** @type {Record<string, any>} */
 const panels = { Axes };
 /** @type {Record<string, Promise<void>>} */
 const loading = {};
-/// What cannot be loaded now is tried again when the page is drawn.
+/// If a panel cannot be loaded, the next drawing tries again.
 function load(name) {
   loading[name] ??= kLater[name]().then((it) => { panels[name] = it[name]; draw(); }, () => { delete loading[name]; });
 }
 const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
 const kMaxNamed = 3;  // devices in the header
 
-// The snapshot from before the last "run until": it may take much time away.
+// The snapshot from before the last "run until", which may skip a lot of time.
 const kBefore = 'before run until';
 async function undoRun() {
   if ((await ask({ do: 'restore', name: kBefore })).ok) keep(kBefore, undefined);
@@ -67,7 +67,7 @@ function Time() {
   const clock = html`<output class="clock figure" aria-live="off" aria-label="simulated time">${(isExact ? exactly : seconds)(look.time_ns)}</output>`;
   if (store.timeline && !isAltered()) return html`<div class="time" role="group" aria-label="time">${clock}<${WhatIf} /></div>`;
   const undo = kept(kBefore);
-  const isRunning = !stands || look.advancing;  // a pause ends either
+  const isRunning = !stands || look.advancing;  // `pause` ends both
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
   const step = (ticks, name) => html`<${Button} kind="small" title=${`advance by ${name}`} disabled=${locked || isRunning}
@@ -110,13 +110,13 @@ function nameOf({ socket }, number) {
   return others.length > 0 ? `${name} (${socket})` : name;
 }
 
-/// The panel in view: a recording opens with its course.
+/// The visible panel; a recording opens with its timeline.
 function panelShown() {
   const wanted = kept('panel', store.timeline ? 'Timeline' : 'Axes', '');
   return kPanels.includes(wanted) ? wanted : 'Axes';
 }
 
-const kWide = 1150;    // dots from which on two panels fit side by side,
+const kWide = 1150;    // the width in dots from which two panels fit side by side,
 const kWidest = 1750;  // and three
 
 /// The panels beside the one in view, as far as there is room.

@@ -10,11 +10,11 @@ const kMaxPlaces = 6000;
 const kMaxAxes = 24;  // whose paths are kept
 const kDots = 3000;
 
-// Of each device with several axes where all of them have been, since the page was opened.
+// For each device with several axes: where they have been since the page was opened.
 let of = null;
 const paths = new Map();
 
-/// Whatever panel is in view. Called whenever the page is drawn.
+/// Called whenever the page is drawn, whichever panel is visible.
 export function keepPaths() {
   if (of === store.bench) return;
   of = store.bench;
@@ -37,7 +37,7 @@ onLook(() => {
   }
 });
 
-/// Of a recording the whole path, with the time of each place behind its coordinates.
+/// The whole path of a recording; the time of each place follows its coordinates.
 function useRecordedPath(device, axes) {
   const [path, setPath] = useState([]);
   useEffect(() => {

@@ -9,7 +9,7 @@ function stepOf(rough) {
   return [1, 2, 5, 10].map((factor) => factor * power).find((it) => it >= rough);
 }
 
-/// Least and greatest coordinate of one axis; with the whole travel, if that is wanted.
+/// The minimum and maximum coordinate of one axis, including the whole travel if that is requested.
 function spanOf(picture, axis) {
   let [low, high] = [picture.at[axis], picture.at[axis]];
   for (const place of [...picture.behind, ...picture.ahead]) [low, high] = [Math.min(low, place[axis]), Math.max(high, place[axis])];
@@ -81,10 +81,10 @@ export function drawFlat(canvas, picture) {
   drawPath(pen, picture, (place) => [x(place[0]), y(place[1])]);
 }
 
-/// The corners of a box, as numbers of three bits, and those that an edge joins.
+/// The corners of a box, as numbers of three bits, and the pairs that an edge joins.
 const kEdges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((from) => [1, 2, 4].filter((bit) => !(from & bit)).map((bit) => [from, from | bit]));
 
-/// Three axes, turned by two angles; the box around the path has its ends as numbers.
+/// Three axes, turned by two angles; the box around the path has numbers at its ends.
 export function drawTurned(canvas, picture, { yaw, pitch }) {
   const { width, height } = canvas;
   const pen = penOf(canvas);

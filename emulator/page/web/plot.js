@@ -48,7 +48,7 @@ function drop(name) {
   names.length > 0 ? want('plot', [...names]) : unwant('plot');
   keep('plotted', [...names]);
 }
-/// The names that were plotted before, or that somebody else wants plotted; at first an axis is offered.
+/// The names that were plotted before, or that another panel wants plotted; at first, those of an axis.
 function beginWith(bench) {
   const wanted = kept('plotted', suggestions().slice(0, 1));
   if (of === bench && wanted.join() === names.join()) return;
@@ -89,9 +89,9 @@ function isLevel(label, row) {
 /// A lane at the bottom of the plot; the step from off to on is a twentieth of the plot's height.
 const lane = (number) => ({ range: () => [-(0.4 + 1.4 * number), 20 - (0.4 + 1.4 * number)] });
 
-/// A drawing by uPlot of columns that change; it owns the window once somebody has zoomed. What is on or off has a lane of
-/// its own; `isApart`: so have all others their scale.
-/// `moment`: where a line stands, in seconds. `sees`: is told which seconds are in view, once somebody has zoomed.
+/// Draws columns that change. On/off curves have their own lanes; with `isApart`, the others have their own scales.
+/// `moment` is the place of a vertical line, in seconds. After the user has zoomed, uPlot owns the window, and `sees`
+/// receives the visible seconds.
 function Drawing({ columns, labels, window_s, isShot, isApart, moment, sees }) {
   const place = useRef(null);
   const plot = useRef(null);
@@ -151,7 +151,7 @@ function Drawing({ columns, labels, window_s, isShot, isApart, moment, sees }) {
   return html`<div class="drawing" ref=${place}></div>`;
 }
 
-/// The moment of the bar, or that of a trigger.
+/// Draws a line at a moment.
 function drawMoment(self, moment) {
   if (moment === undefined) return;
   const x = Math.round(self.valToPos(moment, 'x', true));

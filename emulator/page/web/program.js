@@ -8,7 +8,7 @@ import { hasLadder } from './rungs.js';
 import { Steps, StopList, useCoverage, useStops } from './stops.js';
 
 const kLook_ms = 150;
-const kLookAtStack_ms = 450;  // it costs more
+const kLookAtStack_ms = 450;  // costs more
 const kMaxLines = 4000;  // in a listing; more would make the page slow
 
 // The simulated time since which each program has been waiting for the same thing at the same line.
@@ -63,7 +63,7 @@ const kAround = 60;  // lines around the running one, or from the first on
 /// The words of a line that may name a register, a contact or a variable.
 const operandsOf = (line) => [...new Set(line.replace(/[;#].*/, '').match(/\b[A-Za-z_][A-Za-z_]*\d+\b/g) ?? [])];
 
-/// What the operands of a line are now. Words that name nothing have no value.
+/// The current values of a line's operands. Words that are not names have no value.
 function Operands({ device, line }) {
   const told = operandsOf(line).map((word) => [word, valueOf(`${device}.${word}`)]).filter(([, value]) => typeof value === 'number');
   return told.length > 0 && html`<small class="operands figure">${told.map(([word, value]) => `${word} = ${grouped(value)}`).join(', ')}</small>`;
@@ -98,7 +98,7 @@ function Listing({ device, lines, running, callers, point, counts }) {
     device=${device} number=${i + 1} text=${line} isRunning=${running.has(i + 1)} isCaller=${callers.has(i + 1)} point=${point} />`)}</ol>`;
 }
 
-// What registers stand for, as far as somebody has asked.
+// The meanings of registers, as far as they have been requested.
 const meanings = new Map();
 async function learnMeaning(device, name) {
   const key = `${device}.${name}`;
@@ -130,7 +130,7 @@ function Values({ device }) {
     <${Field} label="another value to show here" placeholder="another value" takes=${add} /></div>`;
 }
 
-/// Puts the cursor of the editor there.
+/// Puts the editor's cursor at that place.
 function goToLine(line, column) {
   const area = document.querySelector('textarea');
   if (!area) return;
@@ -154,7 +154,7 @@ export function Program() {
   const [mistakes, setMistakes] = useKept(`mistakes of ${device?.name}`, []);
   const [isDrawn, drawLadder] = useKept(`ladder of ${device?.name}`, true);
 
-  // The text in whose lines breakpoints, stacks and counts are: the bench's file, or what the device has.
+  // The text in whose lines breakpoints, stacks and counts are: the bench's file, or the listing that the device has.
   const read = async () => {
     const reply = await askQuietly({ do: 'source', device: device.name });
     setText(reply.ok ? (reply.text ?? '').replace(/\n$/, '') : '');
@@ -199,7 +199,7 @@ export function Program() {
   const lines = text.split('\n');
   const shown = (edited ?? text) === '' ? 0 : (edited ?? text).split('\n').length;
   const frames = (stacks?.stacks ?? []).filter((it) => it.frames.length > 0).map((it) => it.frames);
-  // The listing that is shown may be the bench's file, and `where` counts in that of the device.
+  // The listing that is shown may be the bench's file, while `where` counts lines in the device's listing.
   const lineOf = (program) => stacks?.stacks.find((it) => it.program === program.program)?.frames[0]?.line ?? program.line;
   const running = new Set(frames.map(([first]) => first.line));
   const callers = new Set(frames.flatMap(([, ...others]) => others).map((frame) => frame.line));

@@ -63,7 +63,7 @@ function Carriage({ x, slip, perDot }) {
   const take = (event) => {
     if (!slip || event.button !== 0) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    // A finger that only wanted to scroll, or a hand that trembles, does not push.
+    // A small movement does not push: it may be scrolling, or a tremor.
     setDrag({ rail: rail(event), from: event.clientX, to: event.clientX, slack: event.pointerType === 'mouse' ? 5 : 20 });
   };
   const move = (event) => { if (drag) setDrag({ ...drag, to: event.clientX }); };

@@ -1,11 +1,11 @@
-// The plot of a recording: whole curves, thinned to the dots of the drawing; every tick where one zooms in.
+// The plot of a recording: whole curves, thinned to the dots of the drawing; every tick where the user zooms in.
 import { useEffect, useRef, useState } from './preact.js';
 import { askQuietly, store } from './store.js';
 
 const kDots = 1500;
 const kMargin = 0.25;  // of what is in view, on each side
 
-/// Of each dot two points, so that what was least and what was greatest in it are both drawn.
+/// Two points for each dot, so that both its minimum and its maximum are drawn.
 function columnsOf(reply, count) {
   const { from_ns, to_ns, curves } = reply;
   const times = [];
@@ -21,7 +21,8 @@ function columnsOf(reply, count) {
   return [times, ...rows];
 }
 
-/// Returns the columns for these names, and what to call with the seconds that are in view: `null` for all of them.
+/// Returns the columns for these names, and a function to call with the seconds that are in view: `null` for all of
+/// them.
 export function useRecordedPlot(names) {
   const [columns, setColumns] = useState([[], ...names.map(() => [])]);
   const [view, setView] = useState(null);
@@ -32,7 +33,7 @@ export function useRecordedPlot(names) {
     const { begin_ns, end_ns } = store.timeline;
     const [from, to] = view ? view.map((s) => s * 1e9) : [begin_ns, end_ns];
     const room = view ? (to - from) * kMargin : 0;
-    // A dot is a tick at least.
+    // A dot is at least one tick.
     const stretch = [Math.max(begin_ns, Math.floor((from - room) / 1e6) * 1e6), Math.min(end_ns, Math.ceil((to + room) / 1e6) * 1e6)];
     const dots = Math.max(1, Math.min(kDots, Math.round((stretch[1] - stretch[0]) / 1e6)));
     const number = ++asked.current;

@@ -28,7 +28,7 @@ async function write(name, text) {
   return (await ask({ do: 'set', values: { [name]: number } })).ok;
 }
 
-/// Who wrote it last, and when: a click lists its writes.
+/// Shows who wrote it last, and when. A click lists its writes.
 function Writer({ name }) {
   const last = store.writers[name];
   if (!last) return null;
@@ -36,7 +36,7 @@ function Writer({ name }) {
   return html`<button type="button" class="link" title=${`list what has happened to ${name}`} onClick=${list}><small>${last.by} ${seconds(last.time_ns)}</small></button>`;
 }
 
-/// How often a host uses it, and since when.
+/// Shows how often hosts use it, and since when.
 function Use({ use }) {
   const seconds_used = Math.max((use.last_ns - use.since_ns) / 1e9, 1e-3);
   const rate = (count, what) => count > 0 && `${what} ${count === 1 ? 'once' : count < 4 ? `${count} times` : `${grouped(Math.round(count / seconds_used * 10) / 10)}/s`}`;
@@ -44,7 +44,7 @@ function Use({ use }) {
     ${use.exceptions > 0 && html` <b class="bad">${grouped(use.exceptions)} ${use.exceptions === 1 ? 'exception' : 'exceptions'}</b>`}</small>`;
 }
 
-/// The registers that hosts use, as a map: a cell each, the darker the more often. A click finds it.
+/// A map of the registers that hosts use, darker with more use. A click finds the register.
 function UseMap({ rows, words, find }) {
   const uses = rows.map((row) => [row, useOf(words, row)]).filter(([, use]) => use);
   const most = Math.max(1, ...uses.map(([, use]) => use.reads + use.writes));

@@ -116,13 +116,13 @@ export function namesOf({ kind, word, operands }) {
   return operands.filter((operand) => /^[XYMTCD]\d+$/.test(operand)).map((operand) => nameOf(operand, hasValues));
 }
 
-/** Returns all contacts and outputs of a wire, a contact's parts included. */
+/** Returns all contacts and outputs of a wire, including a contact's parts. */
 export function partsOf(part) {
   if (part.kind === 'wire') return [...part.blocks, ...part.ends].flatMap(partsOf);
   return part.parts ? part.parts.flatMap(partsOf) : part.kind === 'inverse' ? [] : [part];
 }
 
-/** Returns whether a contact conducts, or null for one that only its change shows. `get` returns a value. */
+/** Returns whether a contact conducts, or null for a contact that only reacts to changes. `get` returns a value. */
 export function conducts(contact, get) {
   const { word, operands } = contact;
   const compares = /(=|<>|<=|>=|<|>)$/.exec(word)?.[1];

@@ -63,8 +63,8 @@ function Wheel({ device, terminal }) {
 
 const kTwoLevels = ['digital_in', 'digital_out', 'dip_switch', 'pulse_out'];
 
-const kMany = 40;      // more of a kind are in groups,
-const kInAGroup = 16;  // of so many, if the device has no groups for them;
+const kMany = 40;      // more terminals of a kind are in groups,
+const kInAGroup = 16;  // of this size, if the device has no groups for them;
 const kFew = 4;        // fewer share a group
 
 /// A long list falls into the groups that the device names, or that its numbers make. Returns [title, terminals] of each.
@@ -91,7 +91,7 @@ function groupsOf(device, terminals) {
     })));
 }
 
-/// How many of a group are on, and whether one has changed: told while the group is closed, too.
+/// How many of a group are on, and whether one has changed; also shown while the group is closed.
 function Group({ device, title, children, terminals, isFirst }) {
   const wired = terminals.filter((it) => isWired(device, it)).length;
   const [isOpen, open] = useKept(`group ${title} of ${device}`, isFirst || wired > 0);
@@ -112,10 +112,10 @@ function Terminals({ device, kind, terminals, isNarrowed }) {
       : html`<${Group} key=${title} device=${device} title=${title} terminals=${some} isFirst=${i === 0}>${list(some)}<//>`))}`;
 }
 
-/// Of those that were seen: whatever has had another level before.
+/// Returns true for a terminal that has been seen with another level before.
 const changedSince = () => new Set(Object.keys(store.changes));
 
-/// The machine or a wire is at it, or the device gives it a function.
+/// Returns true if the machine, a wire or a function of the device uses it.
 function isWired(device, terminal) {
   const name = `${device}.${terminal.name}`;
   return (terminal.functions ?? []).length > 0 || (store.bench?.wires ?? []).some(({ from, to }) => from === name || to === name);

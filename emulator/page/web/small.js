@@ -3,9 +3,9 @@ import { html, useRef, useState } from './preact.js';
 import { store } from './store.js';
 import { useKept } from './kept.js';
 
-/// Cut, not rounded: what is said to be over is over.
+/// Truncated, so that no time appears early.
 export const seconds = (ns) => `${(Math.floor(ns / 1e6) / 1e3).toFixed(3)} s`;
-/// The same to the microsecond, for where time stands.
+/// The same to the microsecond, for the current time.
 export const exactly = (ns) => `${(Math.floor(ns / 1e3) / 1e6).toFixed(6)} s`;
 export const grouped = (number) =>
   typeof number === 'number' ? number.toLocaleString('en', { maximumFractionDigits: 1, minimumFractionDigits: Number.isInteger(number) ? 0 : 1 }) : '–';
@@ -15,8 +15,8 @@ export const inTenths = (number) =>
 export const isOn = (value) => value === 1 || value === true;
 export const spaced = (name) => name.replaceAll('_', ' ');
 
-/// Runs one call of `act` at a time. Of the calls that arrive meanwhile only the last one counts, so dragging builds no
-/// queue.
+/// Runs one call of `act` at a time. Of the calls that arrive meanwhile only the last one counts, so dragging does not
+/// build up a queue.
 export function latest(act) {
   let isUnderWay = false;
   let wish = null;
@@ -44,7 +44,7 @@ export function Button({ does, title, pressed, disabled, kind = '', children }) 
 export function Field({ label, of = '', placeholder, takes, list, size = 12, disabled }) {
   const [text, keepText] = useKept(`field ${of} ${label}`, '');
   const setText = (to) => keepText(to === '' ? undefined : to);
-  // Uses the present text, not the text of the last drawing: a fast typist is ahead of the drawing.
+  // Uses the current text, not the text of the last drawing: a fast typist is ahead of the drawing.
   const send = async ({ value }) => {
     if (value.trim() !== '' && await takes(value.trim()) !== false) setText('');
   };

@@ -6,7 +6,8 @@ import { Button, Field, grouped } from './small.js';
 const kLook_ms = 1000;    // for changes by others: editors and `ctl` set breakpoints as well
 const kWithin = '60s';
 
-/// Asks for something at once, then at intervals, and returns the last answer. `ask` may change what it asks.
+/// Asks for something at once, then at intervals, and returns the last answer. `marks` are the values whose change
+/// makes it ask again.
 function useAsked(message, isWanted, marks) {
   const [reply, setReply] = useState(null);
   const [again, setAgain] = useState(0);
@@ -45,7 +46,7 @@ export function useStops(device) {
   return { all, at, toggle, change, remove, add: send };
 }
 
-/// Counts of lines since somebody began to count: (line) => { kind, text, says }, or null if nobody wants them.
+/// Counts of lines since counting began: (line) => { kind, text, says }, or null if nobody wants them.
 export function useCoverage(device, isWanted) {
   const [reply] = useAsked({ do: 'coverage', device }, isWanted, [device]);
   if (!isWanted || !reply) return null;
@@ -64,7 +65,7 @@ export function useCoverage(device, isWanted) {
   };
 }
 
-/// Continues and steps, while time stands. On a bench that hosts use, the way back is refused, in the daemon's words.
+/// Continues and steps while time is stopped. On a bench that hosts use, the daemon refuses to go back.
 export function Steps({ device }) {
   const { look } = store;
   if (!look || isLocked()) return null;

@@ -63,7 +63,7 @@ function watch() {
   if (wish === lastWatch) return;
   lastWatch = wish;
   watched = new Set(names);
-  // Values that are no longer sent become outdated. Delete them, so that no panel takes them for present values.
+  // Values that are no longer sent become outdated. Delete them, so that no panel takes them for current values.
   for (const name of Object.keys(store.values)) if (!watched.has(name)) delete store.values[name];
   wire.watch(store.number, { names, frames: true, events: true, status: true });
 }
@@ -208,7 +208,7 @@ async function learn() {
   const number = store.number;
   if (!isKnown) forget();
   isKnown = true;
-  // All at once, because a question may take long to go round.
+  // All at once, because a request may take long.
   const [{ bench }, { devices }, kinds, timeline] = await Promise.all([wire.ask(number, { do: 'bench' }),
     wire.ask(number, { do: 'bench', device: '*' }), wire.ask(number, { do: 'faults' }), timelineOf(number)]);
   if (number !== store.number || !bench || !devices) return;
@@ -242,7 +242,7 @@ export const askQuietly = (message) => wire.ask(store.number, message);
 export const isReadOnly = () => store.hello?.read_only ?? false;
 /// Returns whether changes are disabled: a recording only shows what happened.
 export const isLocked = () => isReadOnly() || (store.timeline !== null && !isAltered());
-/// Of a recording: whether somebody tries what would happen if something were otherwise.
+/// Returns whether the user is trying a change to a recording.
 export const isAltered = () => store.look?.altered_at_ns !== undefined;
 export const valueOf = (name) => store.values[name];
 export const hasPower = (device) => store.status?.devices.find((it) => it.name === device)?.power !== 'off';

@@ -1,4 +1,4 @@
-// Of a recording: how it failed and what led there, and whether it shows what happened or what somebody tries.
+// For a recording: how it failed, what led to that, and whether the page shows what happened or a trial.
 import { html } from './preact.js';
 import { ask, isAltered, isReadOnly, store } from './store.js';
 import { Button, seconds } from './small.js';
@@ -33,7 +33,7 @@ export function Story() {
   </section>`;
 }
 
-/// What a recording shows, and the way to try something else and back.
+/// Whether the recording is shown or a trial, with a way between them.
 export function WhatIf() {
   if (isAltered()) {
     return html`<span class="badge">altered since ${seconds(store.look.altered_at_ns)}: not what happened</span>

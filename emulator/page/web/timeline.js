@@ -1,5 +1,5 @@
 // The timeline: time from left to right, and a lane for everything that has a course. A click goes to a moment of a
-// recording; a stretch that is marked tells its sums.
+// recording; a marked stretch shows its totals.
 import { html, useEffect, useRef, useState } from './preact.js';
 import { isAltered, isReadOnly, store, unwant, want } from './store.js';
 import { Button, exactly, grouped } from './small.js';
@@ -17,14 +17,14 @@ const kShortest_ns = 1e5;
 const kPause_ms = 120;
 const kBetweenWaits_ms = 500;
 
-/// All of the recording, or of what the page has kept.
+/// The whole recording, or all that is kept.
 function whole() {
   if (store.timeline) return [store.timeline.begin_ns, Math.max(store.timeline.end_ns, store.timeline.begin_ns + kShortest_ns)];
   const now = store.look?.time_ns ?? 0;
   return [Math.min(pastBegin(), now - kFirst_ns), now];
 }
 
-/// Of a bench that runs: the last half minute, or what there is of it.
+/// For a running bench: the last half minute, or less if there is less.
 function present() {
   const now = store.look?.time_ns ?? 0;
   return [Math.max(now - kLive_ns, Math.min(pastBegin(), now - kFirst_ns)), now];
@@ -37,10 +37,10 @@ function within([from, to]) {
   return [Math.round(first), Math.round(first + length)];
 }
 
-/// What a recording has told, of which stretch and names; it stays while other panels are in view.
+/// The data received from a recording; kept while other panels are visible.
 const told = { key: '', course: null, ask: 0 };
 
-/// The course of a recording, asked for anew when the stretch or the width is another.
+/// The course of a recording; requested again when the stretch or the width changes.
 function useRecorded(names, stretch, dots) {
   const [, again] = useState(0);
   const key = JSON.stringify([store.number, store.epochs[store.number], names, stretch, dots]);
@@ -58,10 +58,10 @@ function useRecorded(names, stretch, dots) {
   return told.course ?? { stretch, curves: {}, spans: [] };
 }
 
-/// What the host of a bench that runs has waited for, as it was told last.
+/// The waits of a running bench's host, as last received.
 const waits = { key: '', of: '', spans: [], isAsking: false, last: -kBetweenWaits_ms };
 
-/// The waits in the stretch, asked for again from time to time, because the stretch moves on with the bench.
+/// The waits in the stretch, requested again from time to time, because the stretch moves on with the bench.
 function useWaits(isLive, shown, dots) {
   const [, again] = useState(0);
   const of = JSON.stringify([store.number, store.epochs[store.number]]);
@@ -80,7 +80,7 @@ function useWaits(isLive, shown, dots) {
   return isLive && waits.of === of ? waits.spans : [];
 }
 
-/// Of a marked stretch: how long it is, its frames and how far each axis went.
+/// Describes a marked stretch: its length, its frames, and how far each axis moved.
 function sumsOf([from, to], { curves, spans, stretch }, devices) {
   const frames = spans.filter((span) => span.kind === 'frame' && span.begin_ns >= from && span.begin_ns <= to);
   const latencies = frames.map((span) => span.latency_ns).filter((it) => it !== undefined).sort((a, b) => a - b);
@@ -155,7 +155,7 @@ export function Timeline() {
   }, []);
   useEffect(() => {
     if (isRecording) return undefined;
-    want('timeline', names);  // on and on, so that the past is there when somebody looks again
+    want('timeline', names);  // always, so that the past is available later
     keepPast(names);
     return undefined;
   }, [isRecording, names.join(), store.bench]);

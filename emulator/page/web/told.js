@@ -1,10 +1,10 @@
-// A recording in one file (`replay --export`): answers what the page's server would, from what the file holds.
+// A recording in one file (`replay --export`): answers as the page's server would, from the contents of the file.
 const kPlace = document.getElementById('told');
 export const isTold = kPlace !== null;
 const kMaxBefore = 200;  // frames, and events, from before a moment
 
 /// Calls `take(least, greatest, dot)` for every dot of a course's row that lies in the stretch. A row is a list of
-/// runs: the first dot, its least and its greatest value.
+/// runs: the first dot, its minimum and its maximum.
 function eachDot(course, row, from, to, take) {
   const size = (course.to_ns - course.from_ns) / course.dots;
   const first = Math.max(0, Math.floor((from - course.from_ns) / size));
@@ -36,7 +36,7 @@ export class Told {
     this.tell();
   }
 
-  /// Tells values, and after a move also what was before, once the caller is done.
+  /// Sends values, and after a move also the past, as soon as the caller is done.
   tell() {
     this.plan ??= setTimeout(() => {
       this.plan = undefined;
@@ -48,13 +48,13 @@ export class Told {
     });
   }
 
-  /// The file knows faults and power at the moment with which it opens.
+  /// The file contains faults and power only for the moment at which it opens.
   statusNow() {
     const { status, timeline } = this.data;
     return this.at === timeline.at_ns ? status : { ...status, faults: [], devices: status.devices.map(({ name }) => ({ name })) };
   }
 
-  /// The finest course that holds the stretch.
+  /// The finest course that contains the stretch.
   courseOf(from, to) {
     const { courses } = this.data;
     return courses[Math.max(0, lastIndex(courses, (it) => it.from_ns <= from && it.to_ns >= to))];
@@ -85,7 +85,7 @@ export class Told {
     return { least, greatest };
   }
 
-  /// The moment after so many ticks, frames or events.
+  /// The moment after this many ticks, frames or events.
   stepped(by, steps) {
     const { begin_ns, end_ns } = this.data.timeline;
     if (by === 'tick') return (steps < 0 ? Math.ceil(this.at / 1e6) : Math.floor(this.at / 1e6)) * 1e6 + steps * 1e6;

@@ -11,7 +11,7 @@ const kKeys = { ',': ['tick', -1], '.': ['tick', 1], '[': ['frame', -1], ']': ['
 
 const sayMark = (mark) => [seconds(mark.time_ns), mark.what, mark.device ?? mark.line ?? '', mark.text ?? ''].filter(Boolean).join(' ');
 
-// Sends one request at a time. Meanwhile only the last wish is kept, so dragging never builds a queue.
+// Sends one request at a time. Meanwhile only the latest request is kept, so dragging does not build up a queue.
 let isUnderWay = false;
 let wish = null;
 async function seek(message) {

@@ -1,4 +1,4 @@
-// Says whether a device uses a terminal, from the register that assigns its function, if there is one.
+// Determines whether a device uses a terminal, from the register that assigns its function, if there is one.
 import { valueOf } from './store.js';
 
 /// Returns the names to watch for this.

@@ -68,7 +68,7 @@ export class Wire {
     if (this.isKnown) this.socket.send(JSON.stringify(message));
   }
 
-  // Sets what this browser wants to receive of a bench from now on: { names: [...], frames, events, status }.
+  // Sets what this browser wants to receive from a bench from now on: { names: [...], frames, events, status }.
   watch(bench, wanted) {
     this.watched.set(bench, wanted);
     this.say({ do: 'watch', bench, ...wanted });
