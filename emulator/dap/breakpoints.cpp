@@ -155,11 +155,11 @@ std::vector<std::size_t> Session::devices_with(const Json& source, std::string& 
     } else {
       known += "; " + devices_[d].name + " has ";
       if (has.text.empty())
-        known += "none";
+        known += "no program";
       else if (!has.path.empty())
         known += std::filesystem::path(has.path).filename().string();
       else
-        known += "another program: " + (differs.empty() ? "the file cannot be read" : differs);
+        known += "a different program: " + (differs.empty() ? "the file cannot be read" : differs);
     }
   }
   if (found.empty()) why_none = "no device runs " + name + known;

@@ -217,7 +217,7 @@ void Session::poll() {
     if (text.empty() && is_recording_)
       text = goes_back_ ? "the recording begins here" : "the recording ends here";
     if (text.empty() && goes_back_) text = "debugging began here";
-    if (text.empty() && !wants_pause_) text = "nothing stopped it within " + std::string(kLongTime);
+    if (text.empty() && !wants_pause_) text = "nothing stopped the bench within " + std::string(kLongTime);
     report_stop(reply->value("stop", Json()), refusal.empty() ? "pause" : "step", text);
   } catch (const RequestError& error) {
     has_ended(error.what());

@@ -108,7 +108,7 @@ Json Session::evaluate(const Json& arguments) {
       link_->ask({{"do", "command"},
                   {"device", devices_[device].name},
                   {"text", trimmed(std::string_view(text).substr(kCommand.size()))}});
-      return {{"result", "obeyed"}, {"variablesReference", 0}};
+      return {{"result", "accepted"}, {"variablesReference", 0}};
     }
     if (const std::size_t sign = assignment_in(text); sign != std::string::npos) {
       const Json set = set_value(whole_name(trimmed(text.substr(0, sign)), device), text.substr(sign + 1));

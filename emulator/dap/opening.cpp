@@ -149,7 +149,7 @@ Json Session::restart(const Json& /*arguments*/) {
     return nullptr;
   }
   if (!launched_.end)
-    throw RequestError("only a launched bench can be restarted; expected a session by `launch`");
+    throw RequestError("only a launched bench can be restarted; expected a session that began with `launch`");
   link_->pause();
   phase_ = Phase::stopped;
   delete_from_bench();

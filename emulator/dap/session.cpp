@@ -32,10 +32,10 @@ constexpr unsigned kAny = kFresh | kReady | kThere | in(Phase::ended);
 std::string_view word_of(Phase phase) {
   switch (phase) {
     case Phase::fresh: return "the session is not initialized; expected `initialize` first";
-    case Phase::ready: return "no bench is launched; expected `launch` or `attach` first";
+    case Phase::ready: return "no bench has been launched; expected `launch` or `attach` first";
     case Phase::configuring: return "the session is being configured; expected `configurationDone` first";
     case Phase::stopped: return "the bench has stopped; expected it to run";
-    case Phase::running: return "the bench runs; expected it to be stopped, by `pause`";
+    case Phase::running: return "the bench is running; expected it to be stopped by `pause`";
     case Phase::ended:
     case Phase::over: return "the bench has ended; expected `disconnect`";
   }
@@ -145,7 +145,7 @@ void Session::print(const std::string& text, const char* category) {
 
 Json Session::initialize(const Json& arguments) {
   if (text_or(arguments, "pathFormat", "path") != "path")
-    throw RequestError("pathFormat: this format of paths is unknown; expected path");
+    throw RequestError("pathFormat: this path format is unknown; expected path");
   line_offset_ = flag_or(arguments, "linesStartAt1", true) ? 0 : 1;
   column_offset_ = flag_or(arguments, "columnsStartAt1", true) ? 0 : 1;
   phase_ = Phase::ready;

@@ -29,7 +29,7 @@ constexpr std::array<std::pair<const char*, const char*>, 3> kScopes{
 constexpr std::int64_t kManyRows = 200;  // clients get longer sections piece by piece
 
 std::string text_of_value(const Json& value, bool as_hex) {
-  if (value.is_null()) return "no value now";
+  if (value.is_null()) return "no value at the moment";
   if (value.is_string()) return value.get<std::string>();
   if (!as_hex || !value.is_number_integer()) return value.dump();
   std::array<char, 32> text{};
@@ -102,7 +102,7 @@ Json Session::variables(const Json& arguments) {
   } else if (section >= 0 && section < static_cast<std::int64_t>(devices_[device].sections.size())) {
     add_section(device, section, arguments, all);
   } else {
-    throw RequestError("variablesReference: there is no " + std::to_string(reference) +
+    throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
                        "; expected one of `scopes`");
   }
   return {{"variables", std::move(all)}};
@@ -112,7 +112,7 @@ std::size_t Session::device_of_reference(std::int64_t reference) const {
   const std::int64_t number = reference / kPerDevice - 1;
   if (reference > kFirstBits) return device_of_name(register_of_reference(reference));
   if (number < 0 || number >= static_cast<std::int64_t>(devices_.size()))
-    throw RequestError("variablesReference: there is no " + std::to_string(reference) +
+    throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
                        "; expected one of `scopes`");
   return static_cast<std::size_t>(number);
 }
@@ -120,7 +120,7 @@ std::size_t Session::device_of_reference(std::int64_t reference) const {
 const std::string& Session::register_of_reference(std::int64_t reference) const {
   const std::int64_t number = reference - kFirstBits;
   if (number < 1 || number > static_cast<std::int64_t>(with_bits_.size()))
-    throw RequestError("variablesReference: there is no " + std::to_string(reference) +
+    throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
                        "; expected one of `variables`");
   return with_bits_[static_cast<std::size_t>(number) - 1];
 }

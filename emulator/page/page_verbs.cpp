@@ -138,7 +138,7 @@ std::string token_of(std::string_view text) {
 BrowserMessage parse_browser_message(std::string_view text, std::size_t benches, bool is_read_only) {
   Json message = parse_json(text);
   if (!message.is_object() || !message.contains("do")) {
-    throw BrowserError("expected an object of JSON with \"do\": watch, or ask");
+    throw BrowserError("expected a JSON object with \"do\": watch or ask");
   }
   BrowserMessage taken;
   taken.bench = require_bench(message, benches);
@@ -148,7 +148,7 @@ BrowserMessage parse_browser_message(std::string_view text, std::size_t benches,
     taken.what = BrowserMessage::What::ask;
     take_ask(message, is_read_only, taken);
   } else {
-    throw BrowserError("do: expected watch, or ask");
+    throw BrowserError("do: expected watch or ask");
   }
   return taken;
 }
@@ -157,11 +157,11 @@ std::string why_not_sent(const Json& message, bool is_read_only) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
     return "expected an object with a word under \"do\"";
   }
-  if (message.contains("file")) return "file: a page cannot reach files; expected a name";
+  if (message.contains("file")) return "file: a page cannot access files; expected a name";
   const std::string word = message["do"].get<std::string>();
   const auto* const found = std::find_if(kPassedVerbs.begin(), kPassedVerbs.end(),
                                          [&](const PassedVerb& verb) { return verb.name == word; });
-  if (found == kPassedVerbs.end()) return understudy::quoted(word) + " is not a message for a page";
+  if (found == kPassedVerbs.end()) return understudy::quoted(word) + " is not a message that a page can send";
   const auto& keys = found->only_with;
   const bool has_such_key = std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
     return !key.empty() && message.contains(std::string(key));

@@ -140,7 +140,7 @@ void check_fault_value(const World& world, const Fault& fault) {
   const Model& model = world.device(fault.device).model();
   require_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places_of(model, fault),
                 "a fault has no place");
-  require_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
+  require_state(!is_done_at_once(fault.kind) || waits(fault), "a push has a duration");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
     require_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of simulated time");
   }
@@ -228,7 +228,8 @@ class Parts {
     }
   }
   void require_end() const {
-    if (next_ != state_.parts.size()) throw StateError(state_.parts[next_].name + ": is not of this world");
+    if (next_ != state_.parts.size())
+      throw StateError(state_.parts[next_].name + ": is not part of this world");
   }
 
  private:

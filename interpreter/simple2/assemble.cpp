@@ -129,7 +129,7 @@ class Assembler {
 
   void mark_with_flag(const Token& token, std::uint8_t flag) {
     if (pending_.flag && *pending_.flag != flag) {
-      return fail(token, "label", "the line has a flag already", flag_text(*pending_.flag) + " alone");
+      return fail(token, "label", "the line already has a flag", flag_text(*pending_.flag) + " alone");
     }
     pending_.flag = flag;
     if (!pending_.flag_token) pending_.flag_token = token;
@@ -137,7 +137,7 @@ class Assembler {
 
   void read_at(const Token& word, const std::vector<Token>& operands) {
     constexpr const char* kExpected = "a line from 0 to 255";
-    if (operands.size() != 1) return fail(word, ".at", "takes one number", kExpected);
+    if (operands.size() != 1) return fail(word, ".at", "needs one number", kExpected);
     const ParsedOperand number = parse_number(operands[0].text, 0, kLineCount - 1);
     if (!number.problem.empty()) return fail(operands[0], ".at", number.problem, kExpected);
     next_ = number.value;
@@ -146,7 +146,7 @@ class Assembler {
   void read_cells(const Token& word, const std::vector<Token>& operands) {
     constexpr const char* kExpected = "CMD DATA1 DATA2 JMP, each 0 to 255";
     std::array<std::uint8_t, kCellsPerLine> cells{};
-    if (operands.size() != cells.size()) fail(word, ".line", "takes four numbers", kExpected);
+    if (operands.size() != cells.size()) fail(word, ".line", "needs four numbers", kExpected);
     for (std::size_t i = 0; i < std::min(operands.size(), cells.size()); ++i) {
       const ParsedOperand cell = parse_number(operands[i].text, 0, 255);
       if (!cell.problem.empty()) fail(operands[i], ".line", cell.problem, kExpected);
@@ -310,7 +310,7 @@ class Assembler {
       if (!is_label || flag < 1 || flag > kFlagCount || last[flag] == place) continue;
       fail(*marks.flag_token, "label",
            flag_text(flag) + " leads to line " + std::to_string(text_line_[last[flag]]) +
-               ", the last that has it",
+               ", the last line with it",
            "a flag that no other line has");
     }
   }

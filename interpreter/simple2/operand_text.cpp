@@ -104,7 +104,7 @@ ParsedOperand parse_operand(Operand kind, std::string_view text) {
   ParsedOperand parsed = parse_number(number.empty() ? text : number, row->min, row->max);
   const bool is_name = !text.empty() && is_name_start(text.front());
   if (!parsed.problem.empty() && !number.empty()) parsed.problem = quoted(text) + " does not exist";
-  if (!parsed.problem.empty() && number.empty() && is_name) parsed.problem = quoted(text) + " is not one";
+  if (!parsed.problem.empty() && number.empty() && is_name) parsed.problem = quoted(text) + " is not valid";
   return parsed;
 }
 

@@ -196,7 +196,8 @@ class Checker {
       fail(token, Code::wrong_area, std::string(row.mnemonic) + " is not allowed in area " + name,
            "area " + where);
     } else if (has(row.void_in, area_) && options_.chose(option("void_lines", "refused_at_load"))) {
-      fail(token, Code::wrong_area, std::string(row.mnemonic) + " is void in area " + name, "another area");
+      fail(token, Code::wrong_area, std::string(row.mnemonic) + " has no effect in area " + name,
+           "another area");
     }
   }
 

@@ -245,7 +245,7 @@ TEST_F(Mistakes, OfTheKindOfAFileNameWhatItIs) {
        "@model.yaml:1:1: bench: is a model file; expected a bench, whose stations name it"},
       {{"run", "@bench.yaml"},
        2,
-       "@bench.yaml:1:1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)"},
+       "@bench.yaml:1:1: scenario: is a bench; expected a scenario (`understudy serve` serves benches)"},
       {{"run", "@day.jsonl"}, 2, "@day.jsonl:1:1: scenario: is a recording; expected " + scenarios},
       {{"run", "@model.yaml"},
        2,

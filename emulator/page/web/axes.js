@@ -132,7 +132,7 @@ export function Axes() {
   return html`${choice && html`<div class="bar">${choice}</div>`}
     ${devices.map((device) => html`<section class="device" key=${device.name}>
     <h2>${device.name}</h2><${FirstMove} device=${device} />
-    ${device.axes.length === 0 && html`<p>This device drives no axis.</p>`}
+    ${device.axes.length === 0 && html`<p>This device has no axes.</p>`}
     <div class="with_plane">
       <div class="rails">${device.axes.map((axis) => html`<${Axis} key=${axis.name} device=${device} axis=${axis} />`)}</div>
       ${device.axes.length > 1 && html`<${Plane} device=${device} />`}

@@ -253,7 +253,7 @@ function Scope({ shot, show }) {
     ${waits ? html`<${Button} title="disarm the trigger" does=${disarm}>disarm<//>`
             : html`<${Button} title="arm the trigger" does=${() => arm()} disabled=${names.length === 0 || isLocked()}>arm<//>`}
     <output>${state}${state === 'armed' && store.look?.paused ? ': time is stopped' : ''}</output>
-    ${state === 'done' && !shot && html`<${Button} title="show what the scope has kept" does=${async () => {
+    ${state === 'done' && !shot && html`<${Button} title="show what the scope has recorded" does=${async () => {
       const { scope } = await askQuietly({ do: 'scope' });
       if (scope) await showShot(scope);
     }}>show<//>`}

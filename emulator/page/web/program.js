@@ -225,7 +225,7 @@ export function Program() {
     </div>
     ${stop && html`<p class="stopped" role="status">stopped: ${stop}</p>`}
     <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${{ ...program, line: lineOf(program) }} />`)}
-      ${programs.length === 0 && html`<li>nothing runs</li>`}</ul>
+      ${programs.length === 0 && html`<li>no program runs</li>`}</ul>
     ${mistakes.map((it, i) => html`<p class="bad" role="alert" key=${i}>${it.line > 0 && html`<button type="button" class="link" title=${`go to line ${it.line}`}
       onClick=${() => goToLine(it.line, it.column)}>line ${it.line}, column ${it.column}</button>: `}${it.what}</p>`)}
     ${lines.length > kMaxLines && html`<p>The first ${grouped(kMaxLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}

@@ -73,7 +73,7 @@ function Carriage({ x, slip, perDot }) {
   };
   return html`<svg x=${x}><path class="hair" d="M0 12 v54" />
     <path class=${`carriage ${slip ? 'pushable' : ''}`} d="M0 31 l-9 -19 h18 z" onPointerDown=${take} onPointerMove=${move}
-      onPointerUp=${letGo} onPointerCancel=${() => setDrag(null)}>${slip && html`<title>drag it: the carriage slips</title>`}</path>
+      onPointerUp=${letGo} onPointerCancel=${() => setDrag(null)}>${slip && html`<title>drag it to make the carriage slip</title>`}</path>
     ${drag && html`<g transform=${`translate(${drag.to - drag.from} 0)`}><path class="ghost" d="M0 30 l-9 -18 h18 z" />
       <text y="9">${pulses > 0 ? '+' : ''}${grouped(pulses)}</text></g>`}
   </svg>`;

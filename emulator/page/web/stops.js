@@ -86,7 +86,7 @@ const kinds = { line: (point) => `${point.device}, line ${point.line ?? '?'}`, i
 function Stop({ point, stops }) {
   const locked = isReadOnly();
   return html`<li><span class="dot">●</span> ${(kinds[point.kind] ?? (() => point.kind))(point)}
-    ${point.when && html` when <code>${point.when}</code>`}${point.nth > 1 && html`, from the ${point.nth}th time on`}${point.log && html`, prints <code>${point.log}</code>`}
+    ${point.when && html` when <code>${point.when}</code>`}${point.nth > 1 && html`, from hit ${point.nth} on`}${point.log && html`, prints <code>${point.log}</code>`}
     ${point.found === false && html` <span class="bad">no such line now</span>`} <small class="count">${grouped(point.hits)} ${point.hits === 1 ? 'hit' : 'hits'}</small>
     ${!locked && html`${point.kind === 'line' && html` <${Field} of=${point.number} label=${`stop at line ${point.line} only when`} placeholder="only when" size="14" takes=${(when) => stops.change(point, { when })} />
         <${Field} of=${point.number} label=${`at line ${point.line} print, and do not stop`} placeholder="print {A.pulses}" size="14" takes=${(log) => stops.change(point, { log })} />`}

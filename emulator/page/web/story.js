@@ -29,7 +29,7 @@ export function Story() {
       ${story.names.length > 0 && html`<${Button} kind="small" title=${`plot ${story.names.join(', ')}`} does=${() => plotNames(story.names)}>plot its names<//>`}</span></p>
     ${isOpen && html`<ol>${story.moments.map((moment, i) => html`<li key=${i}><button type="button" class="link" disabled=${isReadOnly() || isAltered()}
       title=${`go to ${seconds(moment.time_ns)}`} onClick=${() => goTo(moment.time_ns)}>${seconds(moment.time_ns)}</button> ${moment.text}</li>`)}
-      ${story.moments.length === 0 && html`<li>Nothing touched its names.</li>`}</ol>`}
+      ${story.moments.length === 0 && html`<li>No event touched its names.</li>`}</ol>`}
   </section>`;
 }
 

@@ -98,7 +98,7 @@ function sumsOf([from, to], { curves, spans, stretch }, devices) {
       if (last !== null) way += Math.abs(middle - last);
       last = middle;
     });
-    return way > 0 ? `${name} went ${grouped(Math.round(way))} pulses` : '';
+    return way > 0 ? `${name} moved ${grouped(Math.round(way))} pulses` : '';
   })).filter(Boolean);
   const median = latencies[Math.floor(latencies.length / 2)];
   return [`${((to - from) / 1e9).toFixed(6)} s`, `${grouped(count)} ${count === 1 ? 'exchange' : 'exchanges'}${bad ? `, ${bad} not in order` : ''}`,

@@ -28,7 +28,7 @@ export class Wire {
   }
 
   forget() {
-    for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost its server' });
+    for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost the connection to its server' });
     this.waiting.clear();
     this.isKnown = false;
   }
@@ -76,7 +76,7 @@ export class Wire {
 
   // Sends a message of docs/control.md, and resolves to its reply.
   ask(bench, message) {
-    if (!this.isKnown) return Promise.resolve({ ok: false, error: 'the page has no server' });
+    if (!this.isKnown) return Promise.resolve({ ok: false, error: 'the page is not connected to its server' });
     const id = ++this.lastId;
     return new Promise((resolve) => {
       this.waiting.set(id, resolve);

@@ -83,7 +83,7 @@ class Performance::OnBox::Asking {
       if (begin == std::string::npos) continue;
       if (const auto value = parse_real(received.substr(begin))) return world::finite_number(*value);
     }
-    throw Skip(place.query + " is not answered by a number: " + world::lines_text(lines), true);
+    throw Skip(place.query + " is not answered with a number:  " + world::lines_text(lines), true);
   }
 
   world::Number reported(const std::string& name) {

@@ -91,9 +91,13 @@ struct StepOnBox {
     rehearse(what);
   }
 
-  void operator()(const MemoryStep&) const { throw OnBox::Skip("the memory is not on the line", false); }
-  void operator()(const CommandEndStep&) const { throw OnBox::Skip("no command runs with it", true); }
-  void operator()(const SnapshotStep&) const { throw OnBox::Skip("the state cannot be kept", false); }
+  void operator()(const MemoryStep&) const {
+    throw OnBox::Skip("the memory cannot be accessed over the line", false);
+  }
+  void operator()(const CommandEndStep&) const {
+    throw OnBox::Skip("no command runs with the scenario", true);
+  }
+  void operator()(const SnapshotStep&) const { throw OnBox::Skip("the state cannot be saved", false); }
   void operator()(const RestoreStep&) const { throw OnBox::Skip("time cannot go back", true); }
   void operator()(const ForkStep&) const { throw OnBox::Skip("time cannot go back", false); }
 
@@ -191,7 +195,7 @@ void Performance::OnBox::require_reachable(std::size_t line) {
   if (const auto why = box_.why_unreachable(line)) throw Skip(*why, true);
 }
 void Performance::OnBox::require_reachable(std::size_t device, const Via& via) {
-  if (performance_.lines_[device].empty()) throw Skip(device_name(device) + " is on no line", true);
+  if (performance_.lines_[device].empty()) throw Skip(device_name(device) + " is not on a line", true);
   require_reachable(via.value_or(performance_.lines_[device].front()));
 }
 

@@ -44,7 +44,7 @@ void compare_values(const Values& present, const Values& wanted, std::vector<std
   const Map should_be(wanted.begin(), wanted.end());
   const auto text = [](const auto& values, const std::string& name) {
     const auto found = values.find(name);
-    return found == values.end() ? std::string("the factory's value") : text_of_value(found->second);
+    return found == values.end() ? std::string("the factory value") : text_of_value(found->second);
   };
   const auto compare = [&](const std::string& name) {
     lines.push_back(name + " is " + text(is, name) + "; expected " + text(should_be, name));
@@ -193,7 +193,7 @@ void Performance::perform(const MemoryStep& step) {
   if (!wanted) throw StepError(step.file + ": does not exist; expected an NV image");
   const std::vector<std::string> lines = differences(present, *wanted);
   if (lines.empty()) return;
-  throw StepError("the memory is not that of " + step.file + ": " + lines.front(),
+  throw StepError("the memory does not match " + step.file + ": " + lines.front(),
                   "the memory of " + step.file, lines.front(), {lines.begin() + 1, lines.end()});
 }
 

@@ -234,7 +234,7 @@ void Performance::perform(const CommandEndStep& step) {
   const std::string expected = "exit code " + std::to_string(step.exits);
   if (!has_ended) {
     throw StepError("the command did not end within " + format_duration(step.within),
-                    expected + " within " + format_duration(step.within), "it still runs");
+                    expected + " within " + format_duration(step.within), "it is still running");
   }
   int code = 0;
   executor_->with_world([&](world::World&) { code = *command_->exit_code(); });

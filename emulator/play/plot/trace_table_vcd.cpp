@@ -105,8 +105,7 @@ class VcdReader {
         word.front() == '0' || word.front() == '1' || word.front() == 'x' || word.front() == 'z';
     const std::string code(is_scalar ? word.substr(1) : next());
     const auto found = codes_.find(code);
-    if (found == codes_.end())
-      fail(quoted(code) + " is not a variable's code; expected one of those declared");
+    if (found == codes_.end()) fail(quoted(code) + " is not a variable's code; expected a declared one");
     values_[found->second] = is_scalar ? (word.front() == '1' ? 1 : 0) : value_of(word);
   }
 

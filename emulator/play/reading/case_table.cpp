@@ -111,11 +111,11 @@ void CaseTable::read_variations(const world::YamlFields& root, std::optional<std
   }
   bool is_counted = false;
   for (const auto& [name, field] : vary.entries()) {
-    if (of_rows.contains(name)) field.fail("is already given by `cases`; expected it in one of the two");
+    if (of_rows.contains(name)) field.fail("is already in `cases`; expected it in only one of the two");
     const Variation& added = variations_.emplace_back(field, name, seed.value_or(own_seed), seed.has_value());
     is_counted = is_counted || !added.is_free();
     if (added.count() > kMaxCases / size_)
-      field.fail("makes more than " + std::to_string(kMaxCases) + " cases; expected fewer");
+      field.fail("results in more than " + std::to_string(kMaxCases) + " cases; expected fewer");
     size_ *= added.count();
   }
   if (variations_.empty()) vary.fail("is empty; expected a parameter's values, as in `speed: [ 100, 200 ]`");

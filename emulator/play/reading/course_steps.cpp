@@ -56,7 +56,7 @@ void read_fork(StepsReader& reader, const world::YamlFields& step, const world::
     text += (fork.branches.empty() ? " " : ", ") + name;
     fork.branches.push_back({.name = name, .steps = reader.read_branch(steps)});
   }
-  if (fork.branches.empty()) value.fail("is empty; expected continuations by name");
+  if (fork.branches.empty()) value.fail("is empty; expected branches by name");
   reader.add(step, text, std::move(fork));
 }
 

@@ -150,9 +150,11 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   if (const auto from = field.find("from")) entry.first = std::max(first_, step_called(*from) + 1);
   if (const auto to = field.find("to")) entry.last = std::min(last_, step_called(*to));
   if (entry.last < entry.first)
-    field.fail("has no time between its `from` and `to` and those of the hunt; expected some");
+    field.fail("leaves no step between its `from` and `to` and those of the hunt; expected at least one");
   if (only_value(entry.step).is_map() && only_value(entry.step).has("name"))
-    only_value(entry.step).at("name").fail("cannot be given here, since the fault may come several times");
+    only_value(entry.step)
+        .at("name")
+        .fail("cannot be used, because the fault may occur several times; expected none");
   drawn_step(entry.step, [&](const world::YamlFields& drawn, std::size_t) {
     entry.values.emplace_back(drawn, "", 0, false);
     return std::string("0");

@@ -57,11 +57,11 @@ inline constexpr std::array kMayKeys{
     world::Key{"send", "Bytes or a line of text from another host.", &kDrawnByName},
     world::Key{"program", "A program that somebody loads.", &kDrawnByDevice},
     world::Key{"advance", "A delay of the host.", &kDrawn},
-    world::Key{"times", "How often it may happen in a course, at most (1).", &kMaxTimesSchema},
+    world::Key{"times", "How often it may happen in a course at most (default: 1).", &kMaxTimesSchema},
     world::Key{"within", "All of these happen within this time, as when a contact bounces.",
                &world::kDuration},
-    world::Key{"from", "The text of a `say` step, before which it does not happen.", &world::kText},
-    world::Key{"to", "The text of a `say` step, after which it does not happen.", &world::kText}};
+    world::Key{"from", "The text of the `say` step before which it does not happen.", &world::kText},
+    world::Key{"to", "The text of the `say` step after which it does not happen.", &world::kText}};
 inline constexpr world::Schema kMaySchema = world::keys_schema(kMayKeys);
 inline constexpr world::Schema kMayListSchema = world::list_schema(kMaySchema);
 
@@ -71,9 +71,10 @@ inline constexpr std::array<const world::Schema*, 3> kSpansAlternatives{&world::
                                                                         &kSpanListSchema};
 inline constexpr world::Schema kSpansSchema = world::any_of_schemas(kSpansAlternatives);
 inline constexpr std::array kHuntKeys{
-    world::Key{"may", "What may happen: steps, whose values may be drawn.", &kMayListSchema, true},
-    world::Key{"from", "The text of a `say` step, before which nothing happens.", &world::kText},
-    world::Key{"to", "The text of a `say` step, after which nothing happens.", &world::kText},
+    world::Key{"may", "The steps that may happen; their values may be drawn at random.", &kMayListSchema,
+               true},
+    world::Key{"from", "The text of the `say` step before which nothing happens.", &world::kText},
+    world::Key{"to", "The text of the `say` step after which nothing happens.", &world::kText},
     world::Key{"never", "Conditions that must not be true at any tick of any course.", &kSpansSchema},
     world::Key{"always", "Conditions that must be true at every tick of every course.", &kSpansSchema},
     world::Key{"within", "The simulated time after which every course must be over.", &world::kDuration}};

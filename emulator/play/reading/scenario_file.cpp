@@ -161,7 +161,7 @@ ScenarioFile::ScenarioFile(const std::string& text, const std::string& path, con
       world::YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps") && !root.has("plays")) {
     throw FileError({path, 1, 1},
-                    "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
+                    "scenario: is a bench; expected a scenario (`understudy serve` serves benches)");
   }
   if ((root.has("registers") || root.has("model")) && !root.has("steps") && !root.has("plays")) {
     throw FileError({path, 1, 1},

@@ -40,7 +40,8 @@ constexpr std::array kStepRows{
             {},
             StepRow::Names::gives},
     StepRow{{"end", "Ends an `always` or `never`.", &world::kText}, read_end, {}, StepRow::Names::wants},
-    StepRow{{"reset", "Restarts the search for peak speeds and accelerations.", &kResetSchema}, read_reset},
+    StepRow{{"reset", "Restarts the measurement of peak speeds and accelerations.", &kResetSchema},
+            read_reset},
     StepRow{
         {"host", "Waits for the end of the command of `exec`; `stop` asks it to end first.", &kHostSchema},
         read_host},
@@ -48,9 +49,9 @@ constexpr std::array kStepRows{
     // These steps act from outside.
     StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByInput},
             read_inputs},
-    StepRow{
-        {"turn", "Turns hand wheels and other counted inputs this far, `in` a time.", &world::kTextByTurned},
-        read_turn},
+    StepRow{{"turn", "Turns hand wheels and other counted inputs by some counts, `in` a duration.",
+             &world::kTextByTurned},
+            read_turn},
     StepRow{{"inject", "Injects a fault.", &kInjectSchema}, read_inject, {}, StepRow::Names::gives},
     StepRow{{"clear", "Clears a fault: its name, or `all`.", &world::kText},
             read_clear,
@@ -77,7 +78,7 @@ constexpr std::array kStepRows{
             read_restore,
             {},
             StepRow::Names::wants},
-    StepRow{{"fork", "Continuations, by name, that all start from this state.", &kForkSchema},
+    StepRow{{"fork", "Branches, by name, that all start from this state.", &kForkSchema},
             read_fork,
             {},
             StepRow::Names::gives},

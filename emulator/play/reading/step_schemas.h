@@ -16,7 +16,7 @@ inline constexpr world::Key kViaKey{"via", "The line, if the device is on severa
 inline constexpr std::array kAnswerKeys{
     world::Key{"exception", "The Modbus exception that the device must return.", &kExceptionSchema},
     world::Key{"reply", "`nothing`: there must be no reply.", &kNothingSchema},
-    world::Key{"within", "How long there must be no reply (500ms).", &world::kDuration}, kViaKey};
+    world::Key{"within", "How long there must be no reply (default: 500ms).", &world::kDuration}, kViaKey};
 
 inline constexpr std::array kProgramBesideKeys{world::Key{
     "refused", "The device must refuse it: `true`, or a part of the message about its first mistake.",
@@ -52,14 +52,14 @@ inline constexpr std::array<const world::Schema*, 2> kReplyLinesAlternatives{&wo
 inline constexpr world::Schema kReplyLinesSchema = world::any_of_schemas(kReplyLinesAlternatives);
 inline constexpr std::array kSendKeys{
     world::Key{"line", "The line (default: the only one).", &world::kLineName},
-    world::Key{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
+    world::Key{"bytes", "The bytes in hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
     world::Key{"reply", "The expected bytes, or `nothing`.", &world::kText},
-    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
+    world::Key{"within", "How long to wait for them (default: 500ms).", &world::kDuration}};
 inline constexpr std::array kSendTextKeys{
     world::Key{"line", "The line (default: the only one).", &world::kLineName},
     world::Key{"text", "A line of text, without its line ending.", &world::kText, true},
     world::Key{"reply", "The expected line or lines, or `nothing`.", &kReplyLinesSchema},
-    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
+    world::Key{"within", "How long to wait for them (default: 500ms).", &world::kDuration}};
 inline constexpr world::Schema kSendBytesSchema = world::keys_schema(kSendKeys);
 inline constexpr world::Schema kSendTextSchema = world::keys_schema(kSendTextKeys);
 inline constexpr std::array<const world::Schema*, 2> kSendAlternatives{&kSendBytesSchema, &kSendTextSchema};
@@ -67,12 +67,12 @@ inline constexpr world::Schema kSendSchema = world::any_of_schemas(kSendAlternat
 inline constexpr std::array kHearKeys{
     world::Key{"line", "The line (default: the only one).", &world::kLineName},
     world::Key{"text", "The expected line or lines, or `nothing`.", &kReplyLinesSchema, true},
-    world::Key{"within", "How long to wait for them (500ms).", &world::kDuration}};
+    world::Key{"within", "How long to wait for them (default: 500ms).", &world::kDuration}};
 inline constexpr world::Schema kHearSchema = world::keys_schema(kHearKeys);
 
 inline constexpr world::Schema kExitCodeSchema = world::integer_schema(0, 255);
 inline constexpr std::array kHostKeys{
-    world::Key{"exits", "The exit code that it must have (0).", &kExitCodeSchema},
+    world::Key{"exits", "The expected exit code (default: 0).", &kExitCodeSchema},
     world::Key{"within", "The step fails after this time.", &world::kDuration, true}};
 inline constexpr world::Schema kHostKeysSchema = world::keys_schema(kHostKeys);
 inline constexpr std::array<std::string_view, 1> kHostWords{"stop"};

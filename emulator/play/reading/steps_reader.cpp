@@ -114,7 +114,7 @@ void StepsReader::count(const world::YamlFields& where) {
   if (++file_.steps > FileReading::kMaxSteps) {
     throw world::LastError(where.place(), where.field() + ": is one step too many; expected at most " +
                                               std::to_string(FileReading::kMaxSteps) +
-                                              " with all loops and cases");
+                                              " including all loops and cases");
   }
 }
 
@@ -122,7 +122,7 @@ void StepsReader::count_bytes(const world::YamlFields& where, const Step& step) 
   file_.bytes += step.text.size() + std::visit(BytesOf{}, step.what);
   if (file_.bytes > FileReading::kMaxBytes) {
     where.fail("is too large: the steps exceed " + std::to_string(FileReading::kMaxBytes >> 20) +
-               " MiB; expected less, with all loops and cases");
+               " MiB; expected less, including all loops and cases");
   }
 }
 

@@ -198,7 +198,7 @@ class BenchReader {
     const auto name_of = [&](std::size_t number) { return std::string(model.line.ports[number].name); };
     auto& stations = places_[device].stations;
     if (stations[port] && stations.size() == 1)
-      station.fail("the device is already on a line; expected it on one line");
+      station.fail("the device is already on a line; expected it on only one");
     if (stations[port])
       station.fail("the device's port " + name_of(port) +
                    " is already on a line; expected another `port`, or the device on one line");

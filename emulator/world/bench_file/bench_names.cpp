@@ -63,7 +63,7 @@ std::pair<std::size_t, std::string> BenchNames::split(const YamlFields& field, c
                                                       const char* example) const {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos)
-    field.fail(quoted(name) + " names no device; expected a name like " + example);
+    field.fail(quoted(name) + " does not name a device; expected a name like " + example);
   return {require_device(field, name.substr(0, dot)), name.substr(dot + 1)};
 }
 

@@ -72,14 +72,16 @@ inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Schema kOnOrOffSchema = words_schema(kOnOrOff);
 inline constexpr std::array kLineKeys{
     Key{"link", "The path that hosts open; relative to this file.", &kText},
-    Key{"listen", "The address where it accepts TCP clients, such as rfc2217://127.0.0.1:5020.",
+    Key{"listen", "The address at which it accepts TCP clients, such as rfc2217://127.0.0.1:5020.",
         &kListenSchema},
-    Key{"pty", "Whether it has a pseudo-terminal (true), or accepts only TCP clients.", &kTrueOrFalseSchema},
+    Key{"pty", "Whether it has a pseudo-terminal (default: true), or accepts only TCP clients.",
+        &kTrueOrFalseSchema},
     Key{"baud", "The speed of the devices (default: the factory setting).", &kBaudSchema},
     Key{"baud_tolerance", "How much a host's speed may differ from the line's (default: 2%).", &kText},
     Key{"byte_timeout", "How long to wait for the rest of a frame (default: 200ms).", &kText},
     Key{"timing", "Whether bytes take as long as on a real line.", &kTimingSchema},
-    Key{"echo", "Whether hosts receive their own bytes (off), as with some RS485 adapters.", &kOnOrOffSchema},
+    Key{"echo", "Whether hosts receive their own bytes, as with some RS485 adapters (default: off).",
+        &kOnOrOffSchema},
     Key{"stations", "The devices on the line.", &kStationsSchema, true}};
 
 // --- the machine ---------------------------------------------------------------------------------
@@ -102,18 +104,18 @@ inline constexpr std::array kLimitKeys{
     Key{"upper", "The upper switch is on at this position and above.", &kPositionSchema},
     kHysteresisKey,
     kContactKey,
-    Key{"lower_input", "The input that the lower one is wired to; by default the controller's own.", &kText},
-    Key{"upper_input", "The input that the upper one is wired to; by default the controller's own.", &kText}};
+    Key{"lower_input", "The input of the lower switch; by default the controller's own.", &kText},
+    Key{"upper_input", "The input of the upper switch; by default the controller's own.", &kText}};
 inline constexpr std::array kIndexKeys{
-    Key{"at", "The first position of one (0).", &kPositionSchema},
-    Key{"width", "The number of positions for which it is on (1).", &kWidthSchema},
-    Key{"period", "The distance from one to the next (default: a revolution of the motor).", &kWidthSchema},
+    Key{"at", "The first position at which it is on (default: 0).", &kPositionSchema},
+    Key{"width", "The number of positions for which it is on (default: 1).", &kWidthSchema},
+    Key{"period", "The distance between pulses (default: a revolution of the motor).", &kWidthSchema},
     Key{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr Schema kIndexSchema = keys_schema(kIndexKeys);
 inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
 inline constexpr Schema kEncoderPlaceSchema = words_schema(kEncoderPlaces);
 inline constexpr std::array kEncoderKeys{
-    Key{"per_revolution", "Its counts per revolution.", &kPerRevolutionSchema, true},
+    Key{"per_revolution", "The encoder's counts per revolution.", &kPerRevolutionSchema, true},
     Key{"motor_pulses_per_revolution", "The motor's pulses per revolution.", &kPerRevolutionSchema},
     Key{"reversed", "Whether it counts in the opposite direction.", &kTrueOrFalseSchema},
     Key{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceSchema},
@@ -127,11 +129,11 @@ inline constexpr Schema kLimitsSchema = keys_schema(kLimitKeys);
 inline constexpr Schema kEncoderSchema = keys_schema(kEncoderKeys);
 inline constexpr Schema kDriveSchema = keys_schema(kDriveKeys);
 inline constexpr std::array kMachineKeys{
-    Key{"position", "The machine's initial position (0).", &kPositionSchema},
+    Key{"position", "The machine's initial position (default: 0).", &kPositionSchema},
     Key{"travel", "The hard stops; pulses beyond are lost.", &kTravelSchema},
     Key{"home", "The home switch.", &kHomeSchema},
     Key{"near_home", "The near-home switch.", &kHomeSchema},
-    Key{"mark", "A mark, or a sensor for one.", &kHomeSchema},
+    Key{"mark", "The mark, or the sensor that detects it.", &kHomeSchema},
     Key{"limits", "The limit switches.", &kLimitsSchema},
     Key{"encoder", "The encoder.", &kEncoderSchema},
     Key{"drive", "The servo drive.", &kDriveSchema}};
@@ -150,11 +152,11 @@ inline constexpr Schema kSeedSchema = integer_schema(0, INT64_MAX);
 inline constexpr Key kLinesKey{"lines", "The serial lines, by names that you choose.", &kLinesSchema, true};
 inline constexpr Key kDevicesKey{"devices", "Devices with more settings, by names that you choose.",
                                  &kDevicesSchema};
-inline constexpr Key kPlantKey{"plant", "The machine on each axis, by the axis, such as feeder.A.",
-                               &kPlantSchema};
+inline constexpr Key kPlantKey{
+    "plant", "The machine on each axis, by the name of the axis, such as feeder.A.", &kPlantSchema};
 inline constexpr Key kWiresKey{
     "wires",
-    "From an output, or a machine's switch, to an input, or one of a drive (servo, alarm_clear): "
+    "From an output, or a machine's switch, to an input of a device or drive (servo, alarm_clear): "
     "feeder.DOUT_4 -> turner.DIN_10.",
     &kTextList};
 inline constexpr Key kInputsKey{"inputs", "Initial levels of inputs.", &kTextByName};

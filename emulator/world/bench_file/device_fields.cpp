@@ -162,7 +162,7 @@ const Model& require_model(ModelList models, const YamlFields& field,
   }
   if (models.files != nullptr && name.find('/') != std::string::npos)
     field.fail(understudy::quoted(name) +
-               " is a path; expected that of a model file, NAME.yaml, or a model's name");
+               " is a path; expected the path of a model file, NAME.yaml, or the name of a model");
   std::vector<std::string> names;
   for (const ListedModel& known : models) names.emplace_back(known.name());
   field.fail(understudy::quoted(name) + " is not a model" + suggestion(name, names));

@@ -41,9 +41,9 @@ inline constexpr std::array kFaultKeys{
     Key{"hang_up", "Over TCP, the connection closes in the middle of replies.", &kDeviceOrLineName},
     // The fields of the kinds.
     Key{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
-    Key{"pulses", "slip: how many pulses.", &kText},
+    Key{"pulses", "slip: the number of pulses.", &kText},
     Key{"level", "stuck: on or off.", &kText},
-    Key{"counts", "turn: how far; encoder_noise: how many counts too many.", &kText},
+    Key{"counts", "turn: the number of counts; encoder_noise: the error in counts.", &kText},
     Key{"in", "turn: how long it takes; immediate by default.", &kText},
     Key{"period", "encoder_noise: the length of a period; in its second half, the count is too low.", &kText},
     Key{"by", "slow, delay: how late; split: how much later the rest arrives; lumps: the interval.", &kText},
@@ -56,7 +56,7 @@ inline constexpr std::array kFaultKeys{
     // The fields of the trigger.
     Key{"function", "Requests with this function.", &kText},
     Key{"station", "Requests for this station.", &kText},
-    Key{"address", "Requests about this register, or one of 0x1000..0x1010.", &kText},
+    Key{"address", "Requests for this register, or for any of 0x1000..0x1010.", &kText},
     Key{"nth", "Which of the matches: 3, 3..7 or 3..", &kText},
     Key{"every", "One in this many matches.", &kText},
     Key{"at", "The first match from this time on.", &kText},

@@ -130,12 +130,12 @@ constexpr std::array kPlainWords{
     PlainWords{"illegal block entry", always,
                "a list's '- ' is not allowed here; expected it at the beginning of a line"},
     PlainWords{"illegal EOF in scalar", always, "a quote is not closed; expected another at the text's end"},
-    PlainWords{"unknown token", always, "a text cannot begin with this sign; expected quotes around it"},
+    PlainWords{"unknown token", always, "a text cannot begin with this character; expected quotes around it"},
     PlainWords{"the referenced anchor is not defined", always,
                "no text before this has this anchor; expected `&name` before `*name`, or quotes around a "
                "text with '*'"},
     PlainWords{"unknown escape character", always,
-               "this escape sequence does not exist; expected '\\\\' for the sign itself, or "
+               "this escape sequence does not exist; expected '\\\\' for the character itself, or "
                "single quotes"},
     PlainWords{"unexpected character in block scalar", always,
                "something follows a '|' or '>'; expected the text on the lines below"},

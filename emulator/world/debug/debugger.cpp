@@ -174,8 +174,8 @@ void Debugger::require_place(const Point& point) const {
     if (setup.program.empty()) throw BreakpointError("'program' is missing; expected one of its programs");
     throw unknown_program(setup.program, lines);
   }
-  throw BreakpointError("instruction: there is no number " + std::to_string(setup.line) + "; expected 0 to " +
-                        std::to_string(part->lines.size() - 1));
+  throw BreakpointError("instruction: there is no instruction " + std::to_string(setup.line) +
+                        "; expected 0 to " + std::to_string(part->lines.size() - 1));
 }
 
 void Debugger::find_write(Point& point) {
@@ -232,7 +232,7 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   if (kind != StepKind::stand) {
     begin_at(*step, program);
   } else if (device.axes() == nullptr) {
-    throw BreakpointError(device.name() + " drives no axes; expected a device that does");
+    throw BreakpointError(device.name() + " has no axes; expected a device that has");
   }
   step_ = std::move(step);
   settle();

@@ -249,12 +249,12 @@ void Debugger::judge_step() {
   const DeviceWatch& watch = *watches_.at(step.device);
   if (watch.has_changed) {
     stop.reason = DebugStop::Reason::program;
-    stop.text = "step: " + device.name() + " has another program";
+    stop.text = "step: " + device.name() + " has a different program";
     return stop_with(std::move(stop));
   }
   if (!step.end && has_ended(step)) {
     stop.reason = DebugStop::Reason::program;
-    stop.text = "step: the program of " + device.name() + " does not run";
+    stop.text = "step: the program of " + device.name() + " is not running";
     return stop_with(std::move(stop));
   }
   if (!step.end) return;

@@ -233,7 +233,7 @@ std::string Lexer::quoted_part() {
     fail(bracket, "'[' without a name; expected a quoted one, [\"Like This\"]");
   const std::size_t begin = ++next_;
   const std::size_t end = text_.find(quote, begin);
-  if (end == std::string_view::npos) fail(begin - 1, "the quoted name does not end");
+  if (end == std::string_view::npos) fail(begin - 1, "the quoted name is not closed");
   if (end == begin) fail(begin - 1, "an empty name");
   next_ = end + 1;
   if (at(next_) != ']') fail(next_, "expected ']' after the quoted name");

@@ -80,8 +80,8 @@ NameError name_without_device(const KnownDevices& devices, std::string_view name
   }
   if (whole_names.empty()) return no_device(devices, name.substr(0, name.find('.')));
   const bool is_of_several = whole_names.find(", ") != std::string::npos;
-  return NameError(quoted(name) + " needs its device in front; expected " + (is_of_several ? "one of " : "") +
-                   whole_names);
+  return NameError(quoted(name) + " must begin with its device; expected " +
+                   (is_of_several ? "one of " : "") + whole_names);
 }
 
 RegisterName find_register(const KnownDevices& devices, std::string_view name) {
@@ -118,7 +118,7 @@ InputName find_input(const KnownDevices& devices, std::string_view name) {
 
 void require_level(const TerminalRow& row, std::string_view name, std::int64_t level) {
   if (row.kind == TerminalRow::Kind::counted_in) {
-    throw NameError(std::string(name) + " is counted; expected it to be turned, as by `turn`");
+    throw NameError(std::string(name) + " is a counted input; expected `turn` to change it");
   }
   if (level >= row.lowest && level <= row.highest) return;
   throw NameError(std::string(name) + ": " + std::to_string(level) + " is not a level; expected " +

@@ -171,7 +171,7 @@ std::vector<std::uint16_t> words_in(std::span<const std::uint8_t> bytes) {
   return words;
 }
 
-/// Returns "exception 3 (illegal data value): feeder.Aaxis_Speed takes 0 to 32768, not 65000".
+/// Returns "exception 3 (illegal data value): feeder.Aaxis_Speed accepts 0 to 32768, not 65000".
 std::string refusal_text(const LineStations& stations, std::span<const std::uint8_t> request,
                          std::span<const std::uint8_t> reply) {
   const std::string text = "exception " + exception_text(reply[2]);

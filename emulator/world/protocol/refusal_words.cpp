@@ -83,7 +83,7 @@ class Reason {
       if (!place || place.row->message != nullptr) return "";
       const auto value = value_at(place, i);
       if (value && !is_in_range(*place.row, *value))
-        return name_of(place) + " takes " + range_text(*place.row) + ", not " +
+        return name_of(place) + " accepts " + range_text(*place.row) + ", not " +
                value_text(*value, place.row->type);
     }
     return "";
@@ -177,7 +177,7 @@ std::string why_refused(const Device& device, std::span<const std::uint8_t> requ
   const RtuRules& rules = *device.model().rtu;
   const std::uint8_t code = request[1];
   if (exception == kIllegalFunction)
-    return "function " + std::to_string(code) + " is not served; " + device.name() + " has " +
+    return "function " + std::to_string(code) + " is not supported; " + device.name() + " has " +
            functions_of(rules);
   const FunctionRow* const function = function_of(code);
   if (function == nullptr || request.size() < 8) return "";
@@ -192,15 +192,16 @@ std::string why_refused(const Device& device, std::span<const std::uint8_t> requ
     const int max = limit_of(rules, code);
     const std::string asked =
         std::to_string(wanted.count) + (is_table_of_bits(wanted.table) ? " bits" : " registers");
-    if (wanted.count == 0) return "it requests no register";
+    if (wanted.count == 0) return "it requests 0 registers";
     if (max > 0 && wanted.count > max)
-      return asked + " at once are too many; " + device.name() + " takes " + std::to_string(max);
+      return asked + " are too many for one request; " + device.name() + " accepts " + std::to_string(max);
   }
   const std::size_t bytes = is_table_of_bits(wanted.table) ? static_cast<std::size_t>(wanted.count + 7) / 8
                                                            : 2 * static_cast<std::size_t>(wanted.count);
   if (is_one) {
     if (is_table_of_bits(wanted.table) && word(4) != 0xFF00 && word(4) != 0)
-      return exception == kIllegalValue ? "a single bit takes 0x0000 or 0xFF00, not " + hex(word(4)) : "";
+      return exception == kIllegalValue ? "a single bit can be set to 0x0000 or 0xFF00, not " + hex(word(4))
+                                        : "";
     wanted.values = request.subspan(4, 2);
   } else if (wanted.is_write()) {
     if (request.size() != 9 + bytes || request[6] != bytes)

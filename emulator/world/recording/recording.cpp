@@ -101,7 +101,7 @@ const Json& require(const Json& object, const char* key) {
 
 std::string text_at(const Json& object, const char* key) {
   const Json& value = require(object, key);
-  if (!value.is_string()) throw RecordingError(std::string(key) + ": is not text; expected one");
+  if (!value.is_string()) throw RecordingError(std::string(key) + ": is not text; expected text");
   return value.get<std::string>();
 }
 
@@ -194,7 +194,7 @@ PreparedWrite write_at(const Json& object) {
   write.table = static_cast<Table>(number_at(object, "table", 0, 3));
   write.first = static_cast<std::uint16_t>(number_at(object, "first", 0, 65535));
   const std::vector<std::uint8_t> bytes = bytes_at(object, "words");
-  if (bytes.size() != 2 && bytes.size() != 4) throw RecordingError("words: expected one or two of them");
+  if (bytes.size() != 2 && bytes.size() != 4) throw RecordingError("words: expected one or two words");
   write.count = bytes.size() / 2;
   for (std::size_t i = 0; i < write.count; ++i) {
     write.words[i] = static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
@@ -368,7 +368,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     is_known = true;
   }
   if (!is_known)
-    throw RecordingError("do: " + understudy::quoted(word) + " is not an event; expected one of a recording");
+    throw RecordingError("do: " + understudy::quoted(word) + " is not an event; expected a recorded event");
   event.at = SimTime{number_at(line, "t", 0, kHorizon.count())};
   const auto last = [](std::size_t count) { return static_cast<std::int64_t>(count) - 1; };
   if (is_of_a_line(event.what)) {

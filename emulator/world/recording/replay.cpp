@@ -188,7 +188,8 @@ RecordedEvent event_of(const RecordedLines& lines, const World& world) {
   } catch (const RecordingError& error) {
     throw lines.error(error.what());
   }
-  if (event.at < world.now()) throw lines.error("t: goes back in time; expected the events in their order");
+  if (event.at < world.now())
+    throw lines.error("t: goes back in time; expected the events in chronological order");
   return event;
 }
 
@@ -235,7 +236,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     }
   }
   if (result.has_end && lines.next()) {
-    throw lines.error("line: comes after the end; expected nothing more");
+    throw lines.error("line: follows the end; expected nothing more");
   }
   const bool is_stopped = until && result.difference.empty();
   if (is_stopped && !result.has_end) world.advance_to(*until);

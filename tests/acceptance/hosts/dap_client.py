@@ -490,7 +490,7 @@ def case_bad():
         assert adapter.refused("initialize", pathFormat="uri")
         adapter.ask("initialize", adapterID="understudy")
         assert adapter.refused("initialize")
-        assert adapter.refused("threads") == "threads: no bench is launched; expected `launch` or `attach` first"
+        assert adapter.refused("threads") == "threads: no bench has been launched; expected `launch` or `attach` first"
         assert adapter.refused("launch") == "launch: expected one of bench, model, recording and scenario"
         assert "none.yaml" in adapter.refused("launch", bench="/none.yaml")
         assert "simple3" in adapter.refused("launch", model="simple3")
@@ -560,7 +560,7 @@ def case_framing():
         assert body["event"] == "output" and says in body["body"]["output"], body
     for data in (b"Content-Length: 10\r\n\r\n{", b"Content-Len"):
         process = subprocess.run([UNDERSTUDY, "dap"], input=data, capture_output=True, timeout=PATIENCE)
-        assert process.returncode == 2 and b"ends within a message" in process.stderr, (data, process)
+        assert process.returncode == 2 and b"in the middle of a message" in process.stderr, (data, process)
     process = subprocess.run([UNDERSTUDY, "dap"], input=b"", capture_output=True, timeout=PATIENCE)
     assert process.returncode == 0 and not process.stderr, process
 

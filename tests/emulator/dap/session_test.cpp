@@ -118,10 +118,10 @@ TEST(DapSession, AnswersEachRequestInItsPhases) {
   Running running(Speed{});
   const std::array<std::pair<char, const char*>, 6> phases{
       {{'F', "the session is not initialized; expected `initialize` first"},
-       {'R', "no bench is launched; expected `launch` or `attach` first"},
+       {'R', "no bench has been launched; expected `launch` or `attach` first"},
        {'C', "the session is being configured; expected `configurationDone` first"},
        {'S', "the bench has stopped; expected it to run"},
-       {'U', "the bench runs; expected it to be stopped, by `pause`"},
+       {'U', "the bench is running; expected it to be stopped by `pause`"},
        {'E', "the bench has ended; expected `disconnect`"}}};
   for (const auto& [phase, sentence] : phases) {
     for (const Row& row : kTable) {

@@ -375,8 +375,8 @@ TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
       "shows, "
       "momentary (the nearest is 'axes')");
   EXPECT_EQ(reported("./list.csv\n"),
-            "bench.yaml:5:12: devices.d.model: './list.csv' is a path; expected that of a model file, "
-            "NAME.yaml, or a model's name");
+            "bench.yaml:5:12: devices.d.model: './list.csv' is a path; expected the path of a model file, "
+            "NAME.yaml, or the name of a model");
 }
 
 TEST(ModelFiles, InARecordingHaveTheirListInside) {

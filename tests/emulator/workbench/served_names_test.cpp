@@ -231,7 +231,7 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
       {"01 05 00 6E FF 00", "write coil 0x006E it.Run = 1", "01 05 00 6E FF 00", "done"},
       {"01 05 00 6E 00 00", "write coil 0x006E it.Run = 0", "01 85 06", "exception 6 (device busy)"},
       {"01 05 00 6E 12 34", "01 in bytes", "01 85 03",
-       "exception 3 (illegal data value): a single bit takes 0x0000 or 0xFF00, not 0x1234"},
+       "exception 3 (illegal data value): a single bit can be set to 0x0000 or 0xFF00, not 0x1234"},
       {"01 0F 00 4F 00 02 01 03", "write coils 0x004F it.Output_79 = 1, 0x0050 = 1", "01 0F 00 4F 00 02",
        "done"},
       {"01 0F 00 00 00 02 02 03 00", "01 in bytes", "01 8F 03",

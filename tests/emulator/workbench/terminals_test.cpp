@@ -100,7 +100,7 @@ TEST(TerminalsOfEveryKind, ATurnOfSomethingElseIsRefused) {
   EXPECT_NE(diagnostic_of("  - turn: { in: 2s }\n").find("turns nothing; expected something such as"),
             std::string::npos);
   EXPECT_NE(diagnostic_of("  - input: { it.MPG: 4 }\n")
-                .find("it.MPG is counted; expected it to be turned, as by `turn`"),
+                .find("it.MPG is a counted input; expected `turn` to change it"),
             std::string::npos);
 }
 

@@ -286,7 +286,7 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
   refused("edge: is missing", [](WorldState& s) { s.parts.pop_back(); });
   refused("world: is missing", [](WorldState& s) { s.parts.clear(); });
   refused("device turner: is missing", [](WorldState& s) { s.parts[2].name = "device other"; });
-  refused("edge: is not of this world", [](WorldState& s) { s.parts.push_back(s.parts.back()); });
+  refused("edge: is not part of this world", [](WorldState& s) { s.parts.push_back(s.parts.back()); });
   for (std::size_t i = 0; i < good.parts.size(); ++i) {
     refused(good.parts[i].name + ": the bytes end too early",
             [&](WorldState& s) { s.parts[i].bytes.pop_back(); });

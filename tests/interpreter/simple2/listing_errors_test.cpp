@@ -50,7 +50,7 @@ TEST(Simple2ListingError, NamesTheNearestInstruction) {
       {"Home_A", "1:1: mnemonic: no instruction is called 'Home_A'; expected Move_Home_A"},
       {"Xyzzy 5",
        "1:1: mnemonic: no instruction is called 'Xyzzy'; expected an instruction, such as Delay_mSec"},
-      {"Out DOUT0 ON", "1:5: operand 1: 'DOUT0' is not one; expected DOUT_0 to DOUT_6"},
+      {"Out DOUT0 ON", "1:5: operand 1: 'DOUT0' is not valid; expected DOUT_0 to DOUT_6"},
       {".org 5", "1:1: mnemonic: no instruction is called '.org'; expected .at or .line"},
   });
 }
@@ -62,7 +62,7 @@ TEST(Simple2ListingError, ReportsWhatAnOperandMayBe) {
       {"Wait_IO DIN_1 maybe", "1:15: operand 2: 'maybe' is not a level; expected ON or OFF"},
       {"Wait_IO DIN_1 2", "1:15: operand 2: '2' is not a level; expected ON or OFF"},
       {"Out DOUT_7 ON", "1:5: operand 1: 'DOUT_7' does not exist; expected DOUT_0 to DOUT_6"},
-      {"Out DIN_1 ON", "1:5: operand 1: 'DIN_1' is not one; expected DOUT_0 to DOUT_6"},
+      {"Out DIN_1 ON", "1:5: operand 1: 'DIN_1' is not valid; expected DOUT_0 to DOUT_6"},
       {"Out_Array 128", "1:11: operand 1: 128 is out of range; expected 0 to 127"},
       {"Delay_mSec 65536", "1:12: operand 1: 65536 is out of range; expected 0 to 65535"},
       {"Delay_mSec -1", "1:12: operand 1: -1 is out of range; expected 0 to 65535"},
@@ -113,25 +113,25 @@ TEST(Simple2ListingError, FindsWhatIsWrongWithALabel) {
        "1:1: label: '5:' is not a label; expected a name of letters, digits and '_' before ':', or @0 to "
        "@255"},
       {"NOP\nlast:", "2:1: label: 'last:' does not mark a line; expected an instruction"},
-      {"JMP4: @5 NOP", "1:7: label: the line has a flag already; expected JMP4 alone"},
-      {"@5 .line 1 2 3 4", "1:16: label: the line has a flag already; expected JMP5 alone"},
+      {"JMP4: @5 NOP", "1:7: label: the line already has a flag; expected JMP4 alone"},
+      {"@5 .line 1 2 3 4", "1:16: label: the line already has a flag; expected JMP5 alone"},
       {"a: @200 NOP", "1:1: label: 'a' is on a line without a flag; expected @1 to @64, or none"},
       {"JMP5: NOP\n@5 END",
-       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
+       "1:1: label: JMP5 leads to line 2, the last line with it; expected a flag that no other line has"},
       {"a: @5 NOP\n@5 END",
-       "1:4: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
+       "1:4: label: JMP5 leads to line 2, the last line with it; expected a flag that no other line has"},
       {"JMP5: NOP\nJMP5: NOP",
-       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
+       "1:1: label: JMP5 leads to line 2, the last line with it; expected a flag that no other line has"},
   });
 }
 
 TEST(Simple2ListingError, FindsWhatIsWrongWithAPlace) {
   expect_messages({
       {".at 256", "1:5: .at: 256 is out of range; expected a line from 0 to 255"},
-      {".at", "1:1: .at: takes one number; expected a line from 0 to 255"},
+      {".at", "1:1: .at: needs one number; expected a line from 0 to 255"},
       {"NOP\n.at 0\nEND",
        "3:1: line: line 0 of the program is already defined in line 1; expected a free line"},
-      {".line 1 2 3", "1:1: .line: takes four numbers; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
+      {".line 1 2 3", "1:1: .line: needs four numbers; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 x 4", "1:11: .line: 'x' is not a number; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 3 256", "1:13: .line: 256 is out of range; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
   });

@@ -103,7 +103,7 @@ TEST(RunnerOutside, AMemoryIsSavedAndComparedWithAFile) {
 
   result = folder.play("  - memory: { feeder: after.json }\n");
   ASSERT_TRUE(result.failure);
-  EXPECT_EQ(result.failure->came, "Aaxis_Home_Speed is the factory's value; expected 77");
+  EXPECT_EQ(result.failure->came, "Aaxis_Home_Speed is the factory value; expected 77");
 
   result = folder.play(
       "  - write: { feeder.Aaxis_Home_Speed: 78 }\n"

@@ -181,7 +181,7 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { feder.Aaxis_SVON: 1 }",
        ".write.feder.Aaxis_SVON: no device is called 'feder'; the nearest is 'feeder'"},
       {"write: { Aaxis_SVON: 1 }",
-       ".write.Aaxis_SVON: 'Aaxis_SVON' needs its device in front; expected one of feeder.Aaxis_SVON, "
+       ".write.Aaxis_SVON: 'Aaxis_SVON' must begin with its device; expected one of feeder.Aaxis_SVON, "
        "turner.Aaxis_SVON"},
       {"write: { feeder.STATUS.16: 1 }",
        ".write.feeder.STATUS.16: feeder: register 'STATUS' has no bit '16'; expected 0 to 15, A_alarm, "
@@ -192,7 +192,7 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { feeder.12.3: 1 }",
        ".write.feeder.12.3: '12.3' is not a register number; expected 0 to 0xFFFF"},
       {"write: { 0x1014: 1 }",
-       ".write.0x1014: '0x1014' needs its device in front; expected one of feeder.0x1014, turner.0x1014"},
+       ".write.0x1014: '0x1014' must begin with its device; expected one of feeder.0x1014, turner.0x1014"},
       {"write: { feeder.Aaxis_SVON: 1, feeder.Aaxis_SVON: 0 }",
        ".write.feeder.Aaxis_SVON: is given twice; expected it once"},
       {"write: { 'feeder[\"Cord_A\"': 1 }",
@@ -313,7 +313,8 @@ TEST_F(ScenarioErrors, FromOutside) {
        ".program.feeder: none.lst cannot be read (No such file or directory); expected a listing"},
       {"memory: { feeder: none.json }",
        ".memory.feeder: none.json cannot be read (No such file or directory); expected an NV image"},
-      {"save: { feeder: nowhere/x.json }", ".save.feeder: nowhere is not a folder; expected one to write in"},
+      {"save: { feeder: nowhere/x.json }",
+       ".save.feeder: nowhere is not a folder; expected one for the file"},
       {"save: { feder: x.json }", ".save.feder: no device is called 'feder'; the nearest is 'feeder'"},
   });
   const auto diagnostic = [&](const std::string& steps) {
@@ -342,7 +343,7 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
   expect_step_diagnostics({
       {"snapshot: ''", ".snapshot: is empty; expected a name"},
       {"restore: homed", ".restore: no earlier snapshot is called 'homed'; there is none"},
-      {"fork: {}", ".fork: is empty; expected continuations by name"},
+      {"fork: {}", ".fork: is empty; expected branches by name"},
       {"fork: { a: [] }", ".fork.a: is empty; expected at least one step"},
       {"fork: { a: [ advance: 1ms ], a: [ advance: 1ms ] }", ".fork.a: is given twice; expected it once"},
       {"repeat: { steps: [ advance: 1ms ] }", ".repeat: 'times' is missing; expected it here"},

@@ -143,7 +143,7 @@ TEST_F(ScenarioOutputs, AreKnownBeforeTheRun) {
 
 TEST_F(ScenarioOutputs, ABenchIsNoScenarioAndAScenarioNoBench) {
   EXPECT_EQ(folder_.diagnostic(kTwoStations),
-            "scenario.yaml:1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
+            "scenario.yaml:1: scenario: is a bench; expected a scenario (`understudy serve` serves benches)");
   folder_.write("play.yaml", ScenarioFolder::scenario_of("  - advance: 1ms\n"));
   EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: play.yaml\nsteps: [ advance: 1ms ]\n"),
             "scenario.yaml:2: bench: play.yaml is a scenario; expected a bench");

@@ -64,7 +64,7 @@ TEST(TraceTable, VcdErrorsHaveTheirLine) {
       {head + "0!\n", "t.vcd:7: '0!' comes before any time; expected one such as #0"},
       {head + "#x\n", "t.vcd:7: '#x' is not a time; expected one such as #250"},
       {head + "#5\n#5\n", "t.vcd:8: '#5' is not later than the previous time"},
-      {head + "#0\n1?\n", "t.vcd:8: '?' is not a variable's code; expected one of those declared"},
+      {head + "#0\n1?\n", "t.vcd:8: '?' is not a variable's code; expected a declared one"},
       {head + "#0\nb12 \"\n", "t.vcd:8: 'b12' is not a value; expected one such as 1, b101 or r2.5"},
   };
   for (const auto& [text, expected] : kCases) {

@@ -142,9 +142,9 @@ TEST_F(ScenarioFile, AHundredThousandStepsAreEnough) {
   const std::string loop =
       "  - repeat: { times: 1000, steps: [ repeat: { times: 100, steps: [ say: x ] } ] }\n";
   EXPECT_EQ(folder_.steps(loop).size(), 100'000U);
-  EXPECT_EQ(
-      folder_.diagnostic(ScenarioFolder::scenario_of(loop + "  - say: y\n")),
-      "scenario.yaml:5: steps[1]: is one step too many; expected at most 100000 with all loops and cases");
+  EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(loop + "  - say: y\n")),
+            "scenario.yaml:5: steps[1]: is one step too many; expected at most 100000 including all loops "
+            "and cases");
 }
 
 TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
@@ -154,7 +154,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
       "\n  b: ${a}${a}${a}${a}${a}${a}${a}${a}${a}${a}\n  c: ${b}${b}${b}${b}${b}\nsteps:\n";
   const std::string beyond =
       "scenario.yaml:8: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; expected "
-      "less, with all loops and cases";
+      "less, including all loops and cases";
   EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
   EXPECT_EQ(folder_.diagnostic(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
             beyond);
@@ -163,7 +163,7 @@ TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
   EXPECT_EQ(folder_.diagnostic(ScenarioFolder::scenario_of(
                 "  - repeat: { times: 99999, steps: [ program: { feeder: long.lst } ] }\n")),
             "scenario.yaml:4: steps[0].repeat.steps[0]: is too large: the steps exceed 64 MiB; "
-            "expected less, with all loops and cases");
+            "expected less, including all loops and cases");
 }
 
 TEST_F(ScenarioFile, KindsAreRecognizedByTheirKeys) {

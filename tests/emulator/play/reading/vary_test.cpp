@@ -78,7 +78,7 @@ TEST_F(Vary, MayNumberMoreThanAnybodyCouldPlay) {
   EXPECT_EQ(folder_.diagnostic(
                 text("vary: { a: { from: 1, to: 1000000, step: 1 }, b: { from: 0, to: 1000000, step: 1 } }\n",
                      {"a", "b"})),
-            "scenario.yaml:3: vary.b: makes more than 1000000000000 cases; expected fewer");
+            "scenario.yaml:3: vary.b: results in more than 1000000000000 cases; expected fewer");
 }
 
 TEST_F(Vary, EachCaseHasAnIdentityOfItsOwn) {
@@ -174,7 +174,7 @@ TEST_F(Vary, WhatIsWrongIsSaidWithItsPlace) {
             "3: vary.a b: 'a b' is not a parameter name; expected letters, digits and _, beginning with a "
             "letter  (a b=1)"},
            {text("cases: [ { a: 1 } ]\nvary: { a: [ 1 ] }\n", {"a"}),
-            "4: vary.a: is already given by `cases`; expected it in one of the two"},
+            "4: vary.a: is already in `cases`; expected it in only one of the two"},
            {text("vary: { a: { between: [ 1, 2 ] } }\n", {"a"}),
             "3: vary: does not set the number of cases; expected `samples: 100` next to a `between` or "
             "`one_of`"},

@@ -273,7 +273,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {inject(R"("fault":{"":"feeder.A"})"), "'' is not a fault; expected one such as 'stall'"},
       {inject(R"("fault":{"stall":"feeder.C"})"), "no axis of feeder is called 'C'; expected one of A, B"},
       {inject(R"("fault":{"stall":"A"})"),
-       "'A' needs its device in front; expected one of feeder.A, turner.A"},
+       "'A' must begin with its device; expected one of feeder.A, turner.A"},
       {inject(R"("fault":{"stall":"feeder.A","x":1})"),
        "stall: x: is not a field here; expected one such as 'nth'"},
       {inject(R"("fault":{"stall":"feeder.A","":0})"),

@@ -228,7 +228,7 @@ TEST(BenchErrors, Devices) {
        "5: lines.a.stations[0].device: no device is called 'mil'; the nearest is 'mill'"},
       {and_then(mill), "7: devices.mill: the device is not on a line; expected a station that names it"},
       {with_station("{ device: mill }\n      - { device: mill, address: 2 }") + mill,
-       "6: lines.a.stations[1]: the device is already on a line; expected it on one line"},
+       "6: lines.a.stations[1]: the device is already on a line; expected it on only one"},
       {and_then("devices: [ mill ]\n"), "6: devices: expected a map, as in `key: value`"},
       {and_then("devices:\n  x: { model: simple2-r3 }\n"),
        "5: lines.a.stations[0].name: two devices are called 'x'; expected a different name"},
@@ -265,7 +265,7 @@ TEST(BenchErrors, Machines) {
   expect_diagnostics({
       {plant("y.A: {}"), "7: plant.y.A: no device is called 'y'; expected 'x'"},
       {plant("x.C: {}"), "7: plant.x.C: 'C' is not an axis of simple2-r3; expected one of A, B"},
-      {plant("x: {}"), "7: plant.x: 'x' names no device; expected a name like feeder.A"},
+      {plant("x: {}"), "7: plant.x: 'x' does not name a device; expected a name like feeder.A"},
       {plant("x.A: [ 1 ]"), "7: plant.x.A: expected a map, as in `key: value`"},
       {plant("x.A: { travel: [ 5, -5 ] }"),
        "7: plant.x.A.travel: ends before it begins; expected the lower position first"},
@@ -300,10 +300,10 @@ TEST(BenchErrors, Wires) {
       {wires("[ x.DOUT_4 -> x.DOUT_1 ]"),
        "6: wires[0]: 'DOUT_1' is not an input of simple2-r3; expected one such as 'DIN_0'"},
       {wires("[ x.DOUT_4 -> x.DIN_1, x.DOUT_4 -> x ]"),
-       "6: wires[1]: 'x' names no device; expected a name like turner.DIN_10"},
+       "6: wires[1]: 'x' does not name a device; expected a name like turner.DIN_10"},
       {wires("[ -> ]"),
-       "6: wires[0]: '' names no device; expected a name like feeder.DOUT_4\n"
-       "bench.yaml:6: wires[0]: '' names no device; expected a name like turner.DIN_10"},
+       "6: wires[0]: '' does not name a device; expected a name like feeder.DOUT_4\n"
+       "bench.yaml:6: wires[0]: '' does not name a device; expected a name like turner.DIN_10"},
       {wires("x.DOUT_4 -> x.DIN_1"), "6: wires: expected a list, as in `[ a, b ]`"},
       {wires("[ { a: b } ]"), "6: wires[0]: expected a word or a number"},
   });

@@ -57,7 +57,7 @@ TEST(YamlDocument, WhatIsNotYamlIsSaidInPlainWords) {
            {"a: 'it''s\n", "1:4" + not_yaml + "a quote is not closed"},
            {"a: 'it's'\n", "1:8" + not_yaml + "more text follows a complete value"},
            {"a: \"x\" y\n", "1:8" + not_yaml + "more text follows a complete value"},
-           {"a: @x\n", "1:4" + not_yaml + "a text cannot begin with this sign"},
+           {"a: @x\n", "1:4" + not_yaml + "a text cannot begin with this character"},
            {"a: *x\n", "1:4" + not_yaml + "no text before this has this anchor"},
            {"a: - 1\n", "1:4" + not_yaml + "a list's '- ' is not allowed here"},
            {"a: \"\\q\"\n", "1:7" + not_yaml + "this escape sequence does not exist"},

@@ -150,7 +150,7 @@ TEST(Debugger, RefusesWhatItCannotWatchInOneLine) {
   EXPECT_EQ(error_of({.line = 300}),
             "line: there is no instruction on line 300 or after it; expected at most 5");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .line = 999}),
-            "instruction: there is no number 999; expected 0 to 255");
+            "instruction: there is no instruction 999; expected 0 to 255");
   EXPECT_EQ(error_of({.kind = Kind::instruction, .program = "MP1"}).substr(0, 25),
             "program: 'MP1' is unknown");
   EXPECT_NE(error_of({.line = 1, .condition = "PROG_VAR0 >"}), "");
@@ -318,7 +318,7 @@ TEST(Step, EndsWhenItsProgramOrPowerIsGone) {
   other.debugger.begin_step(StepKind::line, 0, "");
   other.world.load_program(0, "        Delay_mSec 9\n        END\n");
   set(other.world, "PROG_MAIN_RunTime_START", 0);
-  EXPECT_EQ(other.run(100), "step: m has another program");
+  EXPECT_EQ(other.run(100), "step: m has a different program");
 }
 
 }  // namespace debugger_test

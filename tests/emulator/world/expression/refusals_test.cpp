@@ -99,7 +99,7 @@ TEST(ExpressionRefusals, InvalidNumbersAndNamesAreRefused) {
       {"feeder.", 7, "expected a name or the number of a bit after '.'"},
       {"feeder. STATUS", 7, "expected a name or the number of a bit after '.'"},
       {"feeder[5]", 7, "'[' without a name; expected a quoted one, [\"Like This\"]"},
-      {"feeder[\"X", 8, "the quoted name does not end"},
+      {"feeder[\"X", 8, "the quoted name is not closed"},
       {"feeder[\"\"]", 8, "an empty name"},
       {"feeder[\"X\"", 11, "expected ']' after the quoted name"},
   });

@@ -156,7 +156,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"drop feeder address=Aaxis_Sped",
             "drop: address: feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},
            {"drop rs485 address=Aaxis_Speed",
-            "drop: address: 'Aaxis_Speed' needs its device in front; expected one of feeder.Aaxis_Speed, "
+            "drop: address: 'Aaxis_Speed' must begin with its device; expected one of feeder.Aaxis_Speed, "
             "turner.Aaxis_Speed"},
            {"drop feeder at=5", "drop: at: '5' is not valid; expected a duration such as 250ms"},
            {"drop feeder for=0s", "drop: for: 0s" + hours + "1ns to 8760h"},
@@ -226,7 +226,7 @@ TEST(FaultText, IsRefusedWithOneLineThatSaysWhy) {
            {"stall feeder.C", "no axis of feeder is called 'C'; expected one of A, B"},
            {"stall feeder.DIN_1", "no axis of feeder is called 'DIN_1'; expected one of A, B"},
            {"stall feedr.A", "no device is called 'feedr'; the nearest is 'feeder'"},
-           {"stall A", "'A' needs its device in front; expected one of feeder.A, turner.A"},
+           {"stall A", "'A' must begin with its device; expected one of feeder.A, turner.A"},
            {"stall ", "the device is missing; expected one of feeder, turner"},
            {"stall feeder.A one_in=5", "stall: one_in: is not a field here; expected one such as 'nth'"},
            {"alarm feeder.A level=1", "alarm: level: is not a field here; expected one such as 'nth'"},

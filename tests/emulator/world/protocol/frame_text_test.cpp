@@ -89,7 +89,7 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
   };
   const std::vector<Case> cases = {
       {framed({1, 6, 0x10, 0x02, 0xFD, 0xE8}), framed({1, 0x86, 3}),
-       "exception 3 (illegal data value): feeder.Aaxis_Speed takes 0 to 32768, not 65000"},
+       "exception 3 (illegal data value): feeder.Aaxis_Speed accepts 0 to 32768, not 65000"},
       {framed({1, 6, 0, 1, 0, 1}), framed({1, 0x86, 2}),
        "exception 2 (illegal data address): feeder.HW_Code is read-only"},
       {framed({1, 3, 0x0F, 0xFF, 0, 1}), framed({1, 0x83, 2}),
@@ -97,11 +97,11 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
       {framed({1, 3, 0xFF, 0xFF, 0, 1}), framed({1, 0x83, 2}),
        "exception 2 (illegal data address): there is no register at 0xFFFF; the last is "},
       {framed({1, 0x2B, 14, 1, 0}), framed({1, 0xAB, 1}),
-       "exception 1 (illegal function): function 43 is not served; feeder has 3"},
+       "exception 1 (illegal function): function 43 is not supported; feeder has 3"},
       {framed({1, 16, 0x10, 0, 0, 2, 2, 0, 1}), framed({1, 0x90, 3}),
        "exception 3 (illegal data value): its byte count does not fit 2 values"},
       {framed({1, 3, 0, 0, 0, 0}), framed({1, 0x83, 3}),
-       "exception 3 (illegal data value): it requests no register"},
+       "exception 3 (illegal data value): it requests 0 registers"},
       // What the device was doing is not in its tables.
       {framed({1, 6, 0x10, 0x02, 0, 1}), framed({1, 0x86, 3}), "exception 3 (illegal data value)"},
       {framed({1, 6, 0x10, 0x02, 0, 1}), framed({1, 0x86, 6}), "exception 6 (device busy)"},

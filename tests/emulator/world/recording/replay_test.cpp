@@ -236,10 +236,10 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
             "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
   EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': appears twice; expected it once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
-            "a.jsonl:3: line: comes after the end; expected nothing more");
+            "a.jsonl:3: line: follows the end; expected nothing more");
   EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected one");
   EXPECT_EQ(event(R"({"t":1,"do":"dance"})"),
-            "a.jsonl:2: do: 'dance' is not an event; expected one of a recording");
+            "a.jsonl:2: do: 'dance' is not an event; expected a recorded event");
   EXPECT_EQ(event(R"({"t":-1,"do":"end"})"),
             "a.jsonl:2: t: is not a valid number; expected 0 to 3153600000000000000");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":1,"bytes":"00"})"),
@@ -254,7 +254,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
             "a.jsonl:2: on: is neither true nor false; expected one of the two");
   EXPECT_EQ(event(R"({"t":1,"do":"program","device":0,"text":"Fly"})").substr(0, 20), "a.jsonl:2: mnemonic:");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"open\",\"line\":0}\n{\"t\":4,\"do\":\"end\"}\n"),
-            "a.jsonl:3: t: goes back in time; expected the events in their order");
+            "a.jsonl:3: t: goes back in time; expected the events in chronological order");
 }
 
 TEST(Replay, ARecordingNamesNoPaths) {
