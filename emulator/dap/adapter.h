@@ -13,7 +13,7 @@ namespace understudy::emulator::dap {
 std::string serve_session(int input, int output, const Launcher& launcher,
                           const std::function<bool()>& is_interrupted);
 
-/// Tells a client that it is not served, in the reply to its first request if one arrives soon.
+/// Tells a client that it will not be served, in the reply to its first request if one arrives soon.
 void refuse_session(int client, const std::string& why);
 
 }  // namespace understudy::emulator::dap

@@ -32,7 +32,7 @@ class BenchLink {
   virtual Json ask(const Json& message) const = 0;
   /// Returns one member of the reply, or null.
   Json ask_for(const char* member, const Json& message) const { return ask(message).value(member, Json()); }
-  /// Sends a message whose reply comes later. Throws GoneError.
+  /// Sends a message whose reply arrives later. Throws GoneError.
   virtual void begin(const Json& message) = 0;
   /// Returns true while that reply has not been taken.
   virtual bool is_awaiting() const = 0;

@@ -93,7 +93,7 @@ Json Session::value_of(const std::string& expression, std::size_t device) const 
       return link_->ask({{"do", "eval"}, {"expression", whole}});
     } catch (const GoneError&) {
       throw;
-    } catch (const RequestError&) {  // the first refusal says more
+    } catch (const RequestError&) {  // the first refusal is more informative
     }
     throw;
   }
@@ -127,7 +127,7 @@ Json Session::set_value(const std::string& whole, const std::string& value) cons
   } catch (const GoneError&) {
     throw;
   } catch (const RequestError&) {
-    // A name that is not a register may be an input; if it is neither, the first refusal says more.
+    // A name that is not a register may be an input; if it is neither, the first refusal is more informative.
     bool is_input = false;
     try {
       link_->ask({{"do", "input"}, {"values", {{whole, to}}}});

@@ -62,8 +62,8 @@ struct Ground {
 
 /// Draws which disturbances a course may have at all, then how many of them, then their values and moments.
 std::vector<play::Disturbance> draw_disturbances(const Ground& ground, Dice& dice);
-/// Changes a few of the disturbances: adds one, removes one, draws a moment or a value of one again, or takes
-/// one of `others`.
+/// Changes a few of the disturbances: adds a new one or one of `others`, removes one, or redraws the moment
+/// or a value of one.
 std::vector<play::Disturbance> changed(std::vector<play::Disturbance> disturbances,
                                        std::span<const play::Disturbance> others, const Ground& ground,
                                        Dice& dice);

@@ -44,8 +44,8 @@ struct Player {
   std::function<std::vector<play::ScenarioResult>(const play::Scenario&, const play::RunOptions&)> here =
       play::run_scenario;
   bool can_begin_later = true;  // `here` supports RunOptions::begin
-  /// Plays a course of an equal CoursePlayer in another process. If it is empty, all courses are played in
-  /// this process.
+  /// Plays a course of an identical CoursePlayer in another process. If it is empty, all courses are played
+  /// in this process.
   std::function<Playing(const Course&, bool has_reached)> elsewhere{};
 };
 

@@ -2,7 +2,7 @@
 // There are four sorts: lines of programs and their decisions; registers with classes of values; coarse
 // states of the whole bench; and orders, which are two such states in sequence and the events between them.
 //
-// It samples when something happens: at messages, faults, inputs, and after each step.
+// Samples are taken when something happens: at messages, faults, inputs, and after each step.
 #pragma once
 
 #include <array>

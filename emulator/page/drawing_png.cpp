@@ -144,7 +144,7 @@ class Raster {
   std::size_t last_ = 0;
 };
 
-/// Compresses by Deflate with its fixed codes. To find repetitions, it remembers only the last position of
+/// Compresses with Deflate with its fixed codes. To find repetitions, it remembers only the last position of
 /// each sequence of four bytes.
 class Deflated {
  public:

@@ -1,6 +1,6 @@
 // The live page: it observes running benches through their control sockets and shows them in browsers
-// (docs/page.md). It asks each socket at most 30 times per second, once for all browsers. The bench continues
-// to run if the page fails.
+// (docs/page.md). It queries each socket at most 30 times per second, once for all browsers. The bench
+// continues to run if the page fails.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ namespace understudy::emulator::page {
 struct PageOptions {
   WebAddress address;
   std::vector<std::string> sockets;  // control sockets, one per bench
-  std::vector<std::string> hosts;    // names of this machine besides those of the loopback
+  std::vector<std::string> hosts;    // names of this machine besides the loopback names
   bool is_read_only = false;
   std::string folder;  // a folder with the page's files; empty: the files in the program
   WebLimits limits{};

@@ -85,7 +85,8 @@ class Web {
   void stop();
 
   /// Marks a browser as authenticated, so no other connection can take its place. Every connection starts
-  /// unauthenticated. Their number is limited, and the newest one replaces the oldest.
+  /// unauthenticated. The number of unauthenticated connections is limited; the newest one replaces the
+  /// oldest.
   void authenticated(BrowserId browser);
   void send(BrowserId browser, std::shared_ptr<const std::string> text);
   /// Returns the number of bytes that are queued and not sent yet.

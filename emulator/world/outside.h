@@ -1,6 +1,6 @@
-// Reports everything that reaches a world from outside, except what hosts do on its lines
-// (pty/line_observer.h), for recorders. Repeating both in a world of the same bench, at the same simulated
-// times, reproduces the run.
+// Reports to recorders everything that reaches a world from outside, except what hosts do on its lines
+// (pty/line_observer.h). Repeating both in a world of the same bench, at the same simulated times, reproduces
+// the run.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested too deeply") {}
 };
 
-/// Thrown for an object with too many members. The library searches all of them for each new one.
+/// Thrown for an object with too many members. The library searches all of them for each new member.
 struct TooManyMembers : std::runtime_error {
   explicit TooManyMembers(std::size_t max)
       : std::runtime_error("an object has more than " + std::to_string(max) + " members") {}

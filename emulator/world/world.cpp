@@ -34,7 +34,8 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Asks for large pages if there are many devices. Made one after another, they are close in memory.
+/// Asks for large pages if there are many devices. They are close in memory because they were made one after
+/// another.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
   constexpr std::ptrdiff_t kMaxOfOne = std::ptrdiff_t{64} << 10;  // bytes; more means other data is between

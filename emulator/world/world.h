@@ -148,7 +148,7 @@ class World final : public WorldView {
   const std::vector<WireSetup>& wires() const { return wires_; }
 
   // --- faults --------------------------------------------------------------------------------
-  /// Adds a fault, which takes effect from the next tick on, or when its trigger says so. Returns its number
+  /// Adds a fault, which takes effect from the next tick on, or when its trigger fires. Returns its number
   /// for clear_fault(). If this world cannot have the fault, throws NameError and changes nothing.
   std::size_t inject(const Fault& fault);
   /// Returns false if there is no fault with that number.

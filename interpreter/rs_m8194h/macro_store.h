@@ -23,7 +23,7 @@ class MacroStore {
     SharedText text;
   };
 
-  /// Replaces the stored macros with these, of which each may appear only once. A text that is not a listing
+  /// Replaces the stored macros with these, each of which may appear only once. A text that is not a listing
   /// of its macro counts as no macro.
   void update(std::span<const Stored> stored);
 

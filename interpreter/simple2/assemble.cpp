@@ -69,7 +69,7 @@ class Assembler {
 
   /// The marks before an instruction, or alone on the lines above it.
   struct Marks {
-    std::vector<Token> names;         // labels that get a flag of their own
+    std::vector<Token> names;         // labels that get their own flag
     std::optional<Token> mark;        // the first of them
     std::optional<Token> flag_token;  // the mark that sets the JMP cell, if any
     std::optional<std::uint8_t> flag;
@@ -299,7 +299,7 @@ class Assembler {
     check_that_flags_lead_to_labels();
   }
 
-  /// The last of several lines with a flag counts, so a label on another line would mislead.
+  /// The last of several lines with a flag counts, so a label on another line would be misleading.
   void check_that_flags_lead_to_labels() {
     std::array<std::size_t, 256> last{};
     for (std::size_t place = 0; place < lines_.size(); ++place) last[lines_[place].flag] = place;

@@ -16,7 +16,7 @@ enum class Place : std::uint8_t {
 
 /// Options about the columns that the manual leaves open.
 struct Columns {
-  /// While a program runs, the host may give the printed commands, queries, and the commands that end a pause
+  /// While a program runs, the host may send the printed commands, queries, and the commands that end a pause
   /// (lenient); only the printed commands (strict); or RESET as well (with_reset).
   enum class External : std::uint8_t { lenient, strict, with_reset } external = External::lenient;
   /// Moves from variables can only be stored, as the column 立即 prints, or also typed.

@@ -1,6 +1,6 @@
-// A running SLIM program: one line per tick of 1 ms, unless chosen otherwise. Its state is a plain value;
-// these functions advance it over the lines. Commands that are not program flow go to the machine, which may
-// make the program wait.
+// A running SLIM program: one line per tick of 1 ms, by default. Its state is a plain value; these functions
+// advance it over the lines. Commands that are not program flow go to the machine, which may make the program
+// wait.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The words of a line: blanks, capitals, names, items between commas, and single items.
+// Reads the words of a line: blanks, capitals, names, items between commas, and single items.
 #pragma once
 
 #include <string>

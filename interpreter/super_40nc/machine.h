@@ -19,8 +19,8 @@ struct CellLayout {
   std::uint32_t y = 0;        // Y0 to Y31
   std::uint32_t m = 0;        // M0 to M511
   std::uint32_t t = 0;        // T0 to T63: contacts
-  std::uint32_t c = 0;        // T0 to T63: current values
-  std::uint32_t t_value = 0;  // T0 to T63: present values
+  std::uint32_t c = 0;        // C0 to C31
+  std::uint32_t t_value = 0;  // T0 to T63: current values
   std::uint32_t c_value = 0;
   std::uint32_t d = 0;  // D0 to D999
   bool operator==(const CellLayout&) const = default;

@@ -92,9 +92,9 @@ class Executor {
   /// Returns the tick from which the host's last write takes effect.
   virtual Tick tick_of_last_write() = 0;
 
-  /// Returns since when each line has been quiet, as far as the host knows. This is not part of the world's
-  /// state, but the host's next request depends on it. The result is empty for a host in real time, which
-  /// cannot go back.
+  /// Returns the time since which each line has been quiet, as far as the host knows. This is not part of the
+  /// world's state, but the host's next request depends on it. The result is empty for a host in real time,
+  /// which cannot go back.
   virtual std::vector<SimTime> quiet_since() { return {}; }
   /// Sets the times that another executor of this bench returned when its world was in the state into which
   /// this world has just been put.

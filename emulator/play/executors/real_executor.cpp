@@ -60,7 +60,7 @@ class RealExecutor::DeadlineWatch final : public world::TickWatcher {
     if (time_of(tick) <= deadline_) check(time_of(tick));
   }
 
-  /// Waits for at most `patience`. Throws what the condition has thrown.
+  /// Waits for at most `patience`. Rethrows the exception of the condition.
   std::optional<SimTime> wait(serve::WallTime patience) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, patience, [this] { return found_at_ || error_; });

@@ -70,7 +70,7 @@ HostLint::HostLint(world::World& world, std::size_t line)
       number_(line),
       options_(world.line(line).line.options()),
       // The framer is never strict, whatever the devices are: it must receive frames that a strict one would
-      // drop in order to explain why.
+      // drop, in order to explain why it would drop them.
       framer_({.strict = false,
                .silence = SimTime{0},
                .patience = world.line(line).framing.patience,

@@ -22,8 +22,9 @@
 
 namespace understudy::emulator::play {
 
-/// Loads the only case of a scenario file for that bench. Throws FileError, also if a step belongs to the
-/// host because it uses a line, or would disturb the world of another program because it goes back in time.
+/// Loads the only case of a scenario file for that bench. Throws FileError, including for a step that belongs
+/// to the host because it uses a line, or that would disturb the world of another program because it goes
+/// back in time.
 Scenario load_side_scenario(ModelList models, const std::string& path, const world::Bench& bench,
                             const std::string& save_below = "");
 

@@ -24,8 +24,8 @@ using NextCase = std::function<std::optional<CaseId>()>;
 using Play = std::function<std::vector<ScenarioResult>(const CaseId&)>;
 
 /// Runs all cases on `jobs` threads. Each thread makes its own Play. `report` receives the results of each
-/// case, in order, on the calling thread. An exception of a Play is thrown here, after the results of all
-/// cases before that one.
+/// case, in order, on the calling thread. An exception from a Play is thrown here, after the results of all
+/// cases before its case.
 void run_suite(const NextCase& next, const std::function<Play()>& make_play, int jobs,
                const std::function<void(const CaseId&, std::vector<ScenarioResult>)>& report);
 

@@ -1,5 +1,5 @@
-// Replaces ${...} in a scenario file by parameters and loop variables, or by small expressions of them:
-// ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` stands for a plain `${`.
+// Replaces ${...} in a scenario file with parameters and loop variables, or with small expressions that use
+// them: ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` stands for a plain `${`.
 #pragma once
 
 #include <map>

@@ -69,7 +69,7 @@ struct BytesOf {
   }
 };
 
-/// Returns the same path for all spellings.
+/// Returns the same path for all spellings of a path.
 std::string canonical(const std::string& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
 }

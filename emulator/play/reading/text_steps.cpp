@@ -31,7 +31,7 @@ std::string read_text(const world::YamlFields& field) {
   return text;
 }
 
-/// Reads one line, or a list of them. Returns none for `nothing`.
+/// Reads one line, or a list of them. Returns an empty list for `nothing`.
 std::vector<std::string> read_texts(const world::YamlFields& field) {
   std::vector<std::string> lines;
   if (field.is_list()) {

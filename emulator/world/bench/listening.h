@@ -28,7 +28,7 @@ struct GatewaySettings {
   bool operator==(const GatewaySettings&) const = default;
 };
 
-/// An address at which a line listens. Port number 0 stands for any free port.
+/// An address at which a line listens. Port number 0 means any free port.
 struct TcpAddress {
   TcpProtocol protocol = TcpProtocol::rtu;
   std::string host;  // a name, or a numeric address; an IPv6 address without brackets

@@ -166,7 +166,7 @@ inline constexpr Key kSeedKey{"seed", "The seed of all random choices.", &kSeedS
 
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
                                        kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
-/// A bench inside another file needs no version.
+/// A bench inside another file does not need a version.
 inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
                                              kInputsKey, kFaultsKey,  kSeedKey};
 inline constexpr Schema kBenchSchema = keys_schema(kBenchKeys);

@@ -15,8 +15,8 @@ namespace understudy::emulator::world {
 void require_name(const YamlFields& field, const std::string& name);
 
 /// Reads the entry of a device without its name. Keeps all errors; if the model is unknown, the result's
-/// model is null. Paths are relative to `folder`, and refused without one. Files that it reads are added to
-/// the bench; no two of its devices may have the same memory file.
+/// model is null. Paths are relative to `folder`, and refused without a folder. Files that it reads are added
+/// to the bench; no two of its devices may have the same memory file.
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
                         Diagnostics& diagnostics);

@@ -1,5 +1,5 @@
 // The vocabulary for declaring a file format: its keys and the schemas of their values. Readers use it to
-// know their keys; `understudy schema` turns it into a JSON Schema.
+// recognize their keys; `understudy schema` turns it into a JSON Schema.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Parses the single document of a YAML text. If the text is not YAML, throws one plain line that says why.
+// Parses the single document of a YAML text. If the text is not YAML, throws an error of one plain line.
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,8 @@ struct CountedProgram {
       counts[i].resize(parts[i].lines.size());
       const auto number = static_cast<std::size_t>(parts[i].number);
       if (by_part_number.size() <= number) by_part_number.resize(number + 1);
-      // If several have the same number, the first is the one that runs, because a stored file is a part too.
+      // If several parts have the same number, the first is the one that runs, because a stored file is a
+      // part too.
       if (by_part_number[number] == nullptr) by_part_number[number] = &counts[i];
     }
   }

@@ -32,7 +32,7 @@ struct TouchedTable {
     std::int64_t all = 0;
   };
   Share share() const;
-  /// Returns the row with that name, added if there is none.
+  /// Returns the row with that name, and adds it if there is none.
   TouchedRow& row(const std::string& name);
   void add(const TouchedTable& other);
   bool operator==(const TouchedTable&) const = default;

@@ -28,7 +28,7 @@ bool is_of_name(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.';
 }
 
-/// Returns the words of a text that are names of the bench, each once, in their order.
+/// Returns the words of a text that are names of the bench, each once, in order.
 std::vector<std::string> names_in_text(const World& world, std::string_view text) {
   const ProbeNames known(world);
   std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// Tells how a scenario failed: one sentence, and the events that led there.
+// Describes how a scenario failed: one sentence, and the events that led there.
 #pragma once
 
 #include <deque>

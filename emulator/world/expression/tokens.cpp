@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kLongestText = 2'000;  // bytes: some twenty lines of conditions
 
 // If several signs begin with the same characters, the longest comes first. Some are not valid in
-// expressions; they are recognized for the message.
+// expressions; they are recognized only for the message.
 constexpr std::array<std::string_view, 33> kSigns = {
     "&&", "||", "==", "!=", "<=", ">=", "<<", ">>", "<>", "+-", "..", "+", "-", "*", "/", "%", "<",
     ">",  "&",  "^",  "|",  "!",  "~",  "(",  ")",  "?",  ":",  ",",  "=", ".", "[", "]", ";"};

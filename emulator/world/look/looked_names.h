@@ -41,8 +41,9 @@ class LookedNames {
   /// too many lists, the list that has been unused for longest is forgotten.
   std::uint64_t keep(const std::vector<std::string>& names);
   bool is_kept(std::uint64_t number) const;
-  /// Prepares a look: decides which names must be looked up. Unknown names are tried again when a device was
-  /// switched on or off, and otherwise a few at each look, because a device may have new names at any time.
+  /// Prepares a look: decides which names must be looked up. Unknown names are tried again when a device has
+  /// been switched on or off, and otherwise a few at each look, because a device may have new names at any
+  /// time.
   void begin(std::uint64_t number);
   /// Looks up the next name. Returns false if none is left, or if the list is forgotten.
   bool look_up_next(std::uint64_t number);

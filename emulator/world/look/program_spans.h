@@ -1,4 +1,4 @@
-// Records at which lines the programs of a bench stand, and for how long.
+// Records at which lines the programs of a bench are, and for how long.
 #pragma once
 
 #include <cstddef>

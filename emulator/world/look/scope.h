@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 
 struct ScopeSetup {
   static constexpr std::size_t kMaxNames = 16;
-  static constexpr Tick kMaxTicks = 10'000;  // each, before and after
+  static constexpr Tick kMaxTicks = 10'000;  // the maximum before the trigger, and after it
 
   std::vector<std::string> names;
   std::string condition;  // empty: at once

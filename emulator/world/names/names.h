@@ -38,8 +38,8 @@ struct RegisterName {
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
 
-/// A value of a device without registers (NamedValues), such as "robot.T2PE". Nothing if the device has
-/// registers. Only the device knows whether it has such a value.
+/// A value of a device without registers (NamedValues), such as "robot.T2PE". A device with registers has
+/// none. Only the device knows whether it has such a value.
 struct ValueName {
   std::size_t device = 0;
   std::string name;
@@ -68,7 +68,7 @@ AxisName find_axis(const KnownDevices& devices, std::string_view name, bool or_c
 /// Returns true if a device has something of that name.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
 /// Returns the error for a name that does not begin with a device although there are several. The name may be
-/// that of a device (then `example` shows what may follow), one something that some devices have, or unknown.
+/// a device (then `example` shows what may follow), something that some devices have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 

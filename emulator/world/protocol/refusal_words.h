@@ -1,5 +1,5 @@
-// Explains why a device has refused a Modbus request, from its tables: "feeder.Aaxis_Speed takes 0 to 32768,
-// not 65000".
+// Explains why a device has refused a Modbus request, from its tables: "feeder.Aaxis_Speed accepts 0 to
+// 32768, not 65000".
 #pragma once
 
 #include <cstdint>

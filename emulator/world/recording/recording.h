@@ -54,7 +54,7 @@ struct RecordedEvent {
     assign,   // a device without registers was given the value `real` by the name `text`
     program,  // a device was given the program `text`; the device refused it if `value` is not 0
     command,  // a device was given the command `text` without using the line
-    wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` says
+    wait,     // thread `where` of a host in simulated time has waited since `since`, as `text` describes
     end,      // the recording ends here; `text` is the final state (snapshot_file.h), or empty
   } what = What::end;
   SimTime at{0};

@@ -1,5 +1,5 @@
 // Stands between a line and a station to apply faults: messages arrive late, garbled, twice or not at all. A
-// station passes everything that it receives and sends; to the wire, which returns what is left of it to the
+// station passes everything that it receives and sends to the wire, which returns what is left of it to the
 // station (End) at the right time.
 //
 //   received ──passes()──> whole: the station serves it       sent ──answer()──> End::transmit()
@@ -28,7 +28,7 @@ class FaultyWire {
     /// Handles what is left of a request, as if it had been received like that.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
-    /// Sends what is left of an answer to the request with that last character.
+    /// Sends what is left of an answer to the request that ended with that character.
     virtual void transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                           pty::Transmitter& out) = 0;
 

@@ -53,8 +53,8 @@ Then to_axes(Step& step) {
   return Then::next_line;
 }
 
-/// One axis takes the parameter in DATA1. With both axes, A takes DATA1 and B takes DATA2, and both are read
-/// before either acts.
+/// A single axis uses the parameter in DATA1. With both axes, A uses DATA1 and B uses DATA2, and both are
+/// read before either acts.
 template <Axes axes, void (*order)(Step&, Axis, std::int32_t)>
 Then to_axes(Step& step) {
   const std::int32_t first = step.first_parameter();
