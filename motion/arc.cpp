@@ -102,7 +102,7 @@ struct ArcDemand {
   Point rise_to(const Point& end) const { return with(end - begin, {0, 0}); }
 };
 
-/// Does the last step of all arcs. `path` already has its plane, begin, centre, sweep and rise.
+/// Performs the last step for all arcs. `path` already has its plane, begin, centre, sweep and rise.
 Path finished(Path path, double growth_u, const ArcDemand& demand) {
   const double sweep = std::abs(path.sweep_rad);
   if (sweep > kFarthestAngle_rad) {

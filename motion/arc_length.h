@@ -1,4 +1,4 @@
-// Converts between the length travelled along an arc and the angle turned. For path.cpp and arc.cpp only.
+// Converts between the length travelled along an arc and the angle turned, for path.cpp and arc.cpp only.
 //
 // Share is the part of |sweep| done, 0..1. With radius(share) = r0 + growth * share, the speed over the share
 // (the pace) is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2). The length is its integral:

@@ -103,7 +103,7 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
                           : what == Task::endless
                               ? plan_endless(speed)
                               : plan(static_cast<double>(size_of(distance_pulses)), speed);
-  // A stop from the maximum speed must be possible as well: a reaction cannot be refused.
+  // A stop from the maximum speed must also be possible: a reaction cannot be refused.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
   const std::int64_t untaken = backlash_before(direction);
   if (untaken > 0) require_positive(settings.backlash_speed_pps, "backlash", "speed");

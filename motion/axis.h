@@ -149,7 +149,7 @@ struct AxisSettings {
   bool operator==(const AxisSettings&) const = default;
 };
 
-/// Throws BadMotion for settings that no axis can have. Settings from outside are checked with it as well.
+/// Throws BadMotion for settings that no axis can have. Settings from outside are also checked with it.
 void check(const AxisSettings& settings);
 
 /// What an axis was commanded to do.
@@ -296,7 +296,7 @@ struct alignas(64) Axis {
     std::int64_t pulses = 0;  // signed as they come out
     std::int64_t travel = 0;  // before the tick
     std::int64_t sent = 0;
-    // pulses that a follower asked for, also in a tick that is not quiet
+    // pulses that a follower asked for, even in a tick that is not quiet
     std::optional<std::int64_t> followed{};
   };
   /// Runs a quiet tick, or returns false if something may happen in it.

@@ -45,7 +45,7 @@ std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, 
   const auto consider = [&](std::optional<std::int64_t> steps) {
     if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
   };
-  // The relation changes where the count arrives at or leaves `value`, and where it wraps.
+  // The relation changes where the count arrives at or leaves `value`, and where the count wraps.
   consider(counter.steps_until(value, travel, direction));
   if (direction > 0 && value < INT64_MAX) consider(counter.steps_until(value + 1, travel, direction));
   if (direction < 0 && value > INT64_MIN) consider(counter.steps_until(value - 1, travel, direction));

@@ -232,7 +232,7 @@ void AxisTick::end_backlash() {
   drive.start(rest, direction, at_);
 }
 
-/// Sends the last pulses of a drive. What follows without a command begins at the tick's end.
+/// Sends the last pulses of a drive. Whatever follows without a command begins at the tick's end.
 void AxisTick::end_drive() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t sent_before = drive.sent_pulses;

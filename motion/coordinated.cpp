@@ -53,7 +53,7 @@ bool may_turn_beyond(const Axis& axis, std::int64_t travel, double reach_pulses)
 
 std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
   const UnitScale& by = scale[i];
-  // Most units are one pulse, and a division by 1 takes time as well.
+  // Most units are one pulse, and even a division by 1 takes time.
   if (by.multiplier == 1 && by.divider == 1) return zero_pulses[i] + nearest(place_u);
   const double pulses = place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider);
   return zero_pulses[i] + (by.truncates ? whole(pulses) : nearest(pulses));
@@ -124,7 +124,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
   }
   if (!ahead.is_quiet || !has_edges_near) [[likely]]
     return ahead;
-  // If the longest axis is the measure, the way is up to 1.8 times as long.
+  // If the longest axis is the measure, the path is up to 1.8 times as long.
   const double length_u = 2 * std::max(0.0, ahead.gone.to_u - run.began_at(ahead.gone, tick));
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     const Axis* axis = axis_at(axis_of[i], axes);

@@ -31,7 +31,7 @@ std::int64_t modulo(std::int64_t value, std::int64_t size) {
   return rest < 0 ? rest + size : rest;
 }
 
-/// Returns a + b or a - b modulo `size`. They are reduced first, because a ring's size need not divide 2^64.
+/// Returns a + b or a - b modulo `size`. Both are reduced first, because a ring's size need not divide 2^64.
 std::int64_t sum_modulo(std::int64_t a, std::int64_t b, std::int64_t size) {
   const std::int64_t room = size - modulo(b, size);
   const std::int64_t reduced = modulo(a, size);

@@ -61,7 +61,7 @@ struct Environment {
 
   /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
   void add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
-  /// Adds a signal that is on everywhere except between `from` and `to`. Once it has gone off there, it comes
+  /// Adds a signal that is on everywhere except between `from` and `to`. Once it has gone off there, it goes
   /// on again only `slack` beyond that range. Throws as add() does.
   void add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
   void set_steady(Signal signal, bool on);

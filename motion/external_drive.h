@@ -1,4 +1,4 @@
-// External pulse drive: two inputs that make an axis move, as the MCX314 takes them from EXP+ and EXP-.
+// External pulse drive: two inputs that make an axis move, as with EXP+ and EXP- of the MCX314.
 //
 // Levels are as at the pin: true is high. Source: RS-M8194H manual 3.17.
 #pragma once

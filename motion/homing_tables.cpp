@@ -41,7 +41,7 @@ HomingProgram hanging(int direction) {
 
 enum class At : std::uint8_t { dog, limit };
 
-/// What follows after the DOG or the limit.
+/// The step after the DOG or the limit.
 enum class After : std::uint8_t { nothing, edge_again, off_again, index };
 enum class Direction : std::uint8_t { on, back };
 enum class Law : std::uint8_t { fast, creep };
@@ -252,7 +252,7 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
 
 HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
-    // At a limit it turns back, also at speed 0.
+    // At a limit it turns back, even at speed 0.
     HomingProgram both_ways;
     both_ways.add({.does = Does::move_at_zero_speed, .direction = sign(how.direction), .if_limit = 1});
     both_ways.add({.does = Does::move_at_zero_speed, .direction = opposite(how.direction)});

@@ -42,7 +42,7 @@ struct Super40ncMark {
   SpeedLaw fast;                   // the speed set by RPM
   SpeedLaw creep;                  // X22
   bool slows_behind = false;  // true: decelerates after the target, and searches for the mark once it creeps
-  bool searches_all_the_way = false;  // true: a mark before the target ends the move as well
+  bool searches_all_the_way = false;  // true: a mark before the target also ends the move
   bool mark_slows = false;            // true: the mark stops the axis along its ramp
   bool needs_edge = false;            // true: a mark that is on when the search begins does not count
 };

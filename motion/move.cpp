@@ -84,7 +84,7 @@ Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   return profile;
 }
 
-/// Even if each quantity is sound, the ramp may last 1e400 s.
+/// Even if each quantity is valid, the ramp may last 1e400 s.
 void require_doubles_hold(const Profile& profile, bool endless = false) {
   bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {

@@ -22,7 +22,7 @@ inline constexpr int kPathAxes = 4;
 /// purpose: a state is copied, compared and hashed as plain bytes.
 using Point = Eigen::Matrix<double, kPathAxes, 1, Eigen::DontAlign>;
 
-/// Two axes of a plane, by number 0..3 and different: first is the abscissa, second the ordinate.
+/// Two different axes of a plane, numbered 0..3: `first` is the abscissa, `second` the ordinate.
 struct Plane {
   std::int8_t first = 0;
   std::int8_t second = 1;

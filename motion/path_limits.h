@@ -1,4 +1,4 @@
-// How much of a path's speed falls on each axis.
+// Calculates how much of a path's speed falls on each axis.
 #pragma once
 
 #include "motion/path.h"

@@ -1,4 +1,4 @@
-// How far the speed of a short move can rise. For move.cpp.
+// Calculates how far the speed of a short move can rise, for move.cpp.
 #pragma once
 
 #include "motion/ramp.h"

@@ -41,7 +41,7 @@ struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 
   struct Trigger {
-    Events factors = 0;          // events of motion/axis.h; an MCX314 knows the first eight
+    Events factors = 0;          // events of motion/axis.h; an MCX314 has the first eight
     std::uint8_t activates = 0;  // mask of axes
     bool operator==(const Trigger&) const = default;
   };

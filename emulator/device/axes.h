@@ -27,7 +27,7 @@ class Axes {
   /// Returns whether the device has switched the axis's servo on, whether or not an output shows it. Returns
   /// nothing if the device has no such state.
   virtual std::optional<bool> servo_on(int /*axis*/) const { return std::nullopt; }
-  /// Returns the manual's name of the pulse format in use, or an empty text if there is only one format.
+  /// Returns the manual's name for the pulse format in use, or an empty text if there is only one format.
   virtual std::string_view pulse_format() const { return {}; }
   /// Returns all pulse formats of the device.
   virtual std::span<const std::string_view> pulse_formats() const { return {}; }
@@ -35,8 +35,7 @@ class Axes {
   /// Returns the duty in percent of an axis in PWM mode, 0 in all other modes, or nothing if the axis has no
   /// such mode.
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
-  /// Tells the device that the axis has an encoder, which is at `counts`. Called when the world is made,
-  /// before anything moves.
+  /// Gives the axis an encoder, which is at `counts`. Called when the world is made, before anything moves.
   virtual void connect_encoder(int /*axis*/, std::int64_t /*counts*/) {}
   /// Sets the absolute count of the axis's encoder, from the plant.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
@@ -45,11 +44,11 @@ class Axes {
   /// Returns true if the device detects the switches of its machines at the exact pulse. The answer never
   /// changes.
   virtual bool meets_edges() const { return false; }
-  /// Returns the position that the device has counted, in the motor's direction. When it or the machine
-  /// jumps, the edges are set again.
+  /// Returns the position that the device has counted, in the motor's direction. When this position or the
+  /// machine jumps, the edges are set again.
   virtual std::int64_t place_pulses(int /*axis*/) const { return 0; }
-  /// Sets the switch edges along the axis from now on. It is called again at power-on and after a restore;
-  /// unchanged edges must have no effect. The edges are not part of the state.
+  /// Sets the switch edges along the axis. Called again at power-on and after a restore; unchanged edges must
+  /// have no effect. The edges are not part of the state.
   virtual void set_edges(int /*axis*/, const MachineEdges& /*edges*/) {}
 
  protected:

@@ -7,7 +7,7 @@
 
 namespace understudy::emulator {
 
-/// A range of pulses from now on, in the motor's direction; both ends are included.
+/// A range of further pulses, in the motor's direction; both ends are included.
 struct PulseRoom {
   std::int64_t min = 0;
   std::int64_t max = 0;

@@ -21,7 +21,7 @@ struct Model;
 struct WindowForm {
   Firmware firmware = 0;
   bool low_word_first = false;                 // taken from the device's present state
-  std::span<const std::uint8_t> choices = {};  // chosen options, by row; empty: the first of each
+  std::span<const std::uint8_t> choices = {};  // chosen options, by row; empty: the first option of each row
 };
 
 class CommandWindow {
@@ -48,7 +48,7 @@ struct WindowMessage {
   std::uint16_t first = 0;  // address of the first holding register
   std::vector<std::uint16_t> words;
 };
-/// Makes the words of a command. Both throw ProgramError, also for a model without a window.
+/// Makes the words of a command. Both functions throw ProgramError, including for a model without a window.
 WindowMessage window_message(const Model& model, std::string_view text, const WindowForm& form);
 WindowMessage window_message(const Device& device, std::string_view text);
 WindowForm window_form(const Device& device);

@@ -1,6 +1,6 @@
-// What the code of a device has decided by: the choices that it has asked for, and the cells of its model's
-// transition tables that have occurred. Only coverage reads it. It is not part of the state: a snapshot does
-// not restore it, and two devices that differ in nothing else are equal.
+// Records what a device's code has based its decisions on: the choices that it has looked up, and the cells
+// of its model's transition tables that have occurred. Only coverage reads the record. It is not part of the
+// state: a snapshot does not restore it, and two devices that differ in nothing else are equal.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,8 @@ class Decisions {
     ++cells.counts[state * cells.events + event];
   }
 
-  /// Counts from now on. Choices that were asked for before, and are not again, are those whose options the
-  /// device keeps: it looks them up when it is made or switched on.
+  /// Starts counting. Choices that were looked up before, and are not looked up again, are those whose
+  /// options the device stores when it is made or switched on.
   void begin();
   bool is_asked(std::size_t choice) const { return asked_[choice] != 0; }
   bool was_asked_before(std::size_t choice) const { return asked_before_[choice] != 0; }
@@ -39,16 +39,16 @@ class Decisions {
     std::size_t events = 0;
     std::vector<std::int64_t> counts{};  // by state, then by event
   };
-  // Bytes, not bits: every tick may ask.
+  // Bytes are faster than bits, and every tick may look up a choice.
   std::vector<std::uint8_t> asked_;
   std::vector<std::uint8_t> asked_before_;
   std::vector<Cells> cells_;
 };
 
-/// The options in effect, by row, for code that asks for them when a device is made.
+/// The options in effect, by row, for code that looks them up while a device is being made.
 struct AskedOptions {
   std::span<const std::uint8_t> numbers;
-  Decisions* decisions = nullptr;  // null: nobody counts
+  Decisions* decisions = nullptr;  // null: decisions are not counted
 
   bool chose(const Option& option) const {
     if (decisions != nullptr) decisions->ask(option.choice);

@@ -50,7 +50,8 @@ class Device {
   const std::string& name() const { return settings_.name; }
   Firmware firmware() const { return settings_.firmware; }
   const DeviceSettings& settings() const { return settings_; }
-  /// Returns the number of a row's option in effect, for observers. The device's own code calls chose().
+  /// Returns the number of the option that is in effect for a choice row, for observers. The device's own
+  /// code calls chose().
   std::uint8_t choice(std::size_t number) const { return choices_[number]; }
   std::span<const std::uint8_t> choices() const { return choices_; }
   bool chose(const Option& option) const {
@@ -102,7 +103,7 @@ class Device {
 
   // --- time: the phases of a tick, in this order; devices interact only between ticks ------------------
   // By default a phase does nothing. The empty functions are not defined here, because the compiler would
-  // then guess at each call that the empty one is meant.
+  // then assume at each call that the empty one is called.
   virtual void sample_inputs(Tick tick);
   virtual void run_interpreters(Tick tick);
   virtual void step_motion(Tick tick);
@@ -134,8 +135,8 @@ class Device {
   /// Reads a state and puts it into effect at once. If it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
-  /// Returns true if it equals another device of the same model bit for bit, so both would save the same
-  /// bytes.
+  /// Returns true if this device equals another one of the same model bit for bit, so both would save the
+  /// same bytes.
   bool same_state(const Device& other) const;
   /// Returns the first field in which two saved states of devices with the same settings differ:
   /// "axes[0].motor.travel_pulses: 12 against 13". Empty if they are equal. Throws StateError for other
@@ -144,8 +145,8 @@ class Device {
   std::string state_difference(StateReader a, StateReader b) const;
 
   // --- levels from outside, by the terminal's number in the model's table, in its unit -----------------
-  /// Sets an input's level. The device reads it in sample_inputs(). The level that it has already wakes
-  /// nobody: wires bring theirs in every tick.
+  /// Sets an input's level. The device reads it in sample_inputs(). Setting the present level again wakes
+  /// nothing, because wires set their levels in every tick.
   void set_input(int terminal, std::int32_t level) {
     std::int32_t& held = inputs_[static_cast<std::size_t>(terminal)];
     if (held == level) return;
@@ -187,7 +188,7 @@ class Device {
   const Model& model_;
   Tick now_ = 0;
   bool powered_ = false;
-  bool inputs_changed_ = true;  // not state: only tells whether a device may skip reading its inputs
+  bool inputs_changed_ = true;  // not state: only lets a device skip reading its inputs
   std::vector<std::uint8_t> choices_;
   mutable Decisions decisions_;
   std::vector<std::int32_t> inputs_;
@@ -196,7 +197,7 @@ class Device {
   mutable std::set<std::string, std::less<>> mentioned_;  // part of the log, not of the state
 };
 
-/// Loads a program. Throws ProgramError, also if the device takes no program.
+/// Loads a program. Throws ProgramError, including when the device does not run programs.
 void load_program(Device& device, std::string_view text);
 
 /// Returns one line that explains why named_values() has no such value: "robot has no value called 'T9PE';

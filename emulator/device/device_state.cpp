@@ -49,7 +49,7 @@ void read_common(const Model& model, StateReader& reader, Common& common) {
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
   require_state(inputs.size() == model.terminals.size(), "its terminals are different");
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (model.terminals[i].kind == TerminalRow::Kind::counted_in) continue;  // it wraps
+    if (model.terminals[i].kind == TerminalRow::Kind::counted_in) continue;  // the count wraps
     require_within(inputs[i], model.terminals[i].lowest, model.terminals[i].highest);
   }
   require_within(std::get<Tick>(common), 0, tick_at(kHorizon));

@@ -17,10 +17,10 @@ struct MachineEdges {
     bool level_inside = true;
     std::int64_t first = 0;  // in the count of Axes::place_pulses()
     std::int64_t last = 0;
-    std::int64_t slack = 0;  // >= 0; once inside, the level stays until this far beyond either end
+    std::int64_t slack = 0;  // >= 0; once inside, the level stays this far beyond either end
     bool operator==(const Span&) const = default;
   };
-  /// Like Span, for `width` pulses from every `at + k * period`.
+  /// Like Span, but the level holds for `width` pulses from every `at + k * period`.
   struct Index {
     int input = -1;
     bool level_inside = true;

@@ -273,7 +273,7 @@ void set_station_number(Device& device) {
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
     throw NvError(std::string(device.model().name) + " has no non-volatile memory; expected no NV image");
-  // A memory whose content a bench gives names no firmware.
+  // A memory whose content the bench gives does not name a firmware.
   const auto& firmwares = device.model().firmwares;
   if (!image.firmware.empty() && image.model == device.model().name &&
       std::find(firmwares.begin(), firmwares.end(), parse_firmware(image.firmware)) == firmwares.end()) {

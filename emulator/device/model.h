@@ -28,14 +28,14 @@ class CommandWindow;
 class Device;
 class ProgramLanguage;
 
-/// A row of a model's parameter numbers: the `count` numbers from `first` on stand for the registers called
-/// `register_name`, beginning with its first one.
+/// A row of a model's parameter numbers: the `count` numbers from `first` on belong to the registers called
+/// `register_name`, beginning with the first of these.
 struct ParameterRow {
   int first = 0;
   int count = 1;
   std::string_view register_name;  // as in the register table, "{}" for the number
   std::string_view letter{};       // before the number, if any: "X" in X20
-  bool of_each_axis = false;       // one number stands for all axes: X20 is a register for each axis
+  bool of_each_axis = false;       // one number covers all axes: X20 is one register per axis
 };
 
 /// A row of a table of parameters, for a model whose values have no registers.
@@ -75,13 +75,13 @@ struct CommandRow {
   std::string_view where{};  // where it may be used
 };
 
-/// A connection of the device with the outside, as its manual names it.
+/// A connection of the device to the outside, as its manual names it.
 struct TerminalRow {
   enum class Kind : std::uint8_t {
     digital_in,     // 1: conducting
     digital_out,    // 1: conducting
     analog_in,      // millivolts
-    analog_number,  // an analog input that the maker counts without a unit
+    analog_number,  // an analog input whose values the maker gives without a unit
     dip_switch,     // on the housing: 1 is ON
     counted_in,     // a hand wheel, pulses or encoder phases: the total count so far, modulo 2^32
     analog_out,     // millivolts
@@ -127,7 +127,7 @@ struct AxisRow {
   int ready_input = -1;
   int servo_output = -1;
   int alarm_clear_output = -1;
-  int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
+  int pulses_per_revolution = 0;  // factory setting, for an encoder on the motor
   int near_home_input = -1;
   int mark_input = -1;
   int index_input = -1;  // the index pulse of the encoder
@@ -157,15 +157,15 @@ struct PortRow {
     rs485,
   } kind = Kind::rs485;
   std::string_view name;       // letters, digits, _ and -, as in a bench
-  std::span<const int> bauds;  // the speeds it can be set to, the factory's first
-  pty::LineSettings settings;  // the rest; `baud` is replaced by the chosen one
+  std::span<const int> bauds;  // the speeds it can be set to; the factory setting is the first
+  pty::LineSettings settings;  // the other settings; `baud` is replaced by the chosen speed
 };
 
 /// The model's rules for its lines, whatever their protocol.
 struct LineRules {
   const Protocol& protocol;
-  std::span<const PortRow> ports;                   // at least one; a bench that names none means the first
-  std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
+  std::span<const PortRow> ports;                   // at least one; if a bench names none, the first is used
+  std::optional<StationNumbers> station_numbers{};  // none: a device has no number, and is alone on its line
 };
 
 /// A limit for one request that is lower than the standard's.
@@ -182,8 +182,8 @@ struct IdentityObject {
 
 /// The model's rules for receiving Modbus RTU frames.
 struct RtuRules {
-  pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
-  std::span<const std::uint8_t> functions;  // function codes it knows
+  pty::SimTime end_silence{0};              // the silence that ends a frame; a device replies no earlier
+  std::span<const std::uint8_t> functions;  // supported function codes
   std::span<const FunctionLimit> limits{};
   std::span<const IdentityObject> identity{};  // for function 43/14, in ascending order
   std::string_view server_id{};                // for function 17
@@ -192,15 +192,15 @@ struct RtuRules {
 /// The settings from which one device of a model is made.
 struct DeviceSettings {
   std::string name;
-  Firmware firmware = 0;                           // 0: the model's default
-  std::optional<int> address{};                    // its station number; none: 1, or the number in its memory
-  std::vector<int> bauds{};                        // of its ports; 0, or none: the factory's
-  int modules = 0;                                 // of a chain; 0: the model's default
-  std::map<std::string, std::string> choices;      // overrides
-  std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
-  std::optional<NvImage> nv;                       // the content of its memory; by default the factory's
-  std::string program;                             // text, loaded when it is made
-  std::string program_name;                        // the file it is from, for messages
+  Firmware firmware = 0;                       // 0: the model's default
+  std::optional<int> address{};                // its station number; none: 1, or the number in its memory
+  std::vector<int> bauds{};                    // of its ports; 0 or missing: the factory setting
+  int modules = 0;                             // of a chain; 0: the model's default
+  std::map<std::string, std::string> choices;  // overrides
+  std::map<std::string, bool> dip;             // switches on the housing, by the terminal's name
+  std::optional<NvImage> nv;                   // the content of its memory; by default the factory settings
+  std::string program;                         // text, loaded when it is made
+  std::string program_name;                    // the file it is from, for messages
   std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
   std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
 };
@@ -209,7 +209,7 @@ struct DeviceSettings {
 struct FirstFiles {
   std::string_view bench;
   std::string_view steps;
-  std::string_view first_move{};  // steps that move an axis in any bench, if those of the scenario may not
+  std::string_view first_move{};  // steps that move an axis in any bench, if the scenario's steps may not
 };
 
 /// A step that stops everything that moves: a register and its value, a command of the window, or a line of
@@ -227,7 +227,7 @@ struct Model {
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
   const CommandWindow* window = nullptr;      // for commands that have names; null: there are none
-  const ProgramLanguage* language = nullptr;  // of the programs that its devices take; null: they take none
+  const ProgramLanguage* language = nullptr;  // of the programs that its devices run; null: they run none
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
@@ -246,7 +246,7 @@ struct Model {
   std::span<const StopStep> stop{};         // in this order; none: it cannot be stopped over its line
   /// Returns what a message to the window can do; null: there is no window.
   Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
-  /// Returns what a line of text can do; null: it takes no lines.
+  /// Returns what a line of text can do; null: the device accepts no text lines.
   Hazards (*hazards_of_line)(std::string_view line) = nullptr;
   /// Returns what a line of text does to the entry of a program; null: programs are not entered as lines.
   EditMark (*edit_mark_of_line)(std::string_view line) = nullptr;
@@ -268,7 +268,7 @@ class ModelFiles {
   virtual const Model& load(const std::string& path, std::vector<FileClaim>& files) = 0;
   /// Parses a text that is complete in itself. `name` stands for the file in messages.
   virtual const Model& parse(const std::string& text, const std::string& name) = 0;
-  /// Returns remarks on what its files leave open, and on how that was interpreted.
+  /// Returns remarks on what the model's files leave open, and on how that was interpreted.
   virtual std::vector<FileError::Diagnostic> remarks_on(const Model& model) const = 0;
 };
 
@@ -317,7 +317,7 @@ std::optional<std::size_t> find_port(const Model& model, std::string_view name);
 std::string port_text(const Model& model, std::size_t port);
 /// Returns no rows if the model has no registers.
 std::span<const RegisterRow> register_rows(const Model& model);
-/// Returns a register by its name, or nothing, also if the model has no registers.
+/// Returns a register by its name, or nothing if there is none of that name.
 std::optional<NamedPlace> find_register(const Model& model, std::string_view name, Firmware firmware);
 /// Returns one line that explains why there is no such register.
 std::string why_no_register(const Model& model, std::string_view name, Firmware firmware);

@@ -1,5 +1,5 @@
-// Programs as numbers: the form in which a program goes over the wire, a row of numbers for each line. `asm`
-// prints it and `disasm` reads it.
+// Programs as numbers: the form in which a program goes over the wire, with one row of numbers for each line.
+// `asm` prints it and `disasm` reads it.
 #pragma once
 
 #include <cstddef>

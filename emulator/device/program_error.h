@@ -9,7 +9,7 @@
 namespace understudy::emulator {
 
 struct ProgramMistake {
-  int line = 0;      // of the text, from 1; 0: the whole
+  int line = 0;      // of the text, from 1; 0: the whole text
   int column = 0;    // in bytes, from 1; 0: the whole line
   std::string what;  // "operand 2: 'maybe' is not a level; expected ON or OFF"
 
@@ -36,7 +36,7 @@ inline std::string in_line(const ProgramMistake& mistake) {
   return (mistake.column == 0 ? "" : "column " + std::to_string(mistake.column) + ": ") + mistake.what;
 }
 
-/// Thrown for a program that a device cannot take. It has all mistakes in the order of the text, at least
+/// Thrown for a program that a device cannot load. It lists all mistakes in the order of the text, at least
 /// one; what() quotes the first.
 struct ProgramError : std::runtime_error {
   explicit ProgramError(std::vector<ProgramMistake> all)

@@ -58,8 +58,8 @@ class ProgramLanguage {
   virtual std::string_view file_ending() const = 0;
   /// Returns no rows if another table of the model has the instructions (Model::commands).
   virtual std::span<const InstructionRow> instructions() const { return {}; }
-  /// Returns the names of the operand cells, if every instruction has the same fixed cells; each row then
-  /// has one OperandRow for each cell. Returns none if instructions have operands of their own.
+  /// Returns the names of the operand cells, if every instruction has the same fixed cells; each row then has
+  /// one OperandRow for each cell. Returns none if instructions have individual operands.
   virtual std::span<const std::string_view> operand_cells() const { return {}; }
   /// Returns all mistakes in a text, in its order, as loading it into a device made from `settings` would
   /// report them. The settings have been checked and name a firmware.

@@ -1,6 +1,6 @@
-// A device's terminals, by their number in the model's table. This is a facet: Device::terminals() is null
-// if a device has none. Levels from outside are set on the device itself (Device::set_input()), because they
-// exist while it is off, too.
+// A device's terminals, by their number in the model's table. This is a facet: Device::terminals() is null if
+// a device has none. Levels from outside are set on the device itself (Device::set_input()), because they
+// exist even while the device is off.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ class Terminals {
   ~Terminals() = default;
 };
 
-/// The terminals as observers see them, in the order of the model's table: groups as words, and for pulse
-/// outputs also their counts.
+/// The terminals as observers see them, in the order of the model's table: groups as words, and pulse outputs
+/// with their counts.
 struct TerminalView {
   enum class What : std::uint8_t { level, word, pulses } what = What::level;
   std::string name;  // "DIN_3", "DI_8", "CMP.pulses"

@@ -1,5 +1,5 @@
-// A model's transition table: what something in its devices does when an event comes, by what it is doing.
-// The code looks up the tables of the model itself; this is their outline, for coverage.
+// A model's transition table: how a part of its devices reacts to each event in each state. The code looks up
+// the model's own tables; this is their outline, for coverage.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The program that a user loads into a device, in the language of its model (program_language.h). This is a
-// facet: Device::user_program() is null if a device takes no program.
+// facet: Device::user_program() is null if a device runs no program.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ class UserProgram {
   virtual std::string program_text() const = 0;
   /// Returns the positions for observers.
   virtual std::vector<ProgramLocation> program_locations() const { return {}; }
-  /// Adds an observer, which is not part of the state. It is notified of all lines from the next ones on;
+  /// Adds an observer, which is not part of the state. It is notified of every line that runs from now on;
   /// before that it receives the program's mark (ProgramWatch::program_loaded()).
   void add_watch(ProgramWatch& watch) {
     watches_.add(watch);

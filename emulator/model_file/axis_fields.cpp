@@ -80,7 +80,7 @@ int read_input(const YamlFields& field, const Description& description) {
 struct Need {
   std::string_view key;
   std::string_view needed;
-  std::string_view instead{};  // may stand in for `needed`
+  std::string_view instead{};  // can replace `needed`
 };
 constexpr std::array<Need, 10> kNeeds{{{"start", "target"},
                                        {"start", "speed"},

@@ -36,14 +36,14 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') + 1 - begin));
 }
 
-constexpr std::string_view kEquals = " == ";  // names may have signs without blanks around them
+constexpr std::string_view kEquals = " == ";  // names may contain operators without blanks around them
 
 std::uint32_t mask_of(const Spot& spot) {
   return spot.is_whole() ? ~0U : bits(spot.bit, "", spot.width).mask();
 }
 
-/// Reports a condition or relation without any of its possible signs, and names the sign that people often
-/// write instead.
+/// Reports a condition or relation without any of its possible operators, and names the operator that people
+/// often write instead.
 void require_known_sign(const YamlFields& field, const std::string& text,
                         std::initializer_list<std::string_view> known, std::string_view expected,
                         std::string_view example) {

@@ -42,7 +42,7 @@ class Binder {
   models::imported::Quantity quantity(const world::YamlFields& field) const {
     return quantity(field, field.text());
   }
-  /// Reads seconds: a register whose unit in the list is one of time, or a duration.
+  /// Reads seconds: a register whose unit in the list is a unit of time, or a duration.
   models::imported::Quantity time(const world::YamlFields& field) const;
   /// Reads "TEMPERATURE > LIMIT", without setting its spot.
   models::imported::Comparison comparison(const world::YamlFields& field) const;

@@ -107,7 +107,7 @@ class CsvReader {
                     "registers: " + quoted(more) + " follows a quoted cell; expected a separator");
   }
 
-  /// Reads a quoted field. Two quotes in it stand for one.
+  /// Reads a quoted field. Two quotes in it mean one.
   std::string read_quoted(int column) {
     const int line = line_;
     std::string text;

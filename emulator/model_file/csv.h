@@ -18,7 +18,7 @@ struct CsvRow {
 
 /// Returns the rows of a text, without empty rows and those that begin with #. The separator is the most
 /// frequent one in the first line that has any: comma, semicolon or tab. A byte order mark is ignored. Throws
-/// FileError with `file` if a quotation does not end.
+/// FileError with `file` if a quoted field does not end.
 std::vector<CsvRow> parse_csv(const std::string& text, const std::string& file);
 
 }  // namespace understudy::emulator::model_file

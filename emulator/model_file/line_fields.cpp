@@ -76,7 +76,7 @@ void read_limits(const YamlFields& field, Line& line) {
   }
 }
 
-/// Reads the objects of the device identification. Those that every device has are there in any case.
+/// Reads the objects of the device identification. The objects that every device has are always present.
 void read_identity(const YamlFields& field, Line& line) {
   field.require_keys(kIdentityKeys);
   line.identity.clear();

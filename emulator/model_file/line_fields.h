@@ -13,7 +13,7 @@ namespace understudy::emulator::model_file {
 /// Returns the index of a word in a schema's list. Throws FileError for any other word.
 std::size_t read_word(const world::YamlFields& field, const world::Schema& schema);
 
-/// Reads everything except `station_in`. Keeps all errors.
+/// Reads everything except `station_in`. Collects all errors.
 void read_line(const world::YamlFields& fields, models::imported::Line& line,
                world::Diagnostics& diagnostics);
 void read_policy(const world::YamlFields& fields, MapPolicy& policy, world::Diagnostics& diagnostics);

@@ -90,7 +90,7 @@ std::optional<PrintedAddress> parse_one(std::string_view text, bool is_hexadecim
   return PrintedAddress{.number = *after, .last = *after, .table = listed_table_called(letters)};
 }
 
-/// Takes a bit off the end: "10.3", "10.b3", "10:3". Returns its number, or -1.
+/// Removes a bit number from the end: "10.3", "10.b3", "10:3". Returns its number, or -1.
 int take_bit(std::string_view& text) {
   const std::size_t sign = text.find_last_of(".:");
   if (sign == std::string_view::npos || sign == 0) return -1;

@@ -24,7 +24,7 @@ struct PrintedAddress {
   int words() const { return static_cast<int>(last - number) + 1; }
 };
 
-/// Returns nothing for a text that is not an address. `is_hexadecimal`: plain digits are hexadecimal as well.
+/// Returns nothing for a text that is not an address. If `is_hexadecimal`, plain digits are hexadecimal too.
 std::optional<PrintedAddress> parse_address(std::string_view text, bool is_hexadecimal);
 /// Returns true for a number that only its letters show to be hexadecimal: "10A0".
 bool has_hexadecimal_letters(std::string_view text);
@@ -37,9 +37,10 @@ struct WireAddress {
 /// Returns nothing if the number does not suit the reading.
 std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressReading reading);
 
-/// Collects evidence from all addresses of a list for what they count.
+/// Collects evidence of what the addresses of a list count.
 struct AddressEvidence {
-  /// `table`: that of the row's own cell, if it has one. `holds_words`: the row's type is not a bit.
+  /// `table` is the table in the row's own cell, if it has one. `holds_words` is true if the row's type is
+  /// not a bit.
   void add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);
 
   /// Returns the only possible reading, if there is one.
@@ -47,8 +48,8 @@ struct AddressEvidence {
   /// Returns the likely reading, or nothing if two are likely.
   std::optional<AddressReading> likely() const;
 
-  bool all_are_modicon = true;   // they lie in the blocks of their tables, 40001 to 49999 and so on
-  bool any_has_a_block = false;  // beyond those of coils, which are plain numbers
+  bool all_are_modicon = true;   // all lie in the blocks of their tables, 40001 to 49999 and so on
+  bool any_has_a_block = false;  // other than that of coils, which are plain numbers
   bool beyond_the_wire = false;  // 400001
   bool begins_a_block = false;   // one of the first ten: 40001 to 40010, for example
   std::int64_t lowest = INT64_MAX;

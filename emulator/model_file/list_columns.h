@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// The place of a list: a file of its own, or another file, in which it follows line `lines_before`.
+/// The place of a list: a separate file, or another file in which the list follows line `lines_before`.
 struct ListPlace {
   std::string file;
   int lines_before = 0;
@@ -26,7 +26,7 @@ struct ColumnPlan {
   bool operator==(const ColumnPlan&) const = default;
 };
 
-/// Keeps all errors. The plan is useless if there were any.
+/// Collects all errors. The plan is unusable if there were any.
 ColumnPlan plan_columns(const std::vector<CsvRow>& rows, const ListReading& reading, const ListPlace& place,
                         world::Diagnostics& diagnostics, Remarks& remarks);
 

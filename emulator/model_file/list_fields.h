@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Keeps all errors.
+/// Collects all errors.
 void read_list_fields(const world::YamlFields& fields, ListReading& reading, world::Diagnostics& diagnostics);
 
 /// Parses "address=Reg,name=Tag". Throws std::invalid_argument with what is wrong and what was expected.
@@ -18,7 +18,7 @@ void parse_columns(const std::string& text, ListReading& reading);
 /// Returns the section `list` of a model file, or an empty text if it is not needed.
 std::string list_section(const ListReading& reading, AddressReading addresses);
 
-/// Returns any text as a scalar of YAML.
+/// Returns any text as a YAML scalar.
 std::string quoted_yaml(const std::string& text);
 
 }  // namespace understudy::emulator::model_file

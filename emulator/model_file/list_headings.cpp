@@ -1,4 +1,4 @@
-// The headings of columns, in the order of the columns. A heading may have several meanings.
+// The column headings, in the order of the columns. A heading may have several meanings.
 #include <array>
 
 #include "emulator/model_file/list_words.h"

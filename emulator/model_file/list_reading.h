@@ -25,15 +25,14 @@ inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_
 /// A user's settings for a list: flags of `import`, or `list` in a model file.
 struct ListReading {
   std::vector<std::pair<Column, std::string>> columns{};  // and their headings
-  std::optional<AddressReading> addresses{};              // none: wire, unless they cannot be that
-  bool guesses_addresses = false;                         // false: refuses uncertain ones
+  std::optional<AddressReading> addresses{};              // none: wire, unless that is impossible
+  bool guesses_addresses = false;                         // false: uncertain addresses are refused
   Table table = Table::holding;                           // of rows that do not name one
   std::string encoding{};                                 // empty: guessed
   std::vector<Firmware> firmwares{};                      // that rows may begin with; empty: any
 };
 
-/// Collects what a reader had to guess or pass over. It keeps the first remark of each kind, and counts the
-/// rest.
+/// Collects what a reader had to guess or skip. It keeps the first remark of each kind, and counts the rest.
 class Remarks {
  public:
   void add(const std::string& kind, const FilePlace& place, const std::string& text) {
@@ -41,7 +40,7 @@ class Remarks {
     if (first.text != text || first.place.line != place.line || first.place.column != place.column) ++more;
   }
   void add(const Remarks& others) { all_.insert(others.all_.begin(), others.all_.end()); }
-  /// Returns them in the order of the list.
+  /// Returns the remarks in the order of the list.
   std::vector<FileError::Diagnostic> all() const;
 
  private:

@@ -51,7 +51,7 @@ class ListRow {
   /// Adds a remark about something ignored or guessed at the column's cell.
   void remark(const std::string& kind, Column column, const std::string& what) const;
   bool yes_or_no(Column column) const;
-  /// Returns what the cell `type` stands for.
+  /// Returns the meaning of the cell `type`.
   const std::optional<TypeMeaning>& type() const { return context_.types.of(text(Column::type)); }
 
  private:

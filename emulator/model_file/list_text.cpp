@@ -21,14 +21,14 @@ namespace understudy::emulator::model_file {
 
 namespace {
 
-/// The system's names of encodings. Spreadsheets write Windows-1252 where they say Latin-1.
+/// The system's names for encodings. Spreadsheets that claim to write Latin-1 write Windows-1252.
 constexpr std::array<std::pair<std::string_view, const char*>, 4> kSystemNames{
     {{"utf-16", "UTF-16"}, {"latin-1", "WINDOWS-1252"}, {"big5", "BIG5-HKSCS"}, {"gbk", "GBK"}}};
 
 /// Returns nothing if the bytes are not in this encoding.
 std::optional<std::string> converted(const std::string& bytes, const char* encoding) {
   iconv_t const converter = iconv_open("UTF-8", encoding);
-  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: as POSIX has it
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;  // NOLINT: as POSIX defines it
   std::string made;
   std::string input = bytes;
   char* from = input.data();
@@ -48,7 +48,8 @@ std::optional<std::string> converted(const std::string& bytes, const char* encod
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
-/// Returns true if letters beyond ASCII stand alone, as in European languages. Chinese ones take two bytes.
+/// Returns true if letters beyond ASCII are single bytes, as in European languages. Chinese characters take
+/// two bytes.
 bool stand_alone(const std::string& bytes) {
   std::size_t alone = 0;
   std::size_t pairs = 0;

@@ -75,7 +75,7 @@ bool has_decimals(std::string_view text) {
 }
 
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step) {
-  // (value - offset) / step, with all numbers as whole ones of the smallest place.
+  // (value - offset) / step, with all numbers as integers in units of the last decimal place.
   const int places = std::max({value.places, step.offset.places, step.step.places});
   const auto whole = [&](const Decimal& number) -> std::optional<std::int64_t> {
     std::int64_t made = 0;

@@ -1,4 +1,5 @@
-// Numbers of a list as people print them: in counts, or in the unit with decimals; ranges and enumerations.
+// Parses the numbers of a list as people print them, in counts or in the unit with decimals, and also ranges
+// and enumerations.
 #pragma once
 
 #include <cstdint>
@@ -30,13 +31,14 @@ struct Step {
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step);
 /// Returns the step that a unit such as "0.01Hz" begins with.
 std::optional<Step> step_of_unit(std::string_view unit);
-/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 means N counts for one.
+/// Returns the step of a scale: "0.1", "x0.1", "/10". A whole number N above 1 means that N counts make one
+/// unit.
 std::optional<Step> step_of_scale(std::string_view scale);
 
 /// Returns the two ends of "0..3000", "-5 to 5" or "0-100", as they are written.
 std::optional<std::pair<std::string, std::string>> ends_of(const std::string& range);
 
-/// A value, and what it stands for: "0: off".
+/// A value and its meaning: "0: off".
 struct NamedValue {
   std::int64_t value = 0;
   bool is_bit = false;  // "b0: off"

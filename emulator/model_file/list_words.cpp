@@ -257,7 +257,7 @@ constexpr std::array kTypeWords{
     TypeWord{"字串", TypeKind::text, Type::u16, 0},
 };
 
-/// Returns a word without parts in parentheses, blanks and signs: "R/W" is "rw".
+/// Returns a word without parts in parentheses, blanks and punctuation: "R/W" is "rw".
 std::string word_key(std::string_view text) {
   std::string key;
   int depth = 0;
@@ -371,7 +371,7 @@ std::optional<TypeMeaning> type_called(std::string_view word) {
   const TypeWord* const found = find_type(key);
   if (found != nullptr && found->words != 0) return meaning_of(*found);
   if (const auto meaning = with_order(key)) return meaning;
-  // "STRING(16)": the number stands in parentheses.
+  // "STRING(16)": the number is in parentheses.
   std::string whole;
   for (const char c : word) {
     if (c != '(' && c != ')') whole += c;

@@ -1,5 +1,5 @@
-// The words of register lists, as tables of data: headings of columns, types, kinds of access, tables and
-// orders of bytes, in the languages of manuals.
+// The words of register lists, as tables of data: column headings, types, access modes, register tables and
+// byte orders, in the languages of manuals.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,7 @@ std::span<const Heading> headings();
 std::string_view name_of(Column column);
 /// Returns the column of that name.
 std::optional<Column> column_called(std::string_view name);
-/// Returns a heading in lower case, without parts in parentheses, with single blanks for signs.
+/// Returns a heading in lower case, without parts in parentheses, with single blanks in place of punctuation.
 std::string heading_key(std::string_view heading);
 /// Returns true if a heading says that its numbers are hexadecimal: "Address (hex)".
 bool says_hexadecimal(std::string_view heading);

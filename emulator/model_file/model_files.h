@@ -1,4 +1,4 @@
-// Makes models from files. The command line passes it on with the list of models.
+// Makes models from files. The command line passes this object on with the list of models.
 #pragma once
 
 #include <map>

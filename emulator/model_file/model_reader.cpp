@@ -53,7 +53,7 @@ struct ReadList {
 
 ReadList read_list(const YamlFields& field, bool may_read, const std::string& encoding,
                    std::vector<FileClaim>& files, Remarks& remarks) {
-  if (field.text().find('\n') != std::string::npos)  // its first line is below that of the key
+  if (field.text().find('\n') != std::string::npos)  // its first line is below the key's line
     return {field.text(), {.file = field.file(), .lines_before = field.line()}};
   if (!may_read) field.fail("is a path; expected the list itself, since a recording contains everything");
   const std::string path = field.path();
@@ -115,7 +115,7 @@ void read_bits(const YamlFields& field, Description& made, Diagnostics& diagnost
   }
 }
 
-/// Returns a map of registers that were each found valid.
+/// Returns a map of registers that have been validated one by one.
 std::unique_ptr<RegisterMap> plain_map(const Description& made, std::vector<std::vector<BitField>>& fields,
                                        const YamlFields& list) {
   try {
@@ -172,7 +172,7 @@ class ModelReader {
     made_.line.server_id = made_.name;
     read("line", [&](const YamlFields& field) { read_line(field, made_.line, diagnostics_); });
     if (list_is_whole_) diagnostics_.attempt([&] { read_bindings(); });
-    // Only if everything is correct: an alias may be inside the node that it names.
+    // The text is complete only if everything is correct: an alias may be inside the node that it names.
     if (diagnostics_.count() == 0) made_.text = whole_text(root_, list_);
     made_.remarks = remarks_.all();
     return std::move(made_);

@@ -233,7 +233,7 @@ class ListReader {
   ColumnPlan plan_;
   KnownTypes types_;
   ListContext context_{reading_, plan_, place_, AddressReading::wire, list_.remarks, types_};
-  std::vector<const CsvRow*> cells_;  // of the rows with something in them
+  std::vector<const CsvRow*> cells_;  // of the rows that are not empty
   std::vector<ListRow> read_rows_;    // those rows
   std::vector<std::optional<PrintedAddress>> printed_;
   AddressEvidence evidence_;

@@ -19,8 +19,8 @@ struct RegisterList {
 };
 
 /// Returns the registers of a list (UTF-8), in its order. They make a valid register map: no two share an
-/// address or a name, and values suit their types. Keeps all errors with line and column; the rows concerned
-/// are left out.
+/// address or a name, and values suit their types. Collects all errors with line and column; the rows
+/// concerned are left out.
 RegisterList read_register_list(const std::string& text, const ListPlace& place, const ListReading& reading,
                                 world::Diagnostics& diagnostics);
 

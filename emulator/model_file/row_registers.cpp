@@ -57,7 +57,8 @@ WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& 
   row.fail(Column::address, quoted(row.text(Column::address)) + " is not an address; expected " + expected);
 }
 
-/// Takes a name as the manual prints it. If expressions cannot contain it, they use one with other letters.
+/// Reads a name as the manual prints it. If expressions cannot contain this name, they use one with other
+/// characters.
 void read_name(const ListRow& row, ListedRegister& listed) {
   const std::string& name = row.text(Column::name);
   if (name.empty()) row.fail(Column::name, "is missing; expected one in every row");

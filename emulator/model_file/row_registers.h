@@ -14,12 +14,12 @@ namespace understudy::emulator::model_file {
 /// A row has several registers if it is text, has 64 bits, or names a range of addresses.
 struct RowRegisters {
   std::vector<models::imported::ListedRegister> registers{};
-  /// Set if the row describes only some bits of its register, which another row may describe as well.
+  /// Set if the row describes only some bits of its register; another row may describe the other bits.
   std::optional<models::imported::BitName> part{};
 };
 
-/// Keeps all errors; the result is empty if there was one. `printed`: the row's address, or nothing if it is
-/// not one.
+/// Collects all errors; the result is empty if there was one. `printed`: the row's address, or nothing if it
+/// is not one.
 RowRegisters registers_of(const ListRow& row, const std::optional<PrintedAddress>& printed,
                           world::Diagnostics& diagnostics);
 /// Returns the table that the row's own cells give.

@@ -1,4 +1,4 @@
-// The type of a row: how many words it takes, and what they hold.
+// The type of a row: how many words it occupies, and what they hold.
 #pragma once
 
 #include "emulator/device/register_map/row.h"

@@ -17,7 +17,7 @@ std::string unit_of(const ListRow& row);
 /// Returns the words of a text or of a quantity of 64 bits after power-up, in the order of the wire.
 std::vector<std::uint16_t> factory_words(const ListRow& row, const RowShape& shape);
 
-/// Returns a name in the letters that names of bits may have.
+/// Returns a name in the characters that bit names may have.
 std::string as_word(const std::string& text);
 
 }  // namespace understudy::emulator::model_file

@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Returns the registers of a list in a file of its own. Throws FileError with all mistakes.
+/// Returns the registers of a list in a separate file. Throws FileError with all mistakes.
 RegisterList read_list_file(const std::string& bytes, const std::string& path, const ListReading& reading);
 
 /// Returns a model file: the path of the list, usual settings of line and map, and an axis in comments, with

@@ -1,4 +1,4 @@
-// The names and addresses of a list that are taken, and the lines that took them.
+// The names and addresses of a list that are in use, and the lines that use them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace understudy::emulator::model_file {
 
 class TakenPlaces {
  public:
-  /// Renames a register that has the name of an earlier one. Throws FileError if an address is taken.
+  /// Renames a register that has the name of an earlier one. Throws FileError if an address is in use.
   void place(const ListRow& row, std::vector<models::imported::ListedRegister>& registers);
   /// Remembers registers; the first of them has this number in the list.
   void take(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,

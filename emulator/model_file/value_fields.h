@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::model_file {
 
-/// Reads `inputs`, or `outputs` that follow them. Like the other readers, it keeps all errors.
+/// Reads `inputs`, or the `outputs` that follow them. Like the other readers, it collects all errors.
 void read_terminals(const world::YamlFields& fields, bool are_inputs, models::imported::Description& made,
                     Binder& binder, world::Diagnostics& diagnostics);
 void read_followings(const world::YamlFields& fields, models::imported::Description& made, Binder& binder,

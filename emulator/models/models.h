@@ -1,4 +1,4 @@
-// The list of all controllers. The folders that run them do not know this list: they receive it.
+// The list of all controllers. The folders that run them do not depend on this list: they receive it.
 #pragma once
 
 #include "emulator/device/model.h"

@@ -40,7 +40,7 @@ std::string hex2(unsigned number) {
   return text.data();
 }
 
-/// Formats an opcode with as many digits as the maker's manual does.
+/// Formats an opcode with as many digits as the maker's manual uses.
 std::string opcode_text(int opcode) {
   return opcode > 0xFF ? hex4(static_cast<unsigned>(opcode)) : hex2(static_cast<unsigned>(opcode));
 }
@@ -66,7 +66,7 @@ std::string_view section_in_english(const Model& model, std::string_view section
   return section;
 }
 
-/// Returns "狀態相關 (status)".
+/// Returns a section with its English name: "狀態相關 (status)".
 std::string section_for_people(const Model& model, std::string_view section) {
   const std::string_view english = section_in_english(model, section);
   return std::string(section) + (english == section ? "" : " (" + std::string(english) + ")");
@@ -87,7 +87,7 @@ std::string modicon_number(Table table, int address) {
   return std::string(first) + std::string(static_cast<std::size_t>(digits) - 1 - number.size(), '0') + number;
 }
 
-/// Returns "0 READY, 4-7 STATE".
+/// Returns the named bits of a register: "0 READY, 4-7 STATE".
 std::string fields_of(const RegisterRow& row) {
   std::string text;
   for (const BitField& field : row.fields) {
@@ -105,7 +105,8 @@ std::string_view order_text(const RegisterRow& row, const MapPolicy& policy) {
   return low_first ? "cdab" : "abcd";
 }
 
-/// Returns "1" if the register is persistent, else "0". For people, it is "at once" if storing takes no time.
+/// Returns "1" if the register is persistent, else "0". In the table for people it returns "at once" if
+/// storing takes no time.
 std::string kept_text(const RegisterRow& row, bool for_people) {
   if (for_people && row.needs_no_time) return "at once";
   return row.persistent ? "1" : "0";
@@ -119,8 +120,8 @@ bool any_row(const Model& model, Holds holds) {
 
 bool has_meaning(const RegisterRow& row) { return !row.meaning.in_english.empty() || !row.meanings.empty(); }
 
-/// Returns true if the sheets of registers and parameters say what each of them stands for. In CSV, the
-/// columns of registers are those that `import` reads.
+/// Returns true if the sheets of registers and parameters give the meaning of each row. In CSV, the columns
+/// of registers are those that `import` reads.
 bool shows_meanings(const Model& model, SheetFormat format) {
   return format != SheetFormat::csv && any_row(model, has_meaning);
 }
@@ -179,7 +180,7 @@ std::string number_of(const ParameterRow& row, int index) {
   return std::string(row.letter) + std::to_string(row.first + (row.of_each_axis ? 0 : index));
 }
 
-/// Lists the parameters. If they are registers, the table of registers has the other facts about them.
+/// Lists the parameters. If they are registers, the register table has their other properties.
 Sheet parameters(const Model& model, SheetFormat format) {
   const bool has_named = !model.named_parameters.empty();
   const bool has_meanings = shows_meanings(model, format);
@@ -328,7 +329,7 @@ Sheet ports(const Model& model) {
   return sheet;
 }
 
-/// Lists the kinds of text blocks that a device keeps. It makes a device, because only a device knows them.
+/// Lists the kinds of text blocks that a device keeps. Makes a device, because only a device has this list.
 Sheet blocks(const Model& model) {
   Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
   const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});

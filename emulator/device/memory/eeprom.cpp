@@ -55,7 +55,7 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
     const Job done = jobs_.front();
     jobs_.erase(jobs_.begin());
     if (done.slot == kEverything) {
-      // Values written since the rewrite began are not stored here: they wait, and may yet be lost.
+      // Values written since the rewrite began are not stored here: they are still waiting and can be lost.
       keep_all(rewriting_, false);
       rewriting_.clear();
     } else {

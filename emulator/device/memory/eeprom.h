@@ -1,6 +1,7 @@
-// Models the memory behind a register image: an EEPROM, and in addition a battery-backed RAM or an FRAM. A
+// Models the memory behind a register image: an EEPROM, and optionally a battery-backed RAM or an FRAM. A
 // write to a persistent register waits its turn and takes time; afterwards the value survives power-off. A
-// register in battery RAM or FRAM survives from the write on. It is a value: it can be copied and compared.
+// register in battery-backed RAM or FRAM survives as soon as it is written. The class is a value: it can be
+// copied and compared.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,13 @@ class Eeprom {
  public:
   Eeprom() = default;
   /// `factory` has the factory value of each slot; `is_persistent` says which slots are persistent. `at_once`
-  /// says which of those a battery or an FRAM keeps without delay; by default none.
+  /// says which of those are stored without delay, in battery-backed RAM or FRAM; by default none.
   Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_persistent,
          std::span<const bool> at_once = {});
 
   /// Queues a register that was written after tick `now`; `bits` is its content. A value that is already
-  /// stored is not written again (unless `even_if_same`), and a register that already waits keeps its place
-  /// in the queue. A battery or an FRAM stores the value at once.
+  /// stored is not written again (unless `even_if_same`), and a register that is already waiting keeps its
+  /// place in the queue. Battery-backed RAM or FRAM stores the value at once.
   void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same = false);
   /// Starts writing the whole image as it is now, in place of all waiting writes, as an erasure does.
   void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
@@ -35,13 +36,13 @@ class Eeprom {
   void step(Tick tick, std::span<const std::uint32_t> image);
   /// Stores everything at once.
   void settle(std::span<const std::uint32_t> image);
-  /// The power fails: waiting writes are lost, and the register being written keeps its old value.
+  /// Handles a power failure: waiting writes are lost, and the register being written keeps its old value.
   void lose_power();
   /// Sets a stored value from outside.
   void put(std::size_t slot, std::uint32_t bits);
 
   bool writing() const { return done_at_ != kNever; }
-  /// Returns the tick at whose end step() has something to do, or kNever if nothing waits.
+  /// Returns the tick at whose end step() has something to do, or kNever if nothing is waiting.
   Tick next_active_tick() const { return done_at_; }
   std::span<const std::uint32_t> content() const { return content_; }
   /// Grows with every stored change.

@@ -22,14 +22,14 @@ struct NvEntryError : NvError {
         diagnostic(std::move(what_is_wrong)) {}
   List list;
   std::string kind;        // for blocks
-  std::string name;        // of the entry; empty for blocks: all of the kind
+  std::string name;        // of the entry; for blocks, empty means all of this kind
   std::string diagnostic;  // for messages that already name the entry
 };
 
 /// Makes the error for a refused value: "registers: " or "reals: ", then the reason.
 NvEntryError refused_value(NvEntryError::List list, const std::string& name, const std::string& why);
 
-/// Removes the refused entry. Returns true if it was there.
+/// Removes the refused entry. Returns true if the image contained it.
 bool take_away(const NvEntryError& refused, NvImage& image);
 
 }  // namespace understudy::emulator

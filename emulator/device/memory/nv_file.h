@@ -35,13 +35,13 @@ class NvWriter {
   NvWriter(const NvWriter&) = delete;
   NvWriter& operator=(const NvWriter&) = delete;
 
-  /// Takes the file's new contents.
+  /// Queues the file's new contents.
   void write(const std::string& path, std::string contents);
   /// Like the above; the helper thread makes the image and its text.
   void write(const std::string& path, LateImage image);
-  /// Waits until every image taken is on the disk or has failed.
+  /// Waits until every queued image is on the disk, or writing it has failed.
   void flush();
-  /// Returns true if nothing waits, nothing is being written, and there is no news.
+  /// Returns true if nothing is waiting or being written, and there is no news.
   bool is_idle() const;
   /// Returns the news since the last call: one line when a file cannot be written, and one when it can
   /// again.

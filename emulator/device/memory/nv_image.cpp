@@ -64,7 +64,7 @@ struct JsonPlace {
   bool operator!=(const JsonPlace& other) const { return at != other.at; }
 };
 
-/// Counts the lines up to places in the text. Places must be in ascending order.
+/// Counts the lines up to given positions of the text, which must be in ascending order.
 class LineCount {
  public:
   explicit LineCount(const std::string& text) : counted_to_(text.data()) {}
@@ -144,7 +144,7 @@ Parsed parse_strictly(const std::string& text) {
       throw NvError(block + "is not UTF-8; expected text", line_of(text, *wrong));
     }
     throw NvError("is damaged or not JSON; expected an NV image", line_of(text, error.byte));
-  } catch (const Json::exception&) {  // a number that fits into no type
+  } catch (const Json::exception&) {  // a number that fits in no type
     throw NvError("a number is too large; expected one that fits into 64 bits");
   }
 }

@@ -1,5 +1,5 @@
 // NV images hold a device's non-volatile memory, as a value and as a JSON file that people can read and
-// compare. An image names the entries that differ from the factory's values, in the order of the model's
+// compare. An image names the entries that differ from the factory values, in the order of the model's
 // table. Real numbers, a stored program and blocks of text are for models whose memory has them.
 #pragma once
 
@@ -34,7 +34,7 @@ struct NvImage {
   bool operator==(const NvImage& other) const;
 };
 
-/// Makes an image when it is called.
+/// A function that makes an image when it is called.
 using LateImage = std::function<NvImage()>;
 
 /// Reports an image that cannot be used, as one line: "field: what is wrong; what was expected", with "line

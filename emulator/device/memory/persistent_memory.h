@@ -19,9 +19,9 @@ class PersistentMemory {
   /// an image that the device cannot hold.
   NvImage nv_image() const { return content_now()(); }
   void load_nv(const NvImage& image);
-  /// Takes the memory's content at this moment. The result can make the image later, in another thread, even
-  /// when the device is gone. Taking it is quick (it copies numbers and shares texts); making the image
-  /// takes time.
+  /// Captures the memory's content at this moment. The result can make the image later, in another thread,
+  /// even after the device has been destroyed. Capturing is quick (it copies numbers and shares texts);
+  /// making the image takes time.
   LateImage content_now() const;
 
   /// Returns the named texts in the memory; null for most devices, which have none. Images include them
@@ -43,7 +43,7 @@ class PersistentMemory {
   /// Returns a function that writes the present content, except text_blocks(), into an image that already has
   /// model and firmware. The function refers to nothing in the device.
   virtual std::function<void(NvImage&)> memory_writer() const = 0;
-  /// Reads an image while the power is off. Entries that the image does not name get the factory's value.
+  /// Reads an image while the power is off. Entries that the image does not name get the factory value.
   /// Throws NvError for an image that the memory cannot hold; then nothing has changed.
   virtual void read_memory(const NvImage& image) = 0;
 

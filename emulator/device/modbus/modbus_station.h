@@ -11,7 +11,6 @@
 
 namespace understudy::emulator {
 
-/// Modbus RTU frames.
 inline constexpr Protocol kModbusRtu{"Modbus"};
 
 /// A station's reaction to the address of a frame.
@@ -22,7 +21,7 @@ class ModbusStation {
   virtual Addressing addressing(std::uint8_t address) const = 0;
   /// Returns true if the device supports this function code of its model.
   virtual bool knows(std::uint8_t /*function*/) const { return true; }
-  /// Returns the silence that ends a frame. `usual` is the model's.
+  /// Returns the silence that ends a frame. `usual` is the model's own value.
   virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }
   /// Returns the delay of a reply after that silence.
   virtual pty::SimTime reply_delay() const { return pty::SimTime{0}; }

@@ -171,7 +171,7 @@ Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
   return place && place.row->message != nullptr ? place : Place{};
 }
 
-/// Passes on a whole message, or refuses it. All its words must be in the window.
+/// Passes a complete message to the device, or refuses it. All its words must be in the window.
 Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
   const RegisterRow& row = *window.row;
   const auto max = static_cast<std::size_t>(row.count - window.index);
@@ -194,7 +194,7 @@ Objection write_message(RegisterBank& bank, const Place& window, const RegisterR
   return refused;
 }
 
-/// Executes a write outside windows that the device takes as one message.
+/// Executes a write outside windows that the device handles as one message.
 Objection write_whole(RegisterBank& bank, const RegisterRequest& request) {
   if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
@@ -240,8 +240,8 @@ void carry_out(RegisterBank& bank, Changes& changes) {
   bank.registers_written();
 }
 
-/// Returns the new value of the register, or of its half, when a value is written to the part that a name
-/// stands for. Returns nothing if the value does not fit.
+/// Returns the new value of the register, or of its half, when a value is written to the named part. Returns
+/// nothing if the value does not fit.
 std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, Value value) {
   const Place& place = named.place;
   const bool half = place.part != Place::Part::whole;

@@ -38,7 +38,7 @@ Value read_value(const RegisterBank& bank, const NamedPlace& place);
 /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
 /// not depend on time.
 Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done);
-/// Returns the number that a place's value stands for.
+/// Returns the number that the value of a place represents.
 double number_of(const NamedPlace& place, Value value);
 /// Returns the value for a number: its bits if the place holds a real. Returns nothing if the number is a
 /// fraction and the place holds whole numbers, or if it exceeds single precision.

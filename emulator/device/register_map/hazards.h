@@ -14,7 +14,7 @@ enum class Hazards : std::uint8_t {
   settings = 1,          // values change that start nothing
   memory = 2,            // something is stored that survives power-off
   output = 4,            // an output may switch
-  motion = 8,            // an axis may move, or move otherwise than before
+  motion = 8,            // an axis may move, or move differently from before
   stops_answering = 16,  // the controller may no longer answer at this address, or at all
   all = 31,
   unmarked = 63,  // a row without a mark; counts as all
@@ -33,7 +33,7 @@ constexpr Hazards beyond(Hazards hazards, Hazards allowed) {
 constexpr bool has(Hazards hazards, Hazards one) { return (hazards & one) != Hazards::reads; }
 
 /// What a line of text does to the entry of a program. Until that ends, every line is a part of the program,
-/// queries and stops as well.
+/// including queries and stops.
 enum class EditMark : std::uint8_t {
   none,
   begins,           // all lines from here on, up to one that ends it

@@ -60,7 +60,7 @@ inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest&
   return {};
 }
 
-/// Asks the device whether it takes a request that has passed all checks so far.
+/// Asks the device whether it accepts a request that has passed all checks so far.
 inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
   return objection_of(bank.admits(request, checked), request);
 }

@@ -125,7 +125,7 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
   const auto sources = bank.map().bit_sources(table);
   const auto image = bank.image();
-  // Most bits are 0, so only the ones are written.
+  // Most bits are 0, so only the bits that are 1 are written.
   const auto put = [&](std::size_t i, std::uint32_t bit) {
     if ((bit & 1U) != 0) packed[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
   };

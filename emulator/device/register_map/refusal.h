@@ -12,8 +12,8 @@ enum class Refusal : std::uint8_t {
   none,
   no_register,  // nothing at that address, or half a register if that is not allowed, or a write to a
                 // read-only register
-  bad_value,    // outside the register's range, or a message that the device does not take
-  busy,         // the device cannot take it now
+  bad_value,    // outside the register's range, or a message that the device does not accept
+  busy,         // the device cannot handle it now
   failure,      // the device cannot do it
 };
 
@@ -29,7 +29,7 @@ enum class Cause : std::uint8_t {
   cut_message,  // a write to a window that does not start at its first word, or passes its end
   out_of_range,
   bad_bit,      // a single bit written as neither 0x0000 nor 0xFF00
-  bad_message,  // a window's reader refused it
+  bad_message,  // the window's reader refused the message
   busy,
   failure,
 };

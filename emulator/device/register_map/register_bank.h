@@ -25,7 +25,7 @@ struct RegisterRequest {
   bool is_write() const { return !words.empty(); }
 };
 
-/// How much of a request is checked. The device is asked twice about a write, once about a read.
+/// How much of a request has been checked. The device is consulted twice about a write, once about a read.
 enum class Checked : std::uint8_t { addresses, everything };
 
 class RegisterBank {
@@ -53,20 +53,20 @@ class RegisterBank {
   /// Returns true if a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
-  /// Returns whether the device takes a request that has passed all checks so far; it may be busy, or fail.
-  /// Asked before anything is stored, for requests from outside but not for the device's own writes.
+  /// Returns whether the device accepts a request that has passed all checks so far; it may be busy, or fail.
+  /// Called before anything is stored, for requests from outside but not for the device's own writes.
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
   /// Returns true if the device takes a write as one message although it begins in no window (see row.h).
-  /// Asked before the registers are looked up, so read-only registers may be among them.
+  /// Called before the registers are looked up, so read-only registers may be among them.
   virtual bool takes_whole(const RegisterRequest& /*request*/) const { return false; }
-  /// Takes the message after admits() has agreed, or refuses it without changing anything.
+  /// Executes the message after admits() has agreed, or refuses it without changing anything.
   virtual DeviceAnswer take_whole(const RegisterRequest& /*request*/) { return Refusal::none; }
   /// Returns true if a message can begin after its window's first word, because the device accepts such a
   /// part.
   virtual bool takes_parts() const { return false; }
-  /// Asked for each register of a valid write in ascending order, before anything is stored. If it returns
+  /// Called for each register of a valid write in ascending order, before anything is stored. If it returns
   /// true, the device uses the value in its own way: it is not stored and has no effect.
   virtual bool diverts(const Place& /*place*/, std::uint32_t /*bits*/) { return false; }
   /// Called when the station has answered a read request. Clears registers that can be read only once.

@@ -169,7 +169,7 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
 
 namespace {
 
-/// Returns the address that a name stands for: "0x1000". After the name of a table it may also be decimal:
+/// Returns the address that a name denotes: "0x1000". After the name of a table it may also be decimal:
 /// "coil.20".
 std::optional<std::uint16_t> address_of(std::string_view name, std::optional<Table> table) {
   std::uint16_t address = 0;

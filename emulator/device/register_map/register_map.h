@@ -50,7 +50,7 @@ struct NamedPlace {
 /// How a bit is read. It is computed once, because hosts read hundreds of bits in a request.
 struct BitSource {
   enum class How : std::uint8_t {
-    asks,      // through its row, as at() finds it; also if nothing is at the address
+    asks,      // through its row, as at() finds it; used even if nothing is at the address
     reader,    // by the reader of a row that every firmware has: `slot` is its number, `run` the index in it
     stored,    // in the image
     constant,  // 0 or 1, in `slot`
@@ -65,7 +65,7 @@ class RegisterMap {
   /// Makes a map of rows that outlive it. Throws std::logic_error if two rows of a table claim one address,
   /// or if a row is inconsistent.
   RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy);
-  /// Like the above, but the map keeps the rows.
+  /// Like the above, but the map owns the rows.
   RegisterMap(std::vector<RegisterRow> rows, MapPolicy policy);
   RegisterMap(const RegisterMap&) = delete;  // places point into it
   RegisterMap& operator=(const RegisterMap&) = delete;

@@ -33,7 +33,7 @@ std::string_view half_of(const RegisterRow& row, RegisterPart part) {
                                      : row.high_half;
 }
 
-/// Returns the number that a text like "7" stands for. Rejects "07" and "+7".
+/// Returns the number in a text like "7". Rejects "07" and "+7".
 std::optional<int> number_in(std::string_view text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -93,8 +93,8 @@ std::string_view RegisterNames::text_of(const Pattern& pattern) const {
   return pattern.is_alias ? row.alias : row.name;
 }
 
-/// Returns the index that a name stands for, or nothing if it does not match the pattern. `begins_with` is
-/// the length of the beginning with the pattern's hash.
+/// Returns the index of the register that a name denotes, or nothing if it does not match the pattern.
+/// `begins_with` is the length of the beginning with the pattern's hash.
 std::optional<int> RegisterNames::index_of(const Pattern& pattern, std::size_t begins_with,
                                            std::string_view name) const {
   const RegisterRow& row = rows_[pattern.row];

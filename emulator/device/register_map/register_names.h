@@ -15,7 +15,7 @@
 
 namespace understudy::emulator {
 
-/// The parts of a 32-bit register. Its halves have names as well.
+/// The parts of a 32-bit register. Its halves have names too.
 enum class RegisterPart : std::uint8_t { whole, low, high };
 
 class RegisterNames {
@@ -33,7 +33,7 @@ class RegisterNames {
   /// Calls `act` for every name, in the order of the rows.
   void for_each(const std::function<void(const Named& named, const std::string& name)>& act) const;
   /// Throws std::logic_error if two registers of a table have the same name. It takes as long as looking up
-  /// all names, so it is only for models of a user's file, and for tests of our own rows.
+  /// all names, so it is only for models from a user's file, and for tests of our own rows.
   void require_distinct() const;
 
   /// Returns the name of a row's register by one of its patterns: "MAIN_LINE" + number + "_CMD".
@@ -59,7 +59,7 @@ class RegisterNames {
   std::size_t longest_ = 0;             // length of the longest beginning
 };
 
-/// Returns what a row's register stands for, in English: "X: jogs in the positive direction while on".
+/// Returns the meaning of a row's register, in English: "X: jogs in the positive direction while on".
 std::string meaning_of(const RegisterRow& row, int index);
 /// Returns the manual's own heading for it. Empty if the manual only names the section.
 std::string heading_of(const RegisterRow& row, int index);

@@ -26,7 +26,7 @@ enum class Type : std::uint8_t { u16, s16, u32, s32, bit, f32 };
 /// value_of_real().
 using Value = std::int64_t;
 
-/// A firmware version in hundredths: 1.52 is 152. As "since", 0 stands for the first version.
+/// A firmware version in hundredths: 1.52 is 152. As "since", 0 means the first version.
 using Firmware = std::uint16_t;
 
 constexpr bool is_32_bit(Type type) { return type == Type::u32 || type == Type::s32 || type == Type::f32; }
@@ -68,7 +68,7 @@ constexpr TypeLimits limits_of(Type type) {
   return {};
 }
 
-/// The register of a row that a row's function is called for.
+/// The register for which a row's function is called.
 struct Cell {
   int argument = 0;       // declared with the row, for example an axis
   int index = 0;          // 0 .. count-1
@@ -80,7 +80,7 @@ struct Cell {
 /// again only in these ticks.
 enum class Varies : std::uint8_t {
   in_ticks,      // in ticks that are run in full, or by outside events
-  while_moving,  // with the pulses of an axis, so also in ticks that Device::fast_forward_to() skips
+  while_moving,  // with the pulses of an axis, so even in ticks that Device::fast_forward_to() skips
   with_time,     // by the clock alone, at the ticks that `changes_at` gives
 };
 
@@ -89,10 +89,10 @@ using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// Returns the first tick after `done` at which the value may change with time alone, or kNever if it does
 /// not depend on time now.
 using NextChange = Tick (*)(const RegisterBank& bank, Cell cell, Tick done);
-/// Does whatever a write does beyond storing. Effects run in ascending order, after the whole request is
-/// stored.
+/// Does everything that a write does besides storing. Effects run in ascending order, after the whole request
+/// is stored.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
-/// Takes the words that one request has written to a window, or refuses them without changing anything.
+/// Handles the words that one request has written to a window, or refuses them without changing anything.
 using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
 /// Adapts a model's functions. They take their own device, which contains the bank that they are called for
@@ -155,10 +155,10 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
   return field;
 }
 
-/// What a register stands for, in a few words; "{}" stands for its number or axis, as in names.
+/// The meaning of a register, in a few words; "{}" stands for its number or axis, as in names.
 struct Meaning {
   std::string_view in_english;
-  std::string_view in_the_manual;  // its own words; empty if it says nothing about this register
+  std::string_view in_the_manual;  // the manual's own words; empty if it says nothing about this register
 };
 
 struct RegisterRow {
@@ -176,7 +176,7 @@ struct RegisterRow {
   std::string_view unit;
   Value factory = 0;
   bool persistent = false;
-  bool needs_no_time = false;               // a battery or an FRAM keeps it, not an EEPROM
+  bool needs_no_time = false;               // stored in battery-backed RAM or FRAM, not EEPROM
   std::uint32_t stored_bits = 0xFFFF'FFFF;  // the bits of a written value that the register stores
 
   int count = 1;   // a range of `count` registers,
@@ -187,7 +187,7 @@ struct RegisterRow {
   int first_axis = 0;                          // the axis of the first label
   std::string_view low_half = "_L";            // the manual's endings for the halves of a 32-bit register
   std::string_view high_half = "_H";
-  bool swaps_words = false;  // its words have the other order than the model's
+  bool swaps_words = false;  // its words are in the opposite order to the model's
   bool swaps_bytes = false;  // the low byte of each word comes first
 
   Firmware since = 0;
@@ -203,10 +203,10 @@ struct RegisterRow {
   Effect effect = nullptr;
   bool is_view = false;  // shows other state, or `factory` without a reader: no slot, not persistent
   std::span<const BitField> fields{};
-  Message message = nullptr;            // of a window: takes what one request writes from its first word on,
-  int min_words = 1;                    // if it is at least this many words
-  bool acts_on_zero = true;             // false: a trigger, for which a written 0 has no effect
-  std::string_view not_implemented;     // if the register only stores and reads back: what is missing
+  Message message = nullptr;         // of a window: handles what one request writes from its first word on,
+  int min_words = 1;                 // if it is at least this many words
+  bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
+  std::string_view not_implemented;  // if the register only stores and reads back: what is missing
   Hazards hazards = Hazards::unmarked;  // of a write; see hazards_of()
 
   // --- how a row is written down ---------------------------------------------------------------
@@ -245,7 +245,7 @@ struct RegisterRow {
     factory = value;
     return *this;
   }
-  /// The register is stored at once, in battery RAM or FRAM.
+  /// The register is stored at once, in battery-backed RAM or FRAM.
   constexpr RegisterRow& persists_at_once() {
     needs_no_time = true;
     return persists();
@@ -264,7 +264,7 @@ struct RegisterRow {
     first_number = number_of_first;
     return *this;
   }
-  /// Sets another step between the numbers of times(): D8100, D8200, ...
+  /// Sets a different step between the numbers of times(): D8100, D8200, ...
   constexpr RegisterRow& numbered_by(int step) {
     number_step = step;
     return *this;
@@ -285,7 +285,7 @@ struct RegisterRow {
     high_half = high;
     return *this;
   }
-  /// The register's words, or the bytes in them, come in another order than the model's.
+  /// The register's words, or the bytes in them, are in a different order from the model's.
   constexpr RegisterRow& ordered(bool other_words, bool other_bytes) {
     swaps_words = other_words;
     swaps_bytes = other_bytes;
@@ -384,7 +384,7 @@ constexpr RegisterRow discrete(std::uint16_t address, std::string_view name) {
 constexpr bool can_be_written(const RegisterRow& row) {
   return row.access != Access::read && (row.table == Table::holding || row.table == Table::coil);
 }
-/// Returns what a write to a register of the row can do. At least, a value changes.
+/// Returns what a write to a register of the row can do. Every write at least changes a value.
 constexpr Hazards hazards_of(const RegisterRow& row) {
   if (!can_be_written(row)) return Hazards::settings;  // the manual says that nothing happens
   return row.hazards | Hazards::settings | (row.persistent ? Hazards::memory : Hazards::reads);
@@ -397,7 +397,7 @@ constexpr bool are_marked(std::span<const RegisterRow> rows) {
   }
   return true;
 }
-/// Returns rows with the mark, if they have none of their own.
+/// Adds the mark to a row that has none.
 constexpr RegisterRow marked(RegisterRow row, Hazards hazards) {
   if (row.hazards == Hazards::unmarked) row.hazards = hazards;
   return row;
@@ -413,7 +413,7 @@ constexpr RegisterRow window(std::uint16_t address, std::string_view name, int w
   return row.times(words, 1, 0);
 }
 
-/// The model's answers to what the map or the Modbus standard leaves open.
+/// The model's answers to questions that the map or the Modbus standard leaves open.
 struct MapPolicy {
   /// `holes_read_zero` is for addresses before the last register of a table; reads beyond it, and writes,
   /// are refused.

@@ -77,7 +77,7 @@ struct Condition {
 
 // --- axes ------------------------------------------------------------------------------------------
 
-/// The numbers that an axis takes from registers. Distances are in counts of position, speeds in counts of
+/// The numbers that an axis reads from registers. Distances are in counts of position, speeds in counts of
 /// speed.
 enum class Number : std::uint8_t {
   target,
@@ -179,7 +179,7 @@ struct AxisBinding {
   }
 };
 
-// --- what belongs to no axis -------------------------------------------------------------------------
+// --- values that belong to no axis -------------------------------------------------------------------------
 
 /// A register that follows another value, as a temperature follows its setpoint.
 struct Following {

@@ -217,7 +217,7 @@ void ImportedDevice::registers_written() {
   written_.clear();
 }
 
-/// A command on a bit is given when the bit comes on. On a register, it is given by each write.
+/// A command on a bit is given when the bit turns on. A command on a register is given by each write.
 bool ImportedDevice::is_given(const Condition& condition, bool was_held) const {
   const auto slot = static_cast<std::size_t>(model_.slot_of(condition.spot.number));
   if (std::find(written_.begin(), written_.end(), slot) == written_.end()) return false;

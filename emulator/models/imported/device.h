@@ -28,7 +28,7 @@ class ImportedModel;
 struct ShownPart;
 
 struct State {
-  bool touched = true;  // requests of hosts, or inputs, may have changed since motion checked them
+  bool touched = true;  // host requests or inputs may have changed since motion last checked them
   std::vector<std::uint32_t> image{};
   std::vector<std::uint8_t> held{};  // by axis and command: whether its condition held at the last check
   std::vector<AxisState> axes{};

@@ -11,8 +11,8 @@ namespace understudy::emulator::models::imported {
 double lag_fraction(double time_s, double time_constant_s);
 
 /// Returns the value at the end of one period, in which it covers `share` of the distance to `goal`, but at
-/// most `max` if that is above 0. If the remaining distance is below a thousand millionth of the goal (or of
-/// 1), the value takes the goal at once, because it would otherwise never reach it.
+/// most `max` if that is above 0. If the remaining distance is below a billionth of the goal (or of 1), the
+/// value becomes the goal at once, because it would otherwise never reach it.
 double approach(double value, double goal, double share, double max);
 
 }  // namespace understudy::emulator::models::imported

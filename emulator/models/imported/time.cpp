@@ -120,8 +120,8 @@ bool ImportedDevice::is_quiet(const AxisState& axis) const {
          axis.sent_pulses == 0 && axis.environment.version == motor.seen_version;
 }
 
-/// Returns the next tick that stores a value in the memory, or renews a following that has not reached its
-/// goal or may leave it. Axes that move need further ticks.
+/// Returns the next tick that stores a value in the memory, or updates a following value that has not reached
+/// its goal or may leave it. Moving axes need further ticks.
 Tick ImportedDevice::next_tick_of_values(Tick done) const {
   const bool are_moving = any_moves();
   Tick next = state_.eeprom.next_active_tick();

@@ -18,7 +18,7 @@ using interpreter::rs_m8194h::Verb;
 using Row = HandlerRow<Verb, Hazards>;
 
 inline constexpr Hazards kValue = Hazards::settings;  // from the next drive on
-inline constexpr Hazards kMotion = Hazards::motion;   // also what acts on a drive under way
+inline constexpr Hazards kMotion = Hazards::motion;   // including commands that act on a drive in progress
 inline constexpr Hazards kOutput = Hazards::output;
 inline constexpr Hazards kMemory = Hazards::memory;  // lines of macros are only stored
 inline constexpr Hazards kWires = kOutput | kMotion;

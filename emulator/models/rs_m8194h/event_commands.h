@@ -72,7 +72,7 @@ inline Took set_action(Module& it, const Command& command) {
   set_actions(it, axes_at(command, 0), command, 1);
   return Took::done;
 }
-/// Sets C+ or C-; the soft limits end (7.3.6).
+/// Sets C+ or C-, which ends the soft limits (7.3.6).
 inline Took set_compare(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);

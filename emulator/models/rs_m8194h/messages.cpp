@@ -1,4 +1,4 @@
-// Converts messages to the window into commands, and the registers that stand for commands.
+// Converts messages to the window, and to registers that represent commands, into commands.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

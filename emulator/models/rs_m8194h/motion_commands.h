@@ -62,7 +62,7 @@ inline void update_homing(Module& it, std::size_t axis) {
   homing.program.speeds = {it.chip.law_of(axis),
                            law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
-/// Sets V, also for the running drive.
+/// Sets V, including for the running drive.
 inline Took set_drive_speed(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);

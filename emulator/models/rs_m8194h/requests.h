@@ -19,7 +19,7 @@ class Requests final : public Part {
   Requests(const Ground& ground, RequestState& state, Module& module)
       : Part(ground), state_(state), module_(module) {}
 
-  /// `bank` knows which addresses have a register.
+  /// `bank` determines which addresses have a register.
   DeviceAnswer admits(const RegisterRequest& request, Checked checked, const RegisterBank& bank) const;
   bool diverts(const Place& place, std::uint32_t bits);
   void read_answered(const RegisterRequest& request);

@@ -1,5 +1,5 @@
-// RS-M8194H: the commands of section 3. A setting is a row: it says what the command changes in the basic
-// settings, of the axes themselves or, with an INITIAL axis code, of the Initial Table.
+// RS-M8194H: the commands of section 3. Each setting is a row, which says what the command changes in the
+// basic settings of the axes or, with an INITIAL axis code, of the Initial Table.
 #pragma once
 
 #include "base/complete_table.h"
@@ -23,7 +23,7 @@ void for_each_axis(AxisMask axes, auto visit) {
   }
 }
 
-/// Scales the speeds as if the chip's counts had stayed while the size of a count changed.
+/// Scales the speeds as if the chip's counts had stayed the same while the size of a count changed.
 inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t to_max_v) {
   SpeedSettings& speed = unit.speed;
   for (std::uint32_t* const number :
@@ -40,7 +40,7 @@ inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb ver
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
-/// Copies soft limits to the comparators' registers, if by choice they use these.
+/// Copies soft limits to the comparators' registers, if by choice soft limits use the comparators.
 inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;

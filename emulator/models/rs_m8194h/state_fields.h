@@ -21,7 +21,7 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
   using Value = emulator::models::rs_m8194h::Fifo;
   static constexpr auto fields = FieldList{field<&Value::waiting>(), field<&Value::stop_wait>()};
   static void check(const Value& fifo) {
-    // How many blocks a command takes is a choice, but each takes at least one.
+    // How many blocks a command occupies is a choice, but each occupies at least one.
     require_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
                   "the FIFO exceeds its capacity");
     for (const auto& command : fifo.waiting) {

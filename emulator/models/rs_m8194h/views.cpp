@@ -44,7 +44,7 @@ std::uint16_t all_of(const Module& it, Cell cell) {
                      is_active ? UpperBits::active : UpperBits::line_levels);
 }
 
-/// Returns the command that a plain write stands for.
+/// Returns the command that corresponds to a plain write.
 lang::Command counter_command(lang::Verb verb, Cell cell, Value value) {
   lang::Command command{.code = lang::real_time_code(verb)};
   command.values[0] = mask_of(axis_number(cell));
@@ -158,13 +158,13 @@ Value interpolation_ready(const Module& it, Cell) {
   if (it.is_absent()) return 0;
   const Paths& paths = it.chip.paths();
   if (!paths.together.engaged) return 1;
-  // A stream takes one segment ahead.
+  // A stream accepts one segment in advance.
   return paths.runs == Paths::Runs::stream && paths.open && it.streams.has_room() ? 1 : 0;
 }
 Value driving_axes(const Module& it, Cell) { return it.chip.driving(); }
 Value rsm_state(const Module& it, Cell) { return static_cast<Value>(it.programs.state().rsm); }
 Value module_state(const Module& it, Cell) {
-  // The numbering of 4.16.2. States that pass within a tick show only by choice.
+  // The numbering of 4.16.2. States that pass within a tick are shown only by choice.
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;

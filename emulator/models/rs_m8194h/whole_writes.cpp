@@ -83,7 +83,7 @@ DeviceAnswer Requests::take_whole(const RegisterRequest& request) {
   return Refusal::none;
 }
 
-/// Writes a number, or the value of a variable that it stands for, to a group of outputs.
+/// Writes a number, or the value of the variable that it denotes, to a group of outputs.
 void Requests::write_group(std::size_t group, std::uint32_t number) {
   if (module_.programs.is_downloading() && machine_options().table_writes_become_lines) {
     module_.programs.add_line(group_line(group, number));

@@ -260,7 +260,7 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& mete
   const std::int64_t then = axis.encoder_history[ring_place(now - meter.window)];
   const Wide counts = Wide{axis.encoder_counts} - then;
   const std::int64_t windows_a_minute = 60'000 / meter.window;
-  // Rounds to the nearest value; otherwise a steady 100 RPM would show as 99.
+  // Rounds to the nearest value; otherwise a steady 100 RPM would be shown as 99.
   const Wide half = Wide{meter.counts_per_revolution / 2} * (counts < 0 ? -1 : 1);
   Wide rpm = (counts * windows_a_minute + half) / meter.counts_per_revolution;
   if (meter.wraps) return static_cast<std::int16_t>(static_cast<std::uint16_t>(rpm));
@@ -294,7 +294,7 @@ Tick next_active_tick(const AxisState& axis, Tick done) {
   }
   const bool stands_in_velocity = runs_velocity(axis) && !is_moving(axis);
   if (motor.moving() && motor.task != motion::Task::hanging && !stands_in_velocity) return done + 1;
-  if (axis.mode == Mode::sync) return done + 1;  // takes the encoder's counts even if it may not follow
+  if (axis.mode == Mode::sync) return done + 1;  // reads the encoder's counts even if it may not follow
   if (done <= axis.encoder_changed + AxisState::kSpeedWindow) return done + 1;
   return kNever;
 }

@@ -19,9 +19,9 @@ enum class Mode : std::uint8_t { position = 0, velocity = 1, pwm = 2, sync = 3 }
 /// The command whose trigger register reads 1.
 enum class Command : std::uint8_t { none, incremental, absolute, homing };
 
-/// The members that a tick needs are adjacent: the beginning of `motor` on two cache lines, and one line from
-/// `mode` to the beginning of `signals` (a test checks this). With many devices, every further line costs
-/// time.
+/// The members that a tick needs are adjacent: the beginning of `motor` occupies two cache lines, and
+/// everything from `mode` to the beginning of `signals` one line (a test checks this). With many devices,
+/// every further line costs time.
 struct alignas(64) AxisState {
   motion::Axis motor;
 

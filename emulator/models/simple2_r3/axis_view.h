@@ -1,4 +1,4 @@
-// A read-only view of one axis, with what its registers, signals and choices make of it.
+// A read-only view of one axis, with everything that follows from its registers, signals and choices.
 #pragma once
 
 #include <cstddef>
@@ -77,7 +77,7 @@ class AxisView {
   const Setup& setup() const { return setup_; }
 
  private:
-  /// Returns the resolution in velocity mode: the value now, or the one that its last command found.
+  /// Returns the resolution in velocity mode: the value now, or the value at the last velocity command.
   std::uint32_t resolution_in_velocity() const {
     return setup_.velocity_settings_latched ? state().velocity_resolution : resolution();
   }

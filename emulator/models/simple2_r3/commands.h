@@ -1,4 +1,4 @@
-// Commands to an axis: moves, homing, modes, servo and STOP. Registers and program lines use them alike.
+// Commands to an axis: moves, homing, modes, servo and STOP. Both registers and program lines use them.
 // commands.cpp and transitions.h define why a command is dropped, and what it does to the previous one.
 #pragma once
 
@@ -33,7 +33,7 @@ class AxisCommands : public AxisReactions {
   void speed_changed();
   void preset_coordinate(std::int32_t pulses);
   void set_encoder(std::int64_t counts) { count_encoder(axis(), counts, encoder_reversed()); }
-  /// Show in DirectmRPM or DirectPWM a command that did not come by a write to it.
+  /// Show in DirectmRPM or DirectPWM a command that did not come from a write to that register.
   void show_velocity(std::int32_t milli_rpm);
   void show_pwm(std::uint8_t percent);
 

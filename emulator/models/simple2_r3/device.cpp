@@ -115,7 +115,8 @@ Tick Simple2R3::next_tick_without_axes(Tick done) const {
 }
 
 Tick Simple2R3::next_active_tick(Tick done) const {
-  // Cheapest first: an axis that moves is active in every tick, and then nothing else has to be checked.
+  // The cheapest check comes first: a moving axis is active in every tick, and then nothing else has to be
+  // checked.
   for (const AxisState& axis : state_.axes) {
     if (simple2_r3::next_active_tick(axis, done) == done + 1) return done + 1;
   }

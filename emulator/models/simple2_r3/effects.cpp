@@ -80,7 +80,8 @@ MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
           .deceleration_10ms = image[slot("Parms_DecTime{}") + i]};
 }
 
-/// Converts a target to a distance. It has 64 bits, because it may be twice as far as a coordinate reaches.
+/// Converts a target to a distance. The distance has 64 bits, because it may be twice the range of a
+/// coordinate.
 MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move) {
   move.distance_pulses -= device.state().axes[static_cast<std::size_t>(axis)].coordinate_pulses;
   return move;
@@ -274,8 +275,8 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 }
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
-  // The manual puts the note that it takes effect next to the high word, so a lone low word only waits for
-  // it.
+  // The manual notes next to the high word that the speed takes effect, so a low word written alone has to
+  // wait for the high word.
   if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
   device.axis(cell.argument).run_velocity(milli_rpm);
 }

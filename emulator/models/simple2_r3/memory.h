@@ -23,7 +23,7 @@ class Memory {
   /// Saves a register that a host or a program has written. `was_saving` says whether the EEPROM was being
   /// written when the request came; the first register of a request sets it.
   void save(const RegisterRow& row, std::size_t slot, std::optional<bool>& was_saving);
-  /// Takes NEW_PWD as the password.
+  /// Adopts NEW_PWD as the password.
   void take_password();
   /// Compares PWD_Input with the password, and locks or unlocks.
   void judge_lock();

@@ -25,7 +25,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-// Every version for which the manual names a difference; the manual itself is for 1.52.
+// Every version for which the manual mentions a difference; the manual itself is for 1.52.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
 constexpr std::array<std::string_view, 2> kKnownLimitations{

@@ -42,7 +42,7 @@ void Power::down() {
   state_.eeprom.lose_power();
   const std::uint8_t switches = state_.switches;
   blank(state_);
-  state_.switches = switches;  // the line keeps its speed meanwhile
+  state_.switches = switches;  // the line keeps its speed until then
 }
 
 void Power::up() {

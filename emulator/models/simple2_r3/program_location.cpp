@@ -1,4 +1,4 @@
-// Tells observers where the program is.
+// Reports the present line of the program to observers.
 #include <algorithm>
 #include <cstddef>
 #include <string>

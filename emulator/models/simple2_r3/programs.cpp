@@ -142,8 +142,8 @@ void Programs::reset_timers() {
 }
 
 Tick next_slot(const State& state, const Setup& setup, const RegisterBank& bank, Tick done) {
-  // A waiting program is run only until it is clear that it continues to wait; its condition has its own
-  // tick.
+  // A waiting program runs only until it is clear that it continues to wait; after that, its condition
+  // determines the next tick.
   if (state.execution.held.command == 0) {
     return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
   }

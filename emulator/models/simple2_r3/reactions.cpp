@@ -61,7 +61,7 @@ void AxisReactions::power_up() {
 
 void AxisReactions::forget_kept() {
   const KeptCommand forgotten = std::exchange(kept(), {});
-  if (forgotten.command != Command::none) axis().cut_short = true;  // a line may wait for it
+  if (forgotten.command != Command::none) axis().cut_short = true;  // a line may be waiting for the command
 }
 
 void AxisReactions::stop(Stopping how) {
@@ -85,7 +85,7 @@ void AxisReactions::servo_off() {
 
 void AxisReactions::begin_following() {
   simple2_r3::follow_encoder(axis(), sync_follower(), followed_count());
-  // No pulses come out until its first period begins.
+  // The axis sends no pulses until its first period begins.
   if (chose(option("sync_period", "every_fifth_tick")))
     axis().motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
 }
@@ -107,7 +107,7 @@ void AxisReactions::sample_signals() {
   apply_signals(signals().of_motor(number()));
 }
 
-/// In position mode the motor itself follows the table. Notes what it meets.
+/// In position mode the motor itself follows the table. Notes the events that it meets.
 void AxisReactions::note_for_motor(motion::Signals changed, motion::Signals on) const {
   for (const motion::Signal signal :
        {motion::Signal::alarm, motion::Signal::limit_plus, motion::Signal::limit_minus}) {
@@ -144,8 +144,8 @@ void AxisReactions::apply_signals(motion::Signals on) {
     }
   }
   axis.motor.signals = on;
-  // The motor's direction is that of its last pulse; before the first one in a new direction it must not stop
-  // for the old one.
+  // The motor's direction is that of its last pulse; before its first pulse in a new direction, it must not
+  // stop because of the old direction.
   if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
 }
 

@@ -54,7 +54,7 @@ class AxisReactions : public AxisView {
   State& state_;
 };
 
-/// Runs one tick of an axis. As a separate call it would cost a tenth of a tick.
+/// Runs one tick of an axis. A separate call would cost a tenth of a tick.
 [[gnu::always_inline]] inline void step_axis(State& state, const Setup& setup, int number, Tick tick) {
   if (state.touched || setup.alarm_latches || setup.alarm_takes_servo) {
     AxisReactions(state, setup, number).sample_signals();

@@ -25,7 +25,7 @@ inline constexpr Value kS32Max = INT32_MAX;
 inline constexpr Value k2To15 = 32768;
 inline constexpr Value k2To31 = 2147483648;
 
-// What writes can do. Names of hazards are those of the table, in short.
+// What writes can do. The names are short forms of the hazards' names.
 inline constexpr Hazards kValue = Hazards::settings;
 inline constexpr Hazards kMemory = Hazards::memory;
 inline constexpr Hazards kOutput = Hazards::output;
@@ -43,7 +43,7 @@ constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards haza
   }
   return named;
 }
-/// A section whose registers are only read, or have marks of their own.
+/// A section whose registers are read-only, or have individual marks.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   return section(name, Hazards::unmarked, rows);

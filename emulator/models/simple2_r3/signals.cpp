@@ -84,8 +84,8 @@ bool Signals::output(int number) const {
   return ((state_.written_outputs >> number) & 1) != 0;
 }
 
-/// Returns an axis's bit of STATUS: `by_function` if the pin has its function. If it has none and a choice
-/// says so, the pin's level.
+/// Returns an axis's bit of STATUS: `by_function` if the pin has its function, or the pin's level if it has
+/// none and a choice says so.
 bool Signals::shown(bool by_function, std::size_t assignment_slot, int number) const {
   if (assigned(assignment_slot) || !setup_.chose(option("unassigned_input_status", "level_of_pin")))
     return by_function;

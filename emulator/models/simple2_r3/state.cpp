@@ -25,7 +25,7 @@ void require_encoder_count(std::int64_t counts) {
   require_within(counts, -kEnd, kEnd - 1);
 }
 
-/// Limits the speed, because velocity mode multiplies it by the resolution.
+/// Limits the speed, because velocity mode multiplies the speed by the resolution.
 void require_speed(const AxisState& axis, std::uint32_t pulses_per_revolution) {
   const std::int64_t max = INT64_MAX / 4 / std::max<std::int64_t>(pulses_per_revolution, 1);
   require_within(axis.speed_urpm, -max, max);

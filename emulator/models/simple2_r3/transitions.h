@@ -189,7 +189,7 @@ inline constexpr Transition kRows[] = {
     {kSync, kPowered, set_of(E::stop), leaves, "系統參數相關: 0xF024"},
     {kSync, kPowered, set_of(E::servo_off), leaves, "程式指令列表: 0x2B, SVOFF"},
 
-    // --- commands while nothing may come out ---
+    // --- commands while output is forbidden ---
     {kPosition | kVelocity | kPwm, set_of(servo_off), kCommands & ~kDuties, dropped, "command_while_servo_off", kUntilServoOn},
     {kPosition | kVelocity, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmNeedsNoServo, begins}, kUntilServoOn},
     {kPwm, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmNeedsNoServo, changes}, kUntilServoOn},

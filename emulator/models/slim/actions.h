@@ -32,7 +32,7 @@ using Action = Error (*)(Order& order);
 /// Returns Error::not_allowed.
 Error is_refused(Order& order);
 
-/// The motion that a move waits for in its buffer.
+/// The motion for whose end a move waits in its buffer.
 enum class Moves : std::uint8_t { nothing, its_module, its_letter, x_and_y, x_y_and_z, a_letter_each };
 
 struct VerbActions {

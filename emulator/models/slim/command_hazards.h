@@ -139,8 +139,8 @@ inline EditMark edit_mark_of_line(std::string_view line) {
   return begins ? EditMark::begins : verb == Verb::exit ? EditMark::ends : EditMark::none;
 }
 
-/// Returns what a line of text can do. A line that is not a command here may be one there, or belong to a
-/// program that is being entered.
+/// Returns what a line of text can do. A line that is not a command for the emulator may be one for a real
+/// controller, or belong to a program that is being entered.
 inline Hazards hazards_of_line(std::string_view line) {
   namespace lang = interpreter::slim;
   const lang::ParseResult parsed = lang::parse_line(line, lang::kWidestDialect);

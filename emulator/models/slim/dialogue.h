@@ -1,4 +1,4 @@
-// The dialogue: handles a line, and makes the reply.
+// Handles a line of the dialogue, and makes the reply.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// ?ERR and ?ERC: the errors of each module.
+// Records the errors of each module, for ?ERR and ?ERC.
 #pragma once
 
 #include <array>

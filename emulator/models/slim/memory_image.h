@@ -1,4 +1,4 @@
-// The retentive memory as a file.
+// Converts the retentive memory to and from a file.
 #pragma once
 
 #include <functional>

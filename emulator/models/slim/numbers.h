@@ -1,4 +1,4 @@
-// Text of numbers in SLIM's replies.
+// Formats the numbers in SLIM's replies.
 #pragma once
 
 #include <cstdint>

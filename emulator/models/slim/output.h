@@ -1,4 +1,4 @@
-// Sends the text of a SLIM, in lines.
+// Sends the text of a SLIM, line by line.
 #pragma once
 
 #include <string_view>

@@ -84,7 +84,7 @@ consteval std::size_t parameter(std::string_view name) {
 /// with `pn14_is_vm` the first row is called PN14.
 enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
 
-/// Converts a position in a list into the row whose name is there, and a row into its position.
+/// Converts a position in a list to the row whose name is at that position, and a row to its position.
 constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
   static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
   return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
@@ -117,7 +117,7 @@ inline constexpr double kMaxClock_s = 1e9;
 
 /// Returns why an assignment is refused in any state of the chain: an unknown parameter (syntax), or a value
 /// that it cannot have. Without a value, only the name is checked. An axis map may name a module twice only
-/// if the last letter takes it from the others.
+/// if the last letter gets the module.
 Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
                       bool module_taken_from_letter);
 /// Like check_parameter(), for a program line, whose value may be a variable; all other lines are accepted.

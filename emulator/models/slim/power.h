@@ -1,4 +1,4 @@
-// Power-up, power-down, and the inputs.
+// Power-up, power-down and the inputs of a SLIM.
 #pragma once
 
 #include "base/simulated_time.h"
@@ -9,7 +9,7 @@ namespace understudy::emulator::models::slim {
 
 void power_up(State& state, const Setup& setup);
 void power_down(State& state, const Setup& setup);
-/// RESET H.
+/// Executes RESET H.
 void reboot(State& state, const Setup& setup);
 
 void sample_inputs(State& state, const Setup& setup, Tick tick);

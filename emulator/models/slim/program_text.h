@@ -1,4 +1,4 @@
-// The program of a SLIM: its text and its position.
+// Reads the text of a SLIM's program, and returns the position of the program.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ constexpr unsigned kJogs = 1U << 7;
 constexpr unsigned kBufferNotEmpty = 1U << 8;
 constexpr unsigned kInBlend = 1U << 9;
 
-/// Returns "1:02:03".
+/// Returns a time as "1:02:03".
 std::string time_text(std::int64_t seconds) {
   char text[40];
   std::snprintf(text, sizeof text, "%lld:%02d:%02d", static_cast<long long>(seconds / 3600),

@@ -91,7 +91,7 @@ struct Setup {
   static bool takes_letters_away(const ChainOptions& options) {
     return options.chose(option("axis_values", "is_taken_from_its_letter"));
   }
-  /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a speed of its own.
+  /// Returns the parameter's canonical name: PR4 is another name of PR3, unless it is a separate speed.
   std::string_view canonical(std::string_view parameter) const {
     return parameter == "PR4" && !options.lines_have_own_speed() ? "PR3" : parameter;
   }

@@ -40,7 +40,7 @@ struct State {
   std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as sampled in this tick
   Tick powered_at = 0;                          // ?time counts from it
   Tick clock_zero = 0;                          // TM counts from it
-  std::string output{};                         // not yet taken by the line
+  std::string output{};                         // not yet read by the line
   bool touched = true;                          // an outside event has come since the last tick
 
   bool operator==(const State&) const = default;

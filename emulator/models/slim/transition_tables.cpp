@@ -17,7 +17,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-/// Returns what a module does, as transitions.h has it, or nothing.
+/// Returns the task of transitions.h that corresponds to a module's activity, or nothing.
 std::optional<ActiveTask> task_of(Activity activity) {
   switch (activity) {
     case Activity::move: return ActiveTask::move;

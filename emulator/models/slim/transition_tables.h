@@ -11,7 +11,7 @@ namespace understudy::emulator::models::slim {
 
 std::span<const TransitionTable> transition_tables();
 
-/// Notes what an event finds: the tasks of all modules, and of the program.
+/// Notes the tasks of all modules and of the program at an event.
 void note_tasks(const State& state, Event event);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,4 +1,4 @@
-// N#, R#, NS(), RS() and the clock.
+// The variables N#, R#, NS() and RS(), and the clock.
 #pragma once
 
 #include <cstdint>

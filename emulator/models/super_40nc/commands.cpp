@@ -177,7 +177,7 @@ void Commands::hold_while_inhibited() {
     }
     return;
   }
-  // Motions that a pause holds as well stay held.
+  // Motions that a pause also holds stay held.
   const auto is_paused = [&](Mover mover) {
     return mover < Mover::plc && program_state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
   };
@@ -192,7 +192,7 @@ void Commands::see_contacts() {
   ground_.state().touched = false;
   for (const int number : kCommandContacts) {
     const bool level = ground_.contact(number);
-    // A contact that was ON for this scan only falls in the next one.
+    // A contact that was ON only for this scan falls in the next one.
     if (!level && is_on(number)) ground_.touch();
     ground_.state().contacts.see(number, level);
   }

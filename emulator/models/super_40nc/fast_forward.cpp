@@ -1,5 +1,5 @@
 // Runs many ticks in one step, while a SUPER-40NC only counts: the PLC has settled, no step program runs, and
-// axes meet nothing.
+// the axes meet nothing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace {
 using motion::Comparator;
 using motion::Counter;
 
-/// Returns a counter to its ring once a count from beyond the ring has entered it.
+/// Makes a counter wrap in its ring again after a count from outside the ring has entered it.
 void enter_ring(Counter& counter, const BasicSettings& settings, std::int64_t travel, std::int64_t came) {
   if (!settings.ring || counter.range == Counter::Range::ring) return;
   const std::int64_t count = counter.at(travel);
@@ -39,8 +39,8 @@ motion::Reaction limit_reaction(const BasicSettings& basic) {
   return basic.limit_stop_mode == 1 ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
 }
 
-/// Returns how many edges make a count (3.10): it counts all edges of both lines, those of one, or only
-/// rising ones. Up and down pulses are not divided.
+/// Returns how many edges make one count (3.10): the chip counts all edges of both lines, all edges of one
+/// line, or only rising edges. Up and down pulses are not divided.
 std::int64_t divider_of(const BasicSettings& basic) {
   const bool is_quadrature = basic.encoder_mode == 0 || basic.encoder_mode == 2;
   return is_quadrature ? std::int64_t{1} << basic.encoder_division : 1;
@@ -206,8 +206,8 @@ void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const 
   const bool applies = options.homing_obeys_soft_limits || !motor.homing.active();
   if (axis.basic.soft_limits && applies) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
-    // The difference between count and position now; the offset itself may be off by whole rounds of the
-    // counter.
+    // Use the present difference between count and position; the offset itself may be off by whole turns of
+    // the counter.
     const std::int64_t place = by_encoder ? motor.encoder_pulses : motor.travel_pulses;
     const std::int64_t ahead = place - counter.at(place);
     changed.soft_limits_of = by_encoder ? motion::Count::encoder : motion::Count::command;

@@ -127,12 +127,12 @@ struct AxisUnit {
   std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
   std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;
-  std::uint16_t met = 0;     // error bits of what the axis has met on a path that is slowing down for it
-  bool locked = false;       // locked by STOP_*
-  bool path_locked = false;  // locked by VSTOP_*
-  bool held = false;         // held by DRV_HOLD
-  Drive held_drive{};        // waits for DRV_START, or for its axis to stop
-  Drive paused_drive{};      // continues after a trigger's pause
+  std::uint16_t met = 0;              // error bits of the causes for which the path is slowing down
+  bool locked = false;                // locked by STOP_*
+  bool path_locked = false;           // locked by VSTOP_*
+  bool held = false;                  // held by DRV_HOLD
+  Drive held_drive{};                 // waits for DRV_START, or for its axis to stop
+  Drive paused_drive{};               // continues after a trigger's pause
   std::int64_t paused_to_pulses = 0;  // travel at which that drive ends, if it does
   FilteredPins pins{};
   bool emergency = false;  // the EMG input, after its filter
@@ -143,7 +143,7 @@ struct AxisUnit {
   std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses were out
   std::int64_t external_free_ns = 0;  // when the last drive's pulses are out; 0: it was not a move by edges
   std::array<Compare, 2> compare{};   // C+, C-
-  std::uint8_t factors = 0;           // INTFACTOR_ENABLE, a bit for each nINT
+  std::uint8_t factors = 0;           // INTFACTOR_ENABLE, one bit per nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};
   std::uint8_t action_isr = 0;  // ISR of its action set
   OutSettings out{};
@@ -178,11 +178,11 @@ void set_external_levels(AxisUnit& axis);
 /// Sets the bench's encoder to this count of edges.
 void update_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
-/// Applies the basic settings, also to a running motion.
+/// Applies the basic settings, including to a running motion.
 void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
                  const AxisOptions& options);
-/// Arms the motor's limits and comparators. Call it again whenever a counter or one of them is set. `asked`
-/// has the events that something uses.
+/// Arms the motor's limits and comparators. Call it again whenever a counter, a limit or a comparator is set.
+/// `asked` contains the events that are in use.
 void arm(const AxisUnit& axis, motion::Axis& motor, motion::Events asked, const AxisOptions& options);
 /// Returns EP as a function of the travel, by the axis's settings, for a machine with the given encoder line.
 motion::EncoderLine encoder_line(const AxisUnit& axis, motion::EncoderLine machine);

@@ -76,7 +76,7 @@ void Chip::set_encoder(std::size_t axis, std::int64_t counts) {
 void Chip::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   // SET_OUT supports only X and Y (7.3.9).
   if (axis >= static_cast<std::size_t>(kOuts)) return;
-  // Whole ticks of PulseWidth; shorter pulses are counted only.
+  // The pulse widths in whole ticks; shorter pulses are only counted.
   static constexpr std::array<Tick, 8> kWidths{0, 0, 0, 0, 1, 2, 10, 20};
   OutSettings& out = state_.units[axis].out;
   out.pulses += pulses;

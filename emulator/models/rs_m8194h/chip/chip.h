@@ -94,7 +94,7 @@ class Chip final : public Part {
   /// Updates what the motor watches and meets. Call it after a setting or a counter has changed.
   void rearm(std::size_t axis);
   void rearm_all();
-  /// Takes the places at which a machine's inputs change.
+  /// Sets the positions at which a machine's inputs change.
   void set_edges(std::size_t axis, const MachineEdges& edges);
 
   // --- the bench's encoder ----------------------------------------------------------------------

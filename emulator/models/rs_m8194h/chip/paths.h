@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// The kinds of streams, each with an INITIAL and a CONTINUE of its own.
+/// The kinds of streams, each with its own INITIAL and CONTINUE.
 enum class Stream : std::uint8_t { line_2d, line_3d, mix_2d };
 inline constexpr std::size_t kStreams = 3;
 
@@ -35,7 +35,7 @@ struct Paths {
   Runs runs = Runs::nothing;
   Stream stream = Stream::line_2d;  // valid while `runs` or `open` says that a stream is active
   bool open = false;        // the last segment of the stream has not arrived; the stream may have starved
-  std::uint8_t broken = 0;  // streams that were broken off, bits by Stream, until they are begun again
+  std::uint8_t broken = 0;  // streams that were broken off, as bits by Stream, until they begin again
   AxisMask axes = 0;        // axes of the running path
   std::array<std::uint8_t, 3> assigned{};  // AXIS_ASSIGN
   SpeedSettings vector{};                  // set by VECTOR_SPEED and VSV to VAO

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// Whole ticks by which a filter delays, by FLn; those below 1.024 ms do not show (3.14).
+/// The delay of a filter in whole ticks, by FLn; delays below 1.024 ms count as none (3.14).
 constexpr std::array<Tick, 8> kFilterTicks{0, 0, 0, 1, 2, 4, 8, 16};
 /// The bit of FEn that filters a pin, in the order of Pin.
 constexpr std::array<std::uint8_t, kPinsOfAxis> kFilterBits{0, 0, 0, 0, 1, 4, 3, 3, 2, 2};
@@ -100,7 +100,7 @@ void Chip::pass_pins(Tick tick) {
   const bool is_emergency = (input(kEmergencyPin) != 0) != machine_options().emergency_while_off;
   if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
   state_.emergency_input = is_emergency;
-  // Each axis filters it with its own filter, that of its limits and home.
+  // Each axis filters EMG with its own filter for limits and home.
   for (AxisUnit& unit : state_.units) {
     const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_options());
     if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
@@ -117,7 +117,7 @@ void Chip::pass_all_pins() {
   state_.holds_back = false;
 }
 
-/// Gives the motor zones if an input depends on the position; otherwise the input's level.
+/// Gives the motor zones for inputs that depend on the position, and the levels of all other inputs.
 void Chip::update_environment(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
   const MachineEdges& edges = (*edges_)[axis];

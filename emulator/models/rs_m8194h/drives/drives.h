@@ -58,7 +58,7 @@ class Drives final : public Part {
   void start_held();
   /// Applies a changed V: a T-shaped drive continues at the new speed, an S-shaped one keeps its own (7.1).
   void change_speed(std::size_t axis, motion::Instant at);
-  /// Discards what this event removes of an axis's remaining work (transitions.h).
+  /// Discards the part of an axis's remaining work that this event removes (transitions.h).
   void take_off(std::size_t axis, DiscardEvent event);
   /// Forgets the errors of earlier motions, for a drive that starts.
   void forget_errors(std::size_t axis);

@@ -1,4 +1,4 @@
-// How motions end, and the effect on the error code (4.9.2).
+// Handles the ends of motions, and their effect on the error code (4.9.2).
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// Returns true if an axis of a path has met this itself; the cause may come from another axis.
+/// Returns true if an axis of a path has met this cause itself; the cause may come from another axis.
 bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
   switch (cause) {
@@ -40,7 +40,7 @@ bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
   return true;
 }
 
-/// Returns true if a move has sent its very last pulse; it may have met a limit there.
+/// Returns true if a move has sent its very last pulse; it may have met a limit at that pulse.
 bool is_complete(const AxisUnit& unit, const motion::Axis& motor) {
   const std::int64_t gone = std::abs(motor.travel_pulses - unit.began_pulses);
   return motor.target_pulses > 0 && gone == motor.target_pulses;

@@ -27,7 +27,7 @@ constexpr std::uint32_t kMaxEdgesPerTick = 8'000;
 
 }  // namespace
 
-/// Returns the edges of an input since the last call, whichever way its count was turned.
+/// Returns the edges of an input since the last call, in whichever direction its count has changed.
 std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   AxisUnit& unit = chip_.unit(axis);
   const Pin pin = which == 0 ? Pin::external_plus : Pin::external_minus;
@@ -37,7 +37,7 @@ std::uint32_t External::edges_of(std::size_t axis, std::size_t which) {
   if (edges > kMaxEdgesPerTick) edges = kMaxEdgesPerTick - (edges & 1U);
   unit.external_seen[which] = count;
   if (chip_.is_filtered(axis, pin)) {
-    // The edges pass its filter: pulses that are too short are lost, and others arrive late.
+    // The edges pass through the input's filter: pulses that are too short are lost, and others arrive late.
     const bool was_high = which == 0 ? unit.external.plus_high : unit.external.minus_high;
     const bool is_high = (unit.pins.passed & bit_of(pin)) == 0;
     edges = was_high != is_high ? 1 : 0;

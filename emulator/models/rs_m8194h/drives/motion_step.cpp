@@ -53,7 +53,7 @@ void MotionStep::step_axes(Tick tick) {
       enter_ring(chip_.unit(a), chip_.motor(a));
       if (!is_beyond_ring(chip_.unit(a))) chip_.rearm(a);
     }
-    // The signal may be gone before the path stops.
+    // The signal may have ended before the path stops.
     if (chip_.motor(a).slowing && together.takes(a)) chip_.unit(a).met |= error_of(chip_.motor(a).cause);
   }
 }

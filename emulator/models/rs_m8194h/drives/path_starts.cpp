@@ -28,7 +28,7 @@
 
 namespace understudy::emulator::models::rs_m8194h {
 
-/// Returns the axes that a path is on, in their order.
+/// Returns the axes of a path, in order.
 std::array<std::uint8_t, 3> PathStarts::codes_of(const lang::Command& command) const {
   const PathRow& row = row_of_path(command.verb());
   std::array<std::uint8_t, 3> codes = chip_.paths().assigned;
@@ -148,7 +148,7 @@ void PathStarts::draw(const HeldPath& path, bool joins) {
     paths.together.run = drawing.run;
     paths.end = drawing.end;
     streams_.loaded().push_back(path);
-  } else if (drawing.length == 0) {  // no pulse, and neither beginning nor end
+  } else if (drawing.length == 0) {  // the path sends no pulse, and neither begins nor ends
     if (is_stream && is_last) paths.open = false;
     return;
   } else if (!set_out(path, drawing)) {

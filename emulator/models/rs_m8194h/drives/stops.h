@@ -31,7 +31,7 @@ class Stops final : public Part {
   /// Starts what is held or waits, if its turn has come.
   void start_held();
 
-  /// Brings moving axes to rest; resume() continues from there. Homing continues meanwhile.
+  /// Brings moving axes to rest; resume() continues from there. Homing is not affected.
   void pause();
   void resume();
 

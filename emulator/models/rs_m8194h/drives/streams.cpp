@@ -147,7 +147,8 @@ bool Streams::is_left_over(const HeldPath& segment) {
   return true;
 }
 
-/// Breaks off a stream. `has_more`: its last segment has not come yet. Its held segments are void, too.
+/// Breaks off a stream. `has_more` means that its last segment has not come yet. Its held segments become
+/// void too.
 void Streams::break_off(Stream stream, bool has_more) {
   interrupts_.raise(Rint::stream);
   auto& held = state_.held_paths;

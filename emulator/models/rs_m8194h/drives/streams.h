@@ -59,7 +59,7 @@ class Streams final : public Part {
   void reset() { state_ = {}; }
   /// Returns the axes of the held path, or none.
   AxisMask axes_of_held() const;
-  /// Discards the held path: it will not run.
+  /// Discards the held path, which will not run.
   void drop_held();
 
   /// Returns true if the path is a segment of the running stream.

@@ -15,7 +15,8 @@ inline constexpr std::size_t kStartTable = 0;
 inline constexpr std::size_t kStopTable = 1;
 inline constexpr std::size_t kDiscardTable = 2;
 
-/// Returns the state of the first table: an obstacle, or behind them what an axis without obstacles does.
+/// Returns the state of the first table: an obstacle, or, after the obstacles, the activity of an axis that
+/// has none.
 constexpr std::size_t start_state(Obstacle obstacle) { return static_cast<std::size_t>(obstacle); }
 constexpr std::size_t start_state(Activity activity) {
   return kObstacles + static_cast<std::size_t>(activity);

@@ -1,4 +1,4 @@
-// RS-M8194H: FRnet, where a scan transfers the words of inputs and outputs (1.1, 5).
+// RS-M8194H: FRnet, whose scan transfers the input and output words (1.1, 5).
 #pragma once
 
 #include <array>

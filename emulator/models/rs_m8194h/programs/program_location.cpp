@@ -1,4 +1,4 @@
-// Tells observers where the macros are.
+// Reports the present lines of the macros to observers.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -53,7 +53,7 @@ std::vector<ProgramLocation> Programs::locations() const {
     place.state =
         run.hold == lang::Hold::nothing ? ProgramLocation::State::running : ProgramLocation::State::waiting;
     place.waits_for = awaited_by(run.hold);
-    // A line that began to wait has been left; one that the machine does not take yet has not.
+    // The run has left a line that began to wait, but not a line that the machine does not accept yet.
     const bool is_left =
         run.hold == lang::Hold::timer || run.hold == lang::Hold::axes || run.hold == lang::Hold::frnet;
     const int line = level.line - (is_left ? 1 : 0);

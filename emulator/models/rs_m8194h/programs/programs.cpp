@@ -154,7 +154,7 @@ std::string Programs::text() const {
 
 // --- running ---------------------------------------------------------------------------------------------
 
-/// Tells an observer which macros there are.
+/// Notifies an observer of the existing macros.
 void Programs::notify_watch() const {
   if (acts_on_.watch() == nullptr || !is_alive()) return;
   std::uint64_t mark = hash_of({});

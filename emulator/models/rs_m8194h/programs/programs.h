@@ -102,7 +102,7 @@ class Programs final : public Part {
   bool is_compiled() const { return compiled_revision_ == memory_.state().blocks.revision(); }
   void forget_compiled() { compiled_revision_ = UINT64_MAX; }
 
-  // --- what the interpreter tells its machine --------------------------------------------------------
+  // --- what the interpreter reports to its machine --------------------------------------------------------
   int take_isr();
   void mp_ended();
   void terminated();

@@ -20,7 +20,7 @@ bool is_on(const FrnetWords& words, int channel) {
   return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
 }
 
-/// Returns true if a change of level fires. `at_start`: levels that are present already count, too.
+/// Returns true if a change of level fires. If `at_start`, levels that are already present count too.
 bool fires(lang::TriggerCondition condition, bool was, bool is, bool at_start) {
   switch (condition) {
     case lang::TriggerCondition::none: return false;

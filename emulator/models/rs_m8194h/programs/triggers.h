@@ -39,7 +39,7 @@ class Triggers final : public Part {
 
   void reset() { state_ = {}; }
   /// Handles the scan of inputs that were `before`. By choice, check_at_start() also counts levels that are
-  /// present already.
+  /// already present.
   void check(const FrnetWords& before);
   void check_at_start();
   /// Handles a write to holding 9.

@@ -1,5 +1,5 @@
-// RS-M8194H: the part that every other part may use. Parts (module.h) know each other only downwards; this is
-// below all of them.
+// RS-M8194H: the part that every other part may use. Parts (module.h) may use only the parts below them; this
+// file is below all of them.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards haza
   }
   return named;
 }
-/// A section whose registers are only read, or have marks of their own.
+/// A section whose registers are read-only, or have individual marks.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   return section(name, Hazards::unmarked, rows);
@@ -256,8 +256,8 @@ inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(200, "{} Stop Command").means("a stop command has stopped axis {}", "{} 軸執行停止運動指令").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(8),
     discrete(201, "{} SOFT EMG").means("an emergency stop by command has stopped axis {}", "{} 軸停止原因: 軟體緊急停止").each(kAxisNames, 16).shows<error_bit, Varies::in_ticks>(9),
 });
-// U's bits are printed at 380, while the pattern of the other axes gives 280; they are at both places. The
-// argument tells the places apart: 8 and more are at 280, 16 and more at 380.
+// U's bits are printed at 380, while the pattern of the other axes gives 280; they are at both addresses. The
+// argument distinguishes them: from 8 on it means 280, and from 16 on 380.
 inline constexpr auto kDiscreteRows4 = section("12.5.4", {
     discrete(256, "{} Near Home (IN0)").means("near-home switch of axis {}", "{} 軸的 NHOME(IN0)訊號狀態").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(0),
     discrete(257, "{} Home (IN1)").means("home switch of axis {}", "{} 軸的 HOME(IN1)訊號狀態").each(kFirstThreeAxes, 8).shows<di_signal_bit, Varies::in_ticks>(1),
@@ -350,7 +350,7 @@ inline constexpr std::size_t kFirstVarSlot = slot("VAR{}");
 inline constexpr std::size_t kFirstMdSlot = slot("MD{}");
 inline constexpr std::size_t kCallMpAddress = row_called(Table::holding, "CALL_MPn").address;
 inline constexpr Addresses kVarAddresses = addresses_of(Table::holding, "VAR{}");
-/// Writes that go through the FIFO, as the commands that they stand for.
+/// The addresses whose writes go through the FIFO as commands.
 inline constexpr Addresses kCounterAddresses =
     addresses_of(Table::holding, "Absolute Position {}", "Encoder Position {}");
 inline constexpr Addresses kFrnetWords = addresses_of(Table::holding, "FRnet DO group {}");

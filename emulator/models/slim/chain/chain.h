@@ -151,7 +151,7 @@ class Chain {
   /// DN: returns true if all earlier commands are completed. A jog or thrust does not count, unless it is
   /// stopping.
   bool done(int module) const;
-  /// Returns true if the module does something, or a command waits for it.
+  /// Returns true if the module is active, or a command is waiting for it.
   bool busy(int module) const { return state_.modules[at(module)].busy(); }
   bool moving(int module) const;
   bool paused() const { return state_.paused; }

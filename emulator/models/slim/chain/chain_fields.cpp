@@ -1,4 +1,4 @@
-// Refuses a restored chain whose ticks could leave a table or never end.
+// Refuses a restored chain whose ticks could index beyond a table or never end.
 #include "emulator/models/slim/chain/chain_fields.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ void require_coordinate(double units) {
   require_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
 }
 
-// Used for accelerations, too; each has its own unit.
+// Also used for accelerations; each has its own unit.
 void require_speed(double value) {
   require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is beyond its range");
 }

@@ -1,5 +1,5 @@
 // The state of a chain: its modules, which of them has which letter, coordinated motions, and pauses. Each
-// part of the chain is a header with its functions on this state, and knows those above it in this list:
+// part of the chain is a header with its functions on this state, and uses only those above it in this list:
 //
 //   chain_state.h   modules held by a pause, modules on a path; jobs that are dropped from all FIFOs
 //   paths.h         coordinated motion

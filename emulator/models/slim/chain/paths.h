@@ -35,7 +35,8 @@ void drop_completed(ChainState& chain, Group& group);
 /// Releases the modules of a group that has ended, and drops what is left of its commands.
 void release_group(ChainState& chain, Group& group, Tick begin_at);
 
-/// Stops the pulses of the module at once, and of those that share its path. The running command is dropped.
+/// Stops the pulses of the module, and of all modules that share its path, at once. The running command is
+/// dropped.
 void cut(ChainState& chain, int module, motion::Cause why);
 /// Slows down or ends the module's activity, because its FIFO is about to be dropped.
 void slow_for_discard(ChainState& chain, int module);

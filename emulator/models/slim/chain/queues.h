@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Returns true if the module's FIFO takes no more commands.
+/// Returns true if the module's FIFO accepts no more commands.
 bool is_full(const ChainState& chain, int module);
 /// Adds a job to the FIFOs of all its modules, and starts what can start.
 Error enqueue(ChainState& chain, Job job);

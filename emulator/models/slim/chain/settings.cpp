@@ -18,7 +18,7 @@ namespace understudy::emulator::models::slim {
 
 namespace {
 
-// Used for accelerations, too; each has its own unit.
+// Also used for accelerations; each has its own unit.
 bool plannable(double value) { return value >= kMinSpeed && value <= kMaxSpeed; }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace understudy::emulator::models::slim {
 enum class MarkEvent : std::uint8_t {
   begins,          // a motion of the module: MA, MR, H, JGF, JGR, FT
   continues,       // JGF or JGR in the direction of the jog that runs
-  jogs_dropped,    // JG0, TAUPZ, CLR BUF in a pause; also a pause, before it sets its own marks
+  jogs_dropped,    // JG0, TAUPZ, CLR BUF in a pause, or a pause, before it sets its own marks
   stop_requested,  // the motion has begun to decelerate, and then ends
   stands,          // the motion has ended, or it is interrupted and starts again from the FIFO
   pause_over,      // TAREDO, REDO

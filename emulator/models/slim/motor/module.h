@@ -1,6 +1,6 @@
 // One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
-// environment are kept with those of the other modules (chain/chain_state.h), because coordinated motion
-// takes arrays.
+// environment are stored with those of the other modules (chain/chain_state.h), because coordinated motion
+// works on arrays.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ inline constexpr int kModules = 8;
 inline constexpr int kOutputs = 4;
 inline constexpr std::size_t kFifoLength = 32;
 inline constexpr int kFullAnalog = 1000;
-/// Speeds and accelerations outside these limits belong to no machine, and may be impossible to plan. (The
+/// Speeds and accelerations outside these limits occur on no machine, and may be impossible to plan. (The
 /// lower limit is 1e-6 as a 32-bit real.)
 inline constexpr double kMinSpeed = 1e-6F;
 inline constexpr double kMaxSpeed = 1e9;
 
-/// FU: the unit of VM and VJ, and of VA for each second.
+/// FU: the unit of VM and VJ; VA is in this unit per second.
 enum class SpeedUnit : std::uint8_t { rpm = 0, rps = 1 };
 
 struct ModuleSettings {
@@ -82,7 +82,7 @@ struct Module {
   /// Returns true if a pause has stopped a jog or thrust.
   bool holds_jog() const { return held_jog_direction != 0 || held_thrust != 0; }
   bool jogs_or_pushes() const { return activity == Activity::jog || activity == Activity::thrust; }
-  /// Returns true if the module does something, or a command waits for it.
+  /// Returns true if the module is active, or a command is waiting for it.
   bool busy() const { return activity != Activity::idle || !fifo.empty() || holds_jog(); }
   /// Returns the activity of the module, or the activity that a pause holds.
   Activity activity_or_held() const;

@@ -5,7 +5,7 @@
 //   jogs.h    jogs and thrust, which bypass the FIFO; slowing down from an abandoned motion
 //   moves.h   MA, MR and H, at the FIFO's head; what the end of each motion requires
 //
-// Each knows those above it, and none knows another module.
+// Each uses only those above it, and none accesses another module.
 #pragma once
 
 #include "base/simulated_time.h"

@@ -72,7 +72,7 @@ bool start_home(const Motor& motor, Tick begin_at) {
   const motion::SpeedLaw law = module.jog_law(motor.options);
   if (law.top_speed_u_s == 0 && module.settings.jog_speed != 0) return false;  // as for a move
   module.homed = false;
-  // The inputs may have changed since the axis last looked.
+  // The inputs may have changed since the axis last read them.
   axis.signals = motor.environment.at(axis.travel_pulses);
   const bool forwards = motor.options.chose(option("homing", "at_vj_forwards_to_horg_then_0")) !=
                         (module.settings.jog_speed < 0);

@@ -15,7 +15,7 @@ bool start_home(const Motor& motor, Tick begin_at);
 
 /// Does what the end of a move or homing requires.
 void after_move(const Motor& motor);
-/// Does what the end of a motion requires, if the motor has had one of its own and is at rest.
+/// Does what the end of a motion requires, if the motor has moved alone and is at rest.
 inline void after_motion(const Motor& motor, Tick begin_at) {
   const Activity activity = motor.module.activity;
   if (activity == Activity::idle || activity == Activity::group || motor.axis.moving()) return;

@@ -1,4 +1,4 @@
-// A module's four outputs: levels, single pulses, pulse width modulation.
+// A module's four outputs, with levels, single pulses and pulse width modulation.
 #pragma once
 
 #include <cstdint>

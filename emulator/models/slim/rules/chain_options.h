@@ -11,9 +11,9 @@
 
 namespace understudy::emulator::models::slim {
 
-/// A pointer to a device's decisions within its state, of which it is no part: all are equal. A copy of the
-/// state may outlive the device, or belong to another one, so a copy has no pointer and assignment keeps
-/// one's own.
+/// A pointer to a device's decisions. It is stored in the device's state without being part of it, so all
+/// such pointers compare equal. A copy of the state may outlive the device or belong to another one, so a
+/// copy has no pointer, and assignment keeps the target's own.
 struct NotedDecisions {
   Decisions* decisions = nullptr;
 
@@ -58,7 +58,7 @@ struct ChainOptions {
   constexpr bool acceleration_may_change() const {
     return chose(option("acceleration_in_motion", "next_command"));
   }
-  /// Lines of two axes go by PR4, not PR3.
+  /// Lines of two axes use PR4, not PR3.
   constexpr bool lines_have_own_speed() const { return chose(option("line_speed", "pr4_of_its_own")); }
   constexpr bool triggers_stay() const {
     return chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position"));

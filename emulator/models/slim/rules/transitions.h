@@ -129,7 +129,7 @@ inline constexpr Transition kTransitions[] = {
      Event::stop,
      {Outcome::ends, Outcome::cannot_be, Outcome::ends_after_routine},
      "emergency_stop_program"},
-    // --- PZ and REDO: like TAPZ and TAREDO for motions; for programs by a row of their own
+    // --- PZ and REDO: like TAPZ and TAREDO for motions; for programs by separate rows
     {ActiveTask::line, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::move, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::homing, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},

@@ -105,7 +105,8 @@ std::optional<MachineEdges::Span> AxisInputs::span_of(int axis, int input) const
 
 void AxisInputs::set_edges(int axis, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(axis)] = edges;
-  // A restored state has seen these already, but not yet the inputs that have changed since the last tick.
+  // A restored state has already seen these signals, but not the inputs that have changed since the last
+  // tick.
   if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) update_environment(axis);
 }
 

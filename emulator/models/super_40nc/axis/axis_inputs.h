@@ -21,7 +21,7 @@ class AxisInputs : protected Chips {
   void update_environment(int axis_number);
   void see_first_signals();
   void set_edges(int axis, const MachineEdges& edges);
-  /// Returns where a switch of the machine switches an input, in the axis's own direction.
+  /// Returns where along the axis a machine switch acts on an input, in the axis's own direction.
   std::optional<MachineEdges::Span> span_of(int axis, int input) const;
   /// Announces that the edges of a restored state will be set again before anything has changed.
   void await_edges() { is_restored_.fill(true); }
@@ -32,7 +32,7 @@ class AxisInputs : protected Chips {
   MachineEdges edges_of(int axis) const;
 
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: set again after a restore
-  std::array<bool, kAxisCount> is_restored_{};    // restored, and its edges not set again yet
+  std::array<bool, kAxisCount> is_restored_{};    // restored, but its edges have not been set again
 };
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -19,7 +19,7 @@ namespace understudy::emulator::models::super_40nc {
 /// The setting by which the hand wheel moves an axis.
 enum class WheelSource : std::uint8_t { none, mpg_line, contact_1, contact_10, contact_100, selector };
 
-/// The kind of a program's motion that a pause interrupted, as far as it must continue afterwards.
+/// The kind of a program's motion that a pause has interrupted and that must continue afterwards.
 enum class RestKind : std::uint8_t { none, move, path, mark, turning, home };
 struct Rest {
   RestKind kind = RestKind::none;
@@ -40,7 +40,7 @@ inline constexpr std::size_t kComparators = 5;
 struct AxisState {
   std::int64_t sent_pulses = 0;      // in the last tick, in the motor's direction
   std::int64_t followed_pulses = 0;  // travel in the last tick
-  // COUNTER1 follows the travel; the others count as D9x23 to D9x25 say.
+  // COUNTER1 follows the travel; the others count what D9x23 to D9x25 select.
   motion::Counter command{.range = motion::Counter::Range::bits28};
   std::array<std::int32_t, kCounters - 1> counts{};
   std::array<std::int32_t, kCounters> latched{};
@@ -70,13 +70,13 @@ struct AxisState {
   std::array<std::int8_t, 2> jog_keys{};  // jog direction of each pressed key, + and -; 0: not pressed
   std::int8_t plc_jog_direction = 0;      // jog direction that the PLC requested in its last scan
   bool asked_by_plc = false;              // the jog was requested by PJG or MJG
-  bool masked = false;                    // the pulses of the current motion do not come out
+  bool masked = false;                    // the pulses of the current motion are not sent
   bool homed = false;
   bool zeroed = false;
   bool has_ended = false;  // a motion has ended since the last start
   bool has_error = false;
   std::int8_t order = 0;  // order number of the panel's HOME or ZERO key that started it; 0: none
-  double step_pps = 1;    // pps per step of the chip's speeds, since the last start
+  double step_pps = 1;    // pps per step of the chip's speeds, as of the last start
 
   // Relative targets are added to the last target while the axis is at it.
   bool stands_on_target = false;

@@ -19,8 +19,8 @@ class ChipPins : protected Chips {
 
   using Chips::has_chip_pins;
   void see_pins();
-  /// Handles a change of CLR or LTC at that moment, after the counters have counted up to it. `speed` is the
-  /// chip's at that moment.
+  /// Handles a change of CLR or LTC at its moment, after the counters have counted up to that moment. `speed`
+  /// is the chip's speed then.
   void pin_changes(int axis, ChipPin pin, bool is_on, std::int64_t speed);
   /// Clears the counters in the mask D9x27.
   void clear_by_pin(int axis);

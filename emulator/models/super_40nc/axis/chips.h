@@ -55,7 +55,8 @@ class Chips : protected OnGround {
   /// Returns the position that D8x17 shows, in the work coordinate.
   std::int64_t work_lu(int axis_number) const;
   std::int64_t relative_base_lu(int axis_number) const;
-  /// Returns pulses to the target; not 0 if PSET, another D8x40 or CMX moved a target that was reached.
+  /// Returns the pulses to the target, which are not 0 if PSET, another D8x40 or CMX has moved a target that
+  /// was reached.
   std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t remaining_pulses(int axis_number) const;
   std::int64_t braking_pulses(int axis) const;
@@ -79,7 +80,7 @@ class Chips : protected OnGround {
     note_request(holder, request);
     return grant(holder, request, lines_wait_);
   }
-  /// Notes a request that is carried out without a look at the table.
+  /// Notes a request that is carried out without consulting the table.
   void note_request(Activity holder, Request request) const {
     ground_.decisions().meet(kOwnershipTable, static_cast<std::size_t>(holder),
                              static_cast<std::size_t>(request));
@@ -87,7 +88,7 @@ class Chips : protected OnGround {
   bool is_awaited_by(Mover mover) const;
 
  protected:
-  /// Drops an end between ticks that has been handled.
+  /// Discards the end of a motion between ticks after it has been handled.
   void forget_end(int axis);
 
   AxesState& axes_;

@@ -81,7 +81,7 @@ void Counters::end_tick(int axis_number, const BeforeTick& before) {
   count_without_encoder(axis_number, 1 / motion::kTicksPerSecond);
 }
 
-/// Adds to COUNTER2 to COUNTER4.
+/// Adds counts to COUNTER2, COUNTER3 and COUNTER4.
 void Counters::add_to_counters(int axis_number, const Counted& counted) {
   const Settings settings = registers();
   for (int which = kCounter2; which <= kCounter4; ++which) {

@@ -30,7 +30,8 @@ struct Counted {
   std::int64_t clock = 0;
 };
 
-/// Returns how much of it COUNTER2 to COUNTER4 (`counter` 1 to 3) count, by D9x19, D9x23 to D9x25 and D9x29.
+/// Returns how much of the input COUNTER2 to COUNTER4 (`counter` 1 to 3) count, by D9x19, D9x23 to D9x25 and
+/// D9x29.
 std::int64_t counts_of(const Settings& settings, int axis, int counter, const Counted& counted);
 
 class Counters : protected Chips {
@@ -57,7 +58,7 @@ class Counters : protected Chips {
   /// Returns true if every tick must be run: a clock drives COUNTER4, or comparator 4 or 5 latches at the end
   /// of a tick.
   bool acts_each_tick(int axis) const;
-  /// Clears counters at the end of a home, after the counts of its last tick.
+  /// Clears counters at the end of a homing, after the counts of its last tick.
   void clear_counters(int axis_number);
   void take_latch(int axis_number, std::int64_t travel, std::int64_t speed);
   /// Latches by a comparator that has become true, and has not latched within the tick.

@@ -66,8 +66,8 @@ inline constexpr std::array<OwnershipRow, kActivities> kOwnership = [] {
 }();
 // clang-format on
 
-/// A turning axis and one that follows the wheel do not end without a command, so a line for them is dropped.
-/// Under another choice the line waits for them as well.
+/// An axis that turns at a speed or follows the wheel does not stop without a command, so a line for it is
+/// dropped. Under another choice the line waits for it too.
 struct OwnershipCell {
   Activity holder;
   Request request;

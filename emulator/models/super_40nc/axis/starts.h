@@ -19,7 +19,7 @@ class Starts : protected Chips {
 
   /// Returns what the axis's holder grants; a refusal is reported at the PLC's line.
   Grant ask(int axis_number, Request request);
-  /// Takes from the parameters what a motion needs when it starts.
+  /// Reads the parameters that a motion needs when it starts.
   void prepare(int axis_number, bool homes = false);
   void begun(int axis_number, motion::Cause why_not, Activity holder);
   /// Writes to the chip's registers what a start leaves there.

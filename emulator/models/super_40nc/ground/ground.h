@@ -59,7 +59,7 @@ struct GroundState {
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up
   std::int32_t station = 0;                                // D9000, as it was at power-up
-  std::vector<std::uint32_t> parameters_in_force;          // if written ones act later; otherwise empty
+  std::vector<std::uint32_t> parameters_in_force;  // if written parameters take effect later; otherwise empty
   Eeprom eeprom;
   Image image{};
 
@@ -89,7 +89,7 @@ class Ground {
   Settings registers() const { return Settings(state_.image, readings_, state_.parameters_in_force); }
   /// Writes a register without its effect, as the device itself does.
   void put(StoredRegister kept, std::int32_t value, int axis = 0);
-  /// Keeps the image's value in memory, if it is retentive.
+  /// Stores the image's value in memory, if the register is retentive.
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
   bool contact(int number) const { return state_.image[relay_slot(number)] != 0; }
   void set_contact(int number, bool on) { state_.image[relay_slot(number)] = on ? 1 : 0; }

@@ -45,7 +45,7 @@ inline constexpr auto kKeys = [] {
   std::array<Key, kMain + kJogAliases + kOfAxes> keys;
   std::size_t next = 0;
   const auto add = [&](const Key& key) { keys[next++] = key; };
-  // Five keys have an older name that does the same (《命令範例》 has the jog keys' older names as well).
+  // Five keys have an older name that does the same (《命令範例》 also has the jog keys' older names).
   for (const auto& [contact, older, does, lock] :
        {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
         std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},

@@ -43,7 +43,7 @@ bool PressedKeys::is_locked(const Key& key) const {
 }
 
 /// A jog key writes its contact in each scan while it is pressed, and clears it when it is released. Its lock
-/// and X52 count when it is pressed: even if they change meanwhile, the axis stops with the key.
+/// and X52 are read when it is pressed: even if they change afterwards, the axis stops with the key.
 void PressedKeys::read_jog_keys() {
   const bool knows_older = !chose(option("jog_aliases", "plain_contacts"));
   for (int number = 0; number < kAxisCount; ++number) {
@@ -96,7 +96,7 @@ void PressedKeys::read_keys() {
             press(of_axis(m8x::kZeroSet, number));
         }
         break;
-      // These have no contact of their own: the parts that obey them call is_pressed().
+      // These keys have no contact: the parts that obey them call is_pressed().
       case KeyDoes::stop:
       case KeyDoes::stop_c:
       case KeyDoes::pause:

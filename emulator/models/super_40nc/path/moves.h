@@ -10,7 +10,8 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-/// A program has lost a motion, because its axis met something. The axis is released; -1: several axes.
+/// Reports that a program has lost a motion because its axis met something. The axis is released; -1 means
+/// several axes.
 struct Broken {
   Mover mover = Mover::c;
   int axis = -1;

@@ -1,6 +1,6 @@
-// Every axis that reverses, or every axis if it slips (D9x57 = 2), first sends its X1 pulses at X22, all axes
-// at once; the path begins when the last is done. Within an arc nothing is corrected, as on the chip, unless
-// that is chosen. (Manual, X1., X22.)
+// Before a path, every axis that reverses or slips (D9x57 = 2) sends its X1 pulses at X22, all axes at the
+// same time. The path begins when the last axis has finished. Within an arc nothing is corrected, as on the
+// chip, unless that is chosen. (Manual, X1., X22.)
 #include "emulator/models/super_40nc/path/path_backlash.h"
 
 #include <algorithm>

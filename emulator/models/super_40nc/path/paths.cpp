@@ -1,5 +1,5 @@
-// One profile along the path, with the smallest slope among its axes (《C11./C12.》 to 《C22.》), no faster
-// than X12 of any axis. The feed override applies at once.
+// A path has one profile along its length, with the smallest slope among its axes (《C11./C12.》 to
+// 《C22.》), and no axis exceeds its X12. The feed override applies at once.
 #include "emulator/models/super_40nc/path/paths.h"
 
 #include <algorithm>

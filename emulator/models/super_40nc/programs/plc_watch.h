@@ -16,7 +16,7 @@ class PlcWatch {
  public:
   explicit PlcWatch(const RegisterBank& bank) : bank_(bank) {}
 
-  /// Finds the values that the ladder reads and others change without notice.
+  /// Finds the values that the ladder reads and that others change without notice.
   void find(const interpreter::super_40nc::Ladder& ladder);
   /// Remembers what the PLC sees now.
   void note();

@@ -62,7 +62,7 @@ void Programs::notify_watch() const {
 
 namespace {
 
-/// Hides C from an observer while it runs a user table, because nobody has downloaded that.
+/// Hides C from an observer while it runs a user table, which nobody has downloaded.
 class WithoutC final : public ProgramWatch {
  public:
   explicit WithoutC(ProgramWatch& watch) : watch_(watch) {}

@@ -1,4 +1,4 @@
-// Loads and runs the PLC and the step programs of a SUPER-40NC, and tells them what happens.
+// Loads and runs the PLC and the step programs of a SUPER-40NC, and notifies them of events.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +54,7 @@ class Programs : protected Chips, public Watched {
   /// D8096.
   void load_program(std::string_view text);
   void make_programs_ready();
-  /// Makes the programs of a restored state ready, if they differ.
+  /// Prepares the programs of a restored state, if they differ.
   void restored();
   /// Changes the path file (D9001).
   void change_file(std::int32_t number);
@@ -105,7 +105,7 @@ class Programs : protected Chips, public Watched {
 
   void give_up_program(Area area);
   void put_table_in_place();
-  /// Tells an observer which programs there are.
+  /// Notifies an observer of the existing programs.
   void notify_watch() const;
   void clear_timers();
 

@@ -111,7 +111,7 @@ void StoredPrograms::store(const language::Program& program) {
   }
 }
 
-/// Copies a text, or the lack of one.
+/// Copies a text; if it does not exist, erases the target.
 void StoredPrograms::copy(std::string_view from, const std::string& from_name, std::string_view to,
                           const std::string& to_name) {
   const SharedText* const text = state_.blocks.find(from, from_name);
@@ -200,8 +200,8 @@ void StoredPrograms::flash_written(bool is_recipe) {
   if (chose(option("flash_time", "100_ms_without_a_scan"))) state_.flash_until = now() + 1 + kFlashTicks;
 }
 
-/// Returns the first register of a recipe, which extends to D999; three texts of the manual have three
-/// ranges.
+/// Returns the first register of a recipe, which extends to D999; three places in the manual give three
+/// different ranges.
 int StoredPrograms::first_of_recipe() const {
   if (chose(option("recipe_range", "d800_to_d999"))) return 800;
   return chose(option("recipe_range", "d900_to_d999")) ? 900 : kFirstOfRecipe;

@@ -1,6 +1,6 @@
 // The user table and the direct command (《命令範例》 24, 《D8 特殊暫存器的功用(一般用途)》 D8019 to D8029),
 // which the manual calls unfinished. It prints one line of the table and only command 1, a line. All other
-// commands are ours, and off unless chosen.
+// commands are ours, and disabled unless chosen.
 //
 // A line has ten registers: a command, and data 1 to 9; there are 200 lines. D8020 = 100 runs the table as
 // the C program, from line 0 to a line with command 0; D8019 shows the line. D8020 = 100 + command runs one

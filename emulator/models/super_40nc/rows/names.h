@@ -1,5 +1,5 @@
 // The numbers of the contacts and registers on which the controller depends, by the names that the manual
-// gives them. Rows and code use these names; a number that only its row has needs none.
+// gives them. Rows and code use these names; a number that occurs only in its row needs no name.
 #pragma once
 
 #include "interpreter/super_40nc/named.h"

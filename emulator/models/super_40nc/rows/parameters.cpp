@@ -121,7 +121,7 @@ RegisterOfRow register_of(int d9) {
   throw std::logic_error("D" + std::to_string(d9) + " is not a register");
 }
 
-/// Returns what the parameter stands for. The number tells the axis, so the meaning does not.
+/// Returns the meaning of the parameter. The number identifies the axis, so the meaning does not name it.
 std::string_view meaning_of_parameter(const RegisterOfRow& found) {
   const RegisterRow& row = found.row;
   return (row.meanings.empty() ? row.meaning : row.meanings[static_cast<std::size_t>(found.index)])

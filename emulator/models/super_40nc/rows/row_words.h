@@ -1,5 +1,5 @@
-// The words in which SUPER-40NC's register tables are written: letter and number name a device, and its
-// address follows (《接點元件編號一覽表》, 《暫存器元件編號一覽表》).
+// The words in which SUPER-40NC's register tables are written: a letter and a number name a device, and its
+// address follows from them (《接點元件編號一覽表》, 《暫存器元件編號一覽表》).
 #pragma once
 
 #include <array>
@@ -81,7 +81,7 @@ constexpr std::array<RegisterRow, N> section(std::string_view name, Hazards haza
   }
   return named;
 }
-/// A section whose registers are only read, or have marks of their own.
+/// A section whose registers are read-only, or have individual marks.
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   return section(name, Hazards::unmarked, rows);

@@ -87,7 +87,7 @@ class Settings {
   Readings readings_;
 };
 
-/// Returns how many pps one step of the chip's speed has: the smallest step that reaches `top_pps`.
+/// Returns how many pps one step of the chip's speed is: the smallest step that reaches `top_pps`.
 double multiplier_of(double top_pps);
 
 /// Makes a law that goes from 0 to the speed of C22 in `up_ms`, and back in `down_ms`, up to its own top
