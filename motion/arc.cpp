@@ -190,7 +190,7 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
     refuse(Refusal::no_such_arc, law, "three points must be different; two are the same");
   if (std::abs(doubled_area) <= kFlatTriangle * longest_square) {
     refuse(Refusal::no_such_arc, law,
-           "three points must not be on one line, are within " +
+           "three points must not be on one line; they are within " +
                text(std::abs(doubled_area) / std::sqrt(longest_square)) + " of one");
   }
   // The sweep is twice the difference of the angle at `middle` from a straight one, and the centre is off the
@@ -374,7 +374,7 @@ Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   const Point off_chord = to_middle - to_middle.dot(path.abscissa) * path.abscissa;
   if (off_chord.norm() <= kFlatTriangle * std::max(to_middle.norm(), to_end.norm())) {
     refuse(Refusal::no_such_arc, demand.law,
-           "three points must not be on one line, are within " + text(off_chord.norm()) + " of one");
+           "three points must not be on one line; they are within " + text(off_chord.norm()) + " of one");
   }
   path.ordinate = off_chord / off_chord.norm();
   path.ordinate -= path.ordinate.dot(path.abscissa) * path.abscissa;

@@ -57,10 +57,10 @@ void check(const HomingProgram& program) {
   };
   for (std::int8_t i = 0; i < program.phase_count; ++i) {
     const HomingPhase& row = program.phases[static_cast<std::size_t>(i)];
-    require(is_row(row.next), "the next phase must be one of the table");
-    require(is_row(row.if_limit), "the phase after a limit must be one of the table");
+    require(is_row(row.next), "the next phase must be in the table");
+    require(is_row(row.if_limit), "the phase after a limit must be in the table");
     require(is_row(row.if_gone) || row.if_gone == HomingPhase::kNext,
-            "the phase after a signal that has gone must be one of the table");
+            "the phase after a signal that has ended must be in the table");
     require(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
                 (row.if_already == HomingPhase::kNext && row.count == 1),
             "a signal to be counted must be awaited");
@@ -71,9 +71,9 @@ void check(const HomingProgram& program) {
     require(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
     require(row.within_pulses >= 0 && row.within_pulses <= kFarthestPlace_pulses,
             "a search must be within 2^53 pulses");
-    require(is_row(row.if_far), "the phase after a search that went too far must be one of the table");
+    require(is_row(row.if_far), "the phase after a search that went too far must be in the table");
     require(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
-            "speed must be one of the table");
+            "speed must be in the table");
     if (row.does == HomingPhase::Does::move_at_zero_speed) continue;
     const SpeedLaw& speed = program.speeds[static_cast<std::size_t>(row.speed)];
     check(speed);

@@ -105,7 +105,7 @@ void check(const SpeedLaw& law) {
   check(law.up);
   check(law.down);
   if (law.slow_down_reckoned_by) check(*law.slow_down_reckoned_by);
-  if (law.slow_down_at_u) require_not_negative(*law.slow_down_at_u, "move", "slow-down place");
+  if (law.slow_down_at_u) require_not_negative(*law.slow_down_at_u, "move", "slow-down position");
   require_finite(law.slow_down_offset_u, "move", "slow-down offset");
 }
 
@@ -184,10 +184,10 @@ Sample without_jump(const Sample& now, const SpeedLaw& law) {
 }
 
 void check_state(const Sample& now) {
-  require_finite(now.position_u, "move under way", "position");
-  require_not_negative(now.speed_u_s, "move under way", "speed");
-  require_finite(now.acceleration_u_s2, "move under way", "acceleration");
-  require_finite(now.jerk_u_s3, "move under way", "jerk");
+  require_finite(now.position_u, "move in progress", "position");
+  require_not_negative(now.speed_u_s, "move in progress", "speed");
+  require_finite(now.acceleration_u_s2, "move in progress", "acceleration");
+  require_finite(now.jerk_u_s3, "move in progress", "jerk");
 }
 
 void append_change(Profile& profile, const Sample& now, double to_u_s, const SpeedLaw& law) {

@@ -160,10 +160,10 @@ void check(const Model& model, const DeviceSettings& settings) {
     throw SettingError("firmware", why_no_firmware(model, version_text(settings.firmware)));
   }
   if (settings.modules != 0 && (settings.modules < 1 || settings.modules > model.max_modules)) {
-    throw SettingError("modules",
-                       "'" + std::to_string(settings.modules) + "' is not valid; expected " +
-                           (model.max_modules == 0 ? "none, as " + std::string(model.name) + " has no modules"
-                                                   : "1 to " + std::to_string(model.max_modules)));
+    throw SettingError("modules", "'" + std::to_string(settings.modules) + "' is not valid; expected " +
+                                      (model.max_modules == 0
+                                           ? "none, because " + std::string(model.name) + " has no modules"
+                                           : "1 to " + std::to_string(model.max_modules)));
   }
   const auto& numbers = model.line.station_numbers;
   const auto& number = settings.address;

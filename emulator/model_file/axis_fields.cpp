@@ -119,7 +119,7 @@ void check_needs(const YamlFields& fields, world::Diagnostics& diagnostics) {
   for (const auto& [key, input] : kInputNeeds) {
     if (!fields.has(key) || (inputs && inputs->has(input))) continue;
     diagnostics.attempt([&, &of = key, &needed = input] {
-      fields.at(of).fail("needs a switch; expected `inputs: { " + std::string(needed) + ": ... }` as well");
+      fields.at(of).fail("needs a switch; expected `inputs: { " + std::string(needed) + ": ... }`");
     });
   }
 }

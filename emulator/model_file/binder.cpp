@@ -53,7 +53,7 @@ void require_known_sign(const YamlFields& field, const std::string& text,
   const std::string sign = text.substr(at, text.find_first_not_of(kSigns, at) - at);
   if (sign == "=") field.fail("'=' is not an operator; expected '==' to compare");
   if (std::find(known.begin(), known.end(), sign) != known.end())
-    field.fail(understudy::quoted(sign) + " has no spaces around it; expected them, as in " +
+    field.fail(understudy::quoted(sign) + " has no spaces around it; expected spaces, as in " +
                std::string(example));
   field.fail(understudy::quoted(sign) + " is not allowed here; expected " + std::string(expected) +
              ", as in " + std::string(example));
@@ -65,7 +65,7 @@ Spot Binder::spot(const YamlFields& field, const std::string& name) const {
   const auto found = map_.find(name, UINT16_MAX);
   if (!found) field.fail(map_.why_not(name, UINT16_MAX));
   if (found->place.part != Place::Part::whole)
-    field.fail(understudy::quoted(name) + " is half of a register; expected the whole");
+    field.fail(understudy::quoted(name) + " is half of a register; expected the whole register");
   return {.number = static_cast<std::size_t>(found->place.row - map_.rows().data()),
           .bit = found->bit,
           .width = found->bit < 0 ? 1 : found->width};
@@ -83,12 +83,12 @@ Spot Binder::shown(const YamlFields& field, const std::string& name, bool is_fla
   if (!is_flag && row.type == Type::bit)
     field.fail(understudy::quoted(name) + " is a bit; expected a register");
   if (row.access == Access::write)
-    field.fail(understudy::quoted(name) + " can only be written; expected a register that hosts read");
+    field.fail(understudy::quoted(name) + " is write-only; expected a register that hosts can read");
   if (row.access == Access::read_write && !may_be_written && where.is_whole())
     field.fail(understudy::quoted(name) +
-               " is written by hosts; expected a register that they only read (R)");
+               " is written by hosts; expected a register that hosts only read (R)");
   if (where.is_whole() && row.persistent)
-    field.fail(understudy::quoted(name) + " is persistent in the list; expected 0 there, since it shows " +
+    field.fail(understudy::quoted(name) + " is persistent in the list; expected 0 there, because it shows " +
                what);
   auto& taken = taken_[where.number];
   for (const auto& [mask, other] : taken) {
@@ -188,7 +188,7 @@ Comparison Binder::comparison(const YamlFields& field) const {
   require_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
                      "TEMPERATURE > LIMIT");
   field.fail(understudy::quoted(text) +
-             " is not a relation; expected one such as TEMPERATURE > LIMIT, with spaces around the sign");
+             " is not a relation; expected one such as TEMPERATURE > LIMIT, with spaces around the operator");
 }
 
 }  // namespace understudy::emulator::model_file

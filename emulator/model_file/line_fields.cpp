@@ -52,7 +52,7 @@ std::uint8_t read_function(const YamlFields& field) {
     if (row.code == code) return row.code;
     known += (known.empty() ? "" : ", ") + std::to_string(row.code);
   }
-  field.fail(std::to_string(code) + " is not a function that can be served; expected one of " + known);
+  field.fail(std::to_string(code) + " is not a supported function; expected one of " + known);
 }
 
 /// Reads how many registers or bits a request may ask for, by its function.
@@ -63,13 +63,12 @@ void read_limits(const YamlFields& field, Line& line) {
     const auto number = parse_integer(code);
     const bool is_known =
         number && std::find(line.functions.begin(), line.functions.end(), *number) != line.functions.end();
-    if (!is_known)
-      max.fail(understudy::quoted(code) + " is not one of its functions; expected one of `functions`");
+    if (!is_known) max.fail(understudy::quoted(code) + " is not in `functions`; expected one of these");
     const Served& row =
         *std::find_if(all.begin(), all.end(), [&](const Served& one) { return one.code == *number; });
     const auto count = max.integer(kMaxSchema);
     if (count > row.max) {
-      max.fail(std::to_string(count) + " is more than function " + code + " can have; expected " +
+      max.fail(std::to_string(count) + " is more than function " + code + " allows; expected " +
                std::to_string(row.max) + " or fewer");
     }
     line.limits.push_back({.code = row.code, .max = static_cast<int>(count)});
@@ -137,10 +136,11 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   });
   read("stations", [&](const YamlFields& field) {
     const auto ends = field.elements();
-    if (ends.size() != 2) field.fail("expected the lowest and the highest, as in [1, 247]");
+    if (ends.size() != 2) field.fail("expected the lowest and the highest number, as in [1, 247]");
     line.lowest_station = static_cast<int>(ends[0].integer(kStationSchema));
     line.highest_station = static_cast<int>(ends[1].integer(kStationSchema));
-    if (line.lowest_station > line.highest_station) field.fail("ends before it begins; expected [1, 247]");
+    if (line.lowest_station > line.highest_station)
+      field.fail("ends before it begins; expected a range such as [1, 247]");
   });
   read("functions", [&](const YamlFields& field) {
     std::vector<std::uint8_t> functions;

@@ -83,14 +83,15 @@ std::string decode_list(const std::string& bytes, const std::string& encoding, c
     if (!wrong) return bytes;
     const auto guessed = guess(bytes);
     if (!guessed)
-      throw FileError(where, "registers: the line is not UTF-8; expected --encoding big5, gbk, or another");
+      throw FileError(where,
+                      "registers: the line is not UTF-8; expected --encoding big5, gbk, or another encoding");
     known = *guessed;
     remarks.add("encoding", where,
                 "registers: the line is not UTF-8; the list is read as " + known + " (--encoding)");
   }
   if (known == "utf-8") {
     if (!wrong) return bytes;
-    throw FileError(where, "registers: the line is not UTF-8; expected the list saved as CSV in UTF-8");
+    throw FileError(where, "registers: the line is not UTF-8; expected a list saved as CSV in UTF-8");
   }
   const auto* const system = std::find_if(kSystemNames.begin(), kSystemNames.end(),
                                           [&](const auto& entry) { return entry.first == known; });

@@ -55,7 +55,7 @@ ReadList read_list(const YamlFields& field, bool may_read, const std::string& en
                    std::vector<FileClaim>& files, Remarks& remarks) {
   if (field.text().find('\n') != std::string::npos)  // its first line is below the key's line
     return {field.text(), {.file = field.file(), .lines_before = field.line()}};
-  if (!may_read) field.fail("is a path; expected the list itself, since a recording contains everything");
+  if (!may_read) field.fail("is a path; expected the list itself, because a recording contains everything");
   const std::string path = field.path();
   auto text = read_text_file(path);
   if (!text) field.fail(path + " " + text.why + "; expected a list of registers (CSV)");
@@ -135,7 +135,8 @@ void read_firmwares(const YamlFields& field, std::vector<Firmware>& firmwares) {
     if (version == 0)
       one.fail(understudy::quoted(one.text()) + " is not a version; expected one such as 1.52");
     if (!all.empty() && version <= all.back())
-      one.fail(understudy::quoted(one.text()) + " is not above the one before it; expected the oldest first");
+      one.fail(understudy::quoted(one.text()) +
+               " is not above the version before it; expected the oldest first");
     all.push_back(version);
   }
   if (all.empty()) field.fail("is empty; expected at least one version");

@@ -42,15 +42,15 @@ inline constexpr std::array kIdentityKeys{
     Key{"application", "Object 6, the user application.", &world::kText}};
 inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
 inline constexpr std::array kLineKeys{
-    Key{"baud", "The speeds that it can be set to, the factory setting first ([19200, 9600]).",
-        &kBaudOrBaudsSchema},
+    Key{"baud", "The supported speeds, with the factory setting first ([19200, 9600]).", &kBaudOrBaudsSchema},
     Key{"parity", "none (default), even or odd.", &kParitySchema},
     Key{"stop_bits", "1 (default) or 2.", &kStopBitsSchema},
     Key{"silence", "The silence that ends a frame (3.5 characters; above 19200 baud 1.75 ms).",
         &world::kDuration},
     Key{"stations", "The lowest and the highest station number ([1, 247]).", &kStationsSchema},
     Key{"station_in", "The register that holds the station number.", &world::kText},
-    Key{"functions", "The functions that it supports ([1, 2, 3, 4, 5, 6, 15, 16]); also 8, 17, 22, 23, 43.",
+    Key{"functions",
+        "The supported functions ([1, 2, 3, 4, 5, 6, 15, 16]); 8, 17, 22, 23 and 43 are possible too.",
         &kFunctionsSchema},
     Key{"most", "The maximum number of registers or bits in one request, by function: { 3: 32 }.",
         &kMaxByFunctionSchema},
@@ -75,11 +75,12 @@ inline constexpr std::array kMapKeys{
     Key{"holes", "Addresses without a register: refused (default), or read as zero.", &kRefusedOrZeroSchema},
     Key{"out_of_range", "A value outside min and max: refused (default), clamped or stored.",
         &kOutOfRangeSchema},
-    Key{"read_only", "A write to such a register: refused (default) or ignored.", &kRefusedOrIgnoredSchema},
-    Key{"write_only", "A read of such a register: zero (default) or refused.", &kZeroOrRefusedSchema},
+    Key{"read_only", "A write to a read-only register: refused (default) or ignored.",
+        &kRefusedOrIgnoredSchema},
+    Key{"write_only", "A read of a write-only register: zero (default) or refused.", &kZeroOrRefusedSchema},
     Key{"halves", "Half of a 32-bit value: read and written alone (default), or only as a whole.",
         &kAloneOrWholeSchema},
-    Key{"first_word", "The first word of 32 bits: high (default) or low.", &kHighOrLowSchema}};
+    Key{"first_word", "The first word of a 32-bit value: high (default) or low.", &kHighOrLowSchema}};
 
 // --- the list --------------------------------------------------------------------------------------
 inline constexpr Schema kAddressesSchema = world::words_schema(kAddressReadings);
@@ -87,13 +88,12 @@ inline constexpr std::array<std::string_view, 4> kTables{"holding", "input", "co
 inline constexpr Schema kTableSchema = world::words_schema(kTables);
 inline constexpr Schema kEncodingSchema = world::words_schema(kEncodings);
 inline constexpr std::array kListKeys{
-    Key{"columns", "The headings of its columns, by the column's name: { address: Reg, name: Tag }.",
-        &world::kTextByName},
-    Key{"addresses", "How its addresses are numbered: wire (default), from_one or modicon (40001).",
+    Key{"columns", "The column headings, by column name: { address: Reg, name: Tag }.", &world::kTextByName},
+    Key{"addresses", "How the addresses are numbered: wire (default), from_one or modicon (40001).",
         &kAddressesSchema},
     Key{"table", "The table of rows that do not name one: holding (default), input, coil or discrete.",
         &kTableSchema},
-    Key{"encoding", "Its encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
+    Key{"encoding", "The encoding (guessed): utf-8, utf-16, latin-1, big5 or gbk.", &kEncodingSchema}};
 
 // --- axes --------------------------------------------------------------------------------------------
 inline constexpr std::array<std::string_view, 2> kDirections{"minus", "plus"};
@@ -123,28 +123,29 @@ inline constexpr std::array kAxisKeys{
     Key{"deceleration", "The same for slowing down (acceleration).", &world::kText},
     Key{"rated_speed", "The speed that the times refer to (the speed of the move).", &world::kText},
     Key{"home_speed", "The speed of homing (speed).", &world::kText},
-    Key{"stop_at_once", "Stops it at once, without deceleration: CONTROL.3, or COMMAND == 9.", &world::kText},
-    Key{"stop", "Stops it with deceleration.", &world::kText},
-    Key{"enable", "Condition that must be true for it to move (always true).", &world::kText},
+    Key{"stop_at_once", "Stops the axis at once, without deceleration: CONTROL.3, or COMMAND == 9.",
+        &world::kText},
+    Key{"stop", "Stops the axis with deceleration.", &world::kText},
+    Key{"enable", "Condition that must be true for the axis to move (always true).", &world::kText},
     Key{"home", "Starts homing.", &world::kText},
     Key{"start", "Starts a move to `target`.", &world::kText},
     Key{"start_relative", "Starts a move by `distance`.", &world::kText},
-    Key{"forward", "It runs in the positive direction while this is true.", &world::kText},
-    Key{"backward", "It runs in the negative direction while this is true.", &world::kText},
-    Key{"position", "The register that shows its position; a write sets the count.", &world::kText},
-    Key{"actual_speed", "The register that shows its speed.", &world::kText},
-    Key{"encoder", "The register that shows the count of its encoder.", &world::kText},
-    Key{"busy", "The bit (or register) that is 1 while it moves.", &world::kText},
-    Key{"ready", "1 while it is at rest, enabled, and without an alarm.", &world::kText},
-    Key{"arrived", "1 when the last move has reached its target.", &world::kText},
-    Key{"homed", "1 when home has been found.", &world::kText},
-    Key{"enabled", "1 while it is enabled.", &world::kText},
-    Key{"alarm", "1 while its alarm input is on.", &world::kText},
-    Key{"at_upper_limit", "1 while its upper limit switch is on.", &world::kText},
-    Key{"at_lower_limit", "1 while its lower limit switch is on.", &world::kText},
-    Key{"pulses_per_count", "Pulses for each count of a position (1): 10, or 25/4.", &world::kText},
-    Key{"pps_per_count", "Pulses a second for each count of a speed (1).", &world::kText},
-    Key{"inputs", "The inputs of its switches.", &kAxisInputsSchema},
+    Key{"forward", "The axis runs in the positive direction while this is true.", &world::kText},
+    Key{"backward", "The axis runs in the negative direction while this is true.", &world::kText},
+    Key{"position", "The register that shows the position; a write sets the count.", &world::kText},
+    Key{"actual_speed", "The register that shows the speed.", &world::kText},
+    Key{"encoder", "The register that shows the encoder count.", &world::kText},
+    Key{"busy", "The bit (or register) that is 1 while the axis moves.", &world::kText},
+    Key{"ready", "1 while the axis is at rest, enabled and without an alarm.", &world::kText},
+    Key{"arrived", "1 after the last move has reached its target.", &world::kText},
+    Key{"homed", "1 after home has been found.", &world::kText},
+    Key{"enabled", "1 while the axis is enabled.", &world::kText},
+    Key{"alarm", "1 while the alarm input is on.", &world::kText},
+    Key{"at_upper_limit", "1 while the upper limit switch is on.", &world::kText},
+    Key{"at_lower_limit", "1 while the lower limit switch is on.", &world::kText},
+    Key{"pulses_per_count", "Pulses per position count (1): 10, or 25/4.", &world::kText},
+    Key{"pps_per_count", "Pulses per second for each speed count (1).", &world::kText},
+    Key{"inputs", "The inputs of the axis's switches.", &kAxisInputsSchema},
     Key{"home_way", "Direction of homing: minus (default) or plus.", &kDirectionSchema},
     Key{"home_position", "The position at home (0).", &kCountsSchema},
     Key{"pulses_per_revolution", "Pulses per motor revolution, for encoders on a bench.",
@@ -171,12 +172,13 @@ constexpr std::string_view key_of(models::imported::View view) {
 
 // --- the rest ----------------------------------------------------------------------------------------
 inline constexpr std::array kFollowKeys{
-    Key{"of", "The value that it follows: a register, or a number.", &world::kText, true},
-    Key{"while", "Only while this holds: CONTROL.RUN, or MODE == 2 (always).", &world::kText},
-    Key{"rest", "The value that it follows otherwise: a register, or a number (its default).", &world::kText},
+    Key{"of", "The value to follow: a register, or a number.", &world::kText, true},
+    Key{"while", "Follows only while this is true: CONTROL.RUN, or MODE == 2 (always).", &world::kText},
+    Key{"rest", "The value to follow otherwise: a register, or a number (the register's default).",
+        &world::kText},
     Key{"time_constant", "The time for 63.2 % of a change: 30s.", &world::kDuration},
     Key{"rate", "The maximum change per second, in counts.", &world::kText},
-    Key{"every", "The interval of its updates (100ms).", &world::kDuration}};
+    Key{"every", "The interval between updates (100ms).", &world::kDuration}};
 inline constexpr Schema kLineSchema = world::keys_schema(kLineKeys);
 inline constexpr Schema kListSchema = world::keys_schema(kListKeys);
 inline constexpr Schema kMapSchema = world::keys_schema(kMapKeys);
@@ -189,20 +191,20 @@ inline constexpr std::array kModelKeys{
     Key{"understudy", "The version of the format.", &kVersionSchema, true},
     Key{"model", "The model's name: letters, digits, _ and -.", &world::kText, true},
     Key{"title", "A short description.", &world::kText},
-    Key{"firmware", "Its firmware versions, oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
-    Key{"registers", "The path of the list of its registers (CSV), or the list itself.", &world::kText, true},
+    Key{"firmware", "The firmware versions, oldest first: [ \"1.00\", \"1.52\" ].", &world::kTextList},
+    Key{"registers", "The path of the register list (CSV), or the list itself.", &world::kText, true},
     Key{"list", "How to read that list, if it differs from the defaults of `import`.", &kListSchema},
-    Key{"line", "Its settings on the serial line.", &kLineSchema},
-    Key{"map", "How it answers requests that the list leaves open.", &kMapSchema},
+    Key{"line", "The settings of the serial line.", &kLineSchema},
+    Key{"map", "How the controller answers requests that the list leaves open.", &kMapSchema},
     Key{"bits", "Names of bits: { STATUS: { READY: 0, STATE: 4-7 } }.", &kBitNamesSchema},
-    Key{"inputs", "Its inputs, and the bits that show them: { DI1: INPUTS.0, HOME: nowhere }.",
+    Key{"inputs", "The inputs, and the bits that show them: { DI1: INPUTS.0, HOME: nowhere }.",
         &world::kTextByName},
-    Key{"outputs", "Its outputs, and the registers that switch them: { DO1: OUTPUTS.0 }.",
+    Key{"outputs", "The outputs, and the registers that switch them: { DO1: OUTPUTS.0 }.",
         &world::kTextByName},
-    Key{"axes", "Its motor axes, by name, and the registers that are bound to them.", &kAxesSchema},
+    Key{"axes", "The motor axes, by name, and the registers that are bound to them.", &kAxesSchema},
     Key{"follows", "Registers that follow another value with a lag.", &kFollowsSchema},
     Key{"shows", "Bits that are 1 while a comparison is true: { STATUS.ALARM: TEMPERATURE > LIMIT }.",
         &world::kTextByName},
-    Key{"momentary", "Registers that return to 0 once they have started something.", &world::kTextList}};
+    Key{"momentary", "Registers that return to 0 after they have started something.", &world::kTextList}};
 
 }  // namespace understudy::emulator::model_file

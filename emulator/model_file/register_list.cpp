@@ -42,7 +42,7 @@ void require_text(const std::string& text, const ListPlace& place) {
   if (!wrong) return;
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*wrong), '\n');
   throw FileError({place.file, static_cast<int>(line) + place.lines_before, 1},
-                  "registers: the line is not UTF-8; expected the list saved as CSV in UTF-8");
+                  "registers: the line is not UTF-8; expected a list saved as CSV in UTF-8");
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void require_apart(const std::vector<BitName>& all) {
   for (const BitName& name : all) {
     const std::uint32_t mask = bits(name.bit, "", name.width).mask();
     if ((taken & mask) != 0)
-      throw std::invalid_argument(name.name + " shares a bit; expected bits of its own");
+      throw std::invalid_argument(name.name + " shares a bit with another name; expected separate bits");
     taken |= mask;
     const auto same =
         std::count_if(all.begin(), all.end(), [&](const BitName& other) { return other.name == name.name; });
@@ -135,7 +135,7 @@ class ListReader {
     }
     if (is_hexadecimal && !read_rows_.empty()) {
       read_rows_.front().remark("hexadecimal", Column::address,
-                                "all are read as hexadecimal numbers, because the list has some");
+                                "all addresses are read as hexadecimal numbers, because some of them are");
     }
   }
 
@@ -165,7 +165,7 @@ class ListReader {
       row.remark("addresses", Column::address,
                  "read as Modicon numbers: " + quoted(row.text(Column::address)) + " is " +
                      std::to_string(as_modicon->address) +
-                     " on the wire (--addresses wire takes them unchanged)");
+                     " on the wire (--addresses wire leaves them unchanged)");
     } else if (!guessed) {
       row.remark("addresses", Column::address,
                  "read as addresses on the wire, although all may be Modicon numbers (`list: { addresses: "
@@ -252,12 +252,12 @@ RegisterList read_register_list(const std::string& text, const ListPlace& place,
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
     };
     const std::size_t before = diagnostics.count();
-    if (rows.size() < 2) fail("there is none; expected a line of columns, and one for each register");
+    if (rows.size() < 2) fail("the list is empty; expected a line of columns, and a line for each register");
     if (rows.size() > kMaxRegisters)
       fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
     ListReader(rows, place, reading, diagnostics, list).read();
     if (list.registers.empty() && diagnostics.count() == before)
-      fail("there is none; expected a line for each register below the columns");
+      fail("the list is empty; expected a line for each register below the columns");
     if (list.registers.size() > kMaxRegisters)
       fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
   });

@@ -25,7 +25,7 @@ void require_agreement(const ListRow& row, Type type) {
   const auto require = [&](Column column, bool agrees) {
     if (!row.has(column) || agrees) return;
     row.fail(column, quoted(row.text(column)) + " contradicts the type " + quoted(row.text(Column::type)) +
-                         "; expected the same, or one of the two");
+                         "; expected columns that agree, or only one of them");
   };
   require(Column::width, row.text(Column::width) == std::to_string(width_of(type)));
   require(Column::real, row.yes_or_no(Column::real) == (type == Type::f32));
@@ -78,8 +78,8 @@ RowShape shape_by_type(const ListRow& row, Table table) {
   const auto& meaning = row.type();
   if (!meaning) {
     row.fail(Column::type, quoted(word) +
-                               " is not a type; expected u16, s16, u32, s32, f32 or bit, or another of "
-                               "docs/import.md");
+                               " is not a type; expected u16, s16, u32, s32, f32 or bit, or another type "
+                               "in docs/import.md");
   }
   RowShape shape{.kind = meaning->kind,
                  .type = meaning->type,
@@ -146,8 +146,8 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
                                   quoted(row.text(Column::type)));
   } else {
     row.remark("length", Column::words,
-               quoted(row.text(Column::words)) + " is not what the type " + quoted(row.text(Column::type)) +
-                   " has; the type is used");
+               quoted(row.text(Column::words)) + " does not match the type " +
+                   quoted(row.text(Column::type)) + "; the type is used");
   }
   return shape;
 }

@@ -102,7 +102,7 @@ class RowNumbers {
     const auto step = step_of(row_);
     if (!step) {
       row_.fail(column, quoted(word) +
-                            " is in the unit, and the row has no step; expected counts, or a unit "
+                            " is in the unit, but the row has no step; expected counts, or a unit "
                             "such as 0.01Hz");
     }
     const auto counts = counts_of(*number, *step);

@@ -120,7 +120,7 @@ std::string starter_model(const RegisterList& list, const ListReading& reading, 
       "list. docs/import.md has all keys; `understudy check` reports mistakes.\nunderstudy: 1\nmodel: " +
       name +
       "\n"
-      "title: a controller of your own\n"
+      "title: my controller\n"
       "registers: " +
       quoted_yaml(list_path) + "\n" + firmwares_of(registers) + list_section(reading, list.addresses) +
       "line:\n"
@@ -134,7 +134,7 @@ std::string starter_model(const RegisterList& list, const ListReading& reading, 
   if (has_pairs) text += "  first_word: high       # of 32-bit values; or low\n";
   text +=
       "\n"
-      "# An axis that moves: remove the # signs, and put in your registers.\n"
+      "# An axis that moves: remove the # signs, and fill in your registers.\n"
       "#axes:\n"
       "#  A:\n";
   for (const Guess& guess : kGuesses) {

@@ -49,7 +49,7 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
       world::require_name(where, called);
       const bool is_present = std::any_of(made.terminals.begin(), made.terminals.end(),
                                           [&](const Terminal& other) { return other.name == called; });
-      if (is_present) where.fail(understudy::quoted(called) + " is an input as well; expected another name");
+      if (is_present) where.fail(understudy::quoted(called) + " is also an input; expected another name");
       Terminal terminal{.name = called, .is_input = are_inputs};
       if (are_inputs && where.text() != kNowhere) {
         const Spot spot = binder.spot(where);
@@ -57,7 +57,8 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
         const bool is_number = spot.is_whole() && listed.type != Type::bit;
         terminal.spot = binder.shown(where, where.text(), !is_number, called);
         if (is_number && listed.type == Type::f32)
-          where.fail(understudy::quoted(listed.name) + " is a real number; expected a whole one, or a bit");
+          where.fail(understudy::quoted(listed.name) +
+                     " is a real number; expected a whole number, or a bit");
       } else if (!are_inputs) {
         terminal.spot = binder.spot(where);
         const bool is_bit = terminal.spot->is_whole()
@@ -128,7 +129,7 @@ void read_comparisons(const YamlFields& fields, Description& made, Binder& binde
   for (std::size_t i = 0; i < places.size(); ++i) {
     diagnostics.attempt([&] {
       if (shows_one(made.comparisons[i].left) || shows_one(made.comparisons[i].right))
-        places[i].fail("compares a register that shows a relation itself; expected registers without one");
+        places[i].fail("compares a register that itself shows a relation; expected registers that do not");
     });
   }
 }

@@ -287,7 +287,7 @@ TEST_F(Mistakes, OfAModelFilesConditionsSayWhatIsMeant) {
   for (const auto& [start, says] : std::vector<std::pair<std::string, std::string>>{
            {"COMMAND = 1", "'=' is not an operator; expected '==' to compare"},
            {"COMMAND=1", "'=' is not an operator; expected '==' to compare"},
-           {"COMMAND==1", "'==' has no spaces around it; expected them, as in COMMAND == 2"},
+           {"COMMAND==1", "'==' has no spaces around it; expected spaces, as in COMMAND == 2"},
            {"COMMAND > 1",
             "'>' is not allowed here; expected a name, or one with a number, as in COMMAND == 2"},
            {"COMAND", "no register is called 'COMAND'; the nearest is 'COMMAND'"}}) {

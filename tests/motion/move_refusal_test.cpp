@@ -57,7 +57,7 @@ TEST(MoveRefusal, ABadLawIsRefusedByEveryFunctionWhateverTheDistance) {
        }},
       {"ramp: duration", Domain::positive,
        [](SpeedLaw& law, double x) { law.up = {.kind = RampLaw::Kind::time, .duration_s = x}; }},
-      {"move: slow-down place", Domain::not_negative,
+      {"move: slow-down position", Domain::not_negative,
        [](SpeedLaw& law, double x) { law.slow_down_at_u = x; }},
       {"move: slow-down offset", Domain::finite, [](SpeedLaw& law, double x) { law.slow_down_offset_u = x; }},
   };
@@ -111,16 +111,16 @@ TEST(MoveRefusal, BadDistancesStatesSpeedsAndTargetsAreRefused) {
     for (const auto& act : std::vector<std::function<void()>>{[&] { change_speed(bad_speed, 5, law); },
                                                               [&] { slow_to_stop(bad_speed, law); },
                                                               [&] { change_target(bad_speed, 5, law); }}) {
-      expect_refused(act, refusal, "move under way: speed must be ");
+      expect_refused(act, refusal, "move in progress: speed must be ");
     }
     if (std::isfinite(value)) continue;
     expect_refused([&] { change_target({}, value, law); }, refusal, "change of target: target must be ");
     expect_refused([&] { slow_to_stop({.position_u = value}, law); }, refusal,
-                   "move under way: position must be ");
+                   "move in progress: position must be ");
     expect_refused([&] { slow_to_stop({.acceleration_u_s2 = value}, law); }, refusal,
-                   "move under way: acceleration must be ");
+                   "move in progress: acceleration must be ");
     expect_refused([&] { slow_to_stop({.jerk_u_s3 = value}, law); }, refusal,
-                   "move under way: jerk must be ");
+                   "move in progress: jerk must be ");
   }
 }
 

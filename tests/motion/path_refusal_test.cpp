@@ -199,19 +199,19 @@ TEST(PathRefusal, OfPointsOnOneLineOrTheSame) {
        },
        Refusal::no_such_arc, "arc_by_three_points: " + same},
       {[=] { return arc_by_three_points(kOrigin, kTen, far); }, Refusal::no_such_arc,
-       "arc_by_three_points: three points must not be on one line, are within 0 of one"},
+       "arc_by_three_points: three points must not be on one line; they are within 0 of one"},
       {[=] {
          return arc_by_three_points(kOrigin, {10, 1e-12, 0, 0}, far);
        },
        Refusal::no_such_arc,
-       "arc_by_three_points: three points must not be on one line, are within 1e-12 of one"},
+       "arc_by_three_points: three points must not be on one line; they are within 1e-12 of one"},
       {[=] { return arc_in_space(kTen, kTen, kUp); }, Refusal::no_such_arc, "arc_in_space: " + same},
       {[=] { return arc_in_space(kTen, kUp, kUp); }, Refusal::no_such_arc, "arc_in_space: " + same},
       {[=] { return arc_in_space(kTen, kUp, kTen); }, Refusal::no_such_arc, "arc_in_space: " + same},
       {[=] {
          return arc_in_space(kOrigin, {1, 1, 1, 1}, {-2, -2, -2, -2});
        },
-       Refusal::no_such_arc, "arc_in_space: three points must not be on one line, are within 0 of one"},
+       Refusal::no_such_arc, "arc_in_space: three points must not be on one line; they are within 0 of one"},
       {[=] {
          return arc_by_three_points(kOrigin, {5e5, 1e-3, 0, 0}, {1e6, 0, 0, 0});
        },

@@ -98,7 +98,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   };
   require_state(
       content_.size() == earlier.content_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
-      "it holds other registers");
+      "it holds different registers");
   // A waiting register has exactly one job. A job that writes everything comes before all others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {

@@ -145,7 +145,7 @@ Parsed parse_strictly(const std::string& text) {
     }
     throw NvError("is damaged or not JSON; expected an NV image", line_of(text, error.byte));
   } catch (const Json::exception&) {  // a number that fits in no type
-    throw NvError("a number is too large; expected one that fits into 64 bits");
+    throw NvError("a number is too large; expected one that fits in 64 bits");
   }
 }
 

@@ -332,7 +332,7 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
 std::string why_not_writable(const NamedPlace& named) {
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
-  if (row.message != nullptr) return "accepts only whole messages; expected a request from the line";
+  if (row.message != nullptr) return "accepts only complete messages; expected a Modbus request";
   if (row.access == Access::read || place.part == Place::Part::whole)
     return "cannot be written; it is read-only";
   return "cannot be written alone; expected the whole " + RegisterMap::name_of(row, place.index);

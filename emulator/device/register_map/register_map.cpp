@@ -69,7 +69,7 @@ void RegisterMap::Entries::make() {
 
 void RegisterMap::place_all() {
   if (rows_.size() >= UINT16_MAX)
-    throw std::logic_error("register map: too many rows; expected 65,534 at most");
+    throw std::logic_error("register map: too many rows; expected at most 65,534");
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const RegisterRow& row = rows_[i];
     validate_rows(row);

@@ -36,14 +36,14 @@ bool is_number(std::string_view name) {
 }
 
 void validate_names(const RegisterRow& row, const Require& require) {
-  require(is_name(row.name), "is not a name of a register");
-  require(row.alias.empty() || is_name(row.alias), "has an alias that is not a name of a register");
+  require(is_name(row.name), "is not a valid register name");
+  require(row.alias.empty() || is_name(row.alias), "has an alias that is not a valid register name");
   require(row.count == 1 || row.name.find("{}") != std::string_view::npos,
-          "has several registers, and no {} in its name");
+          "has several registers, but no {} in its name");
   require(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
           "has a different number of labels");
   require(row.first_axis >= 0 && (row.first_axis == 0 || !row.labels.empty()),
-          "begins with another axis, and is not for each of several");
+          "begins with a different axis, but is not a row for several axes");
 }
 
 void validate_place(const RegisterRow& row, const Require& require) {
@@ -73,15 +73,14 @@ void validate_values(const RegisterRow& row, const Require& require) {
   require(!row.ranged || (fits(row.min) && fits(row.max)), "has a range that it cannot hold");
   require(!row.ranged || is_in_order(row), "has a range that ends before it begins");
   require(row.stored_bits == 0xFFFF'FFFF || row.type != Type::f32, "is a real, which must be stored whole");
-  require(row.stored_bits != 0, "holds no bit of what is written");
+  require(row.stored_bits != 0, "stores no bit of what is written");
 }
 
 void validate_acts(const RegisterRow& row, const Require& require) {
   const bool can_be_written = row.access != Access::read;
-  require(!row.is_view || !row.persistent, "is a view, which keeps nothing");
-  require(can_be_written || (row.effect == nullptr && row.acts_on_zero),
-          "can only be read, and has an effect");
-  require(row.access != Access::write || row.reader == nullptr, "can only be written, and has a reader");
+  require(!row.is_view || !row.persistent, "is a view, which stores nothing");
+  require(can_be_written || (row.effect == nullptr && row.acts_on_zero), "is read-only, but has an effect");
+  require(row.access != Access::write || row.reader == nullptr, "is write-only, but has a reader");
   require((row.varies == Varies::with_time) == (row.next_change != nullptr),
           "must say at which ticks its value changes if it changes with time, and only then");
   require(!row.is_view || !can_be_written || row.effect != nullptr || row.message != nullptr,
@@ -91,25 +90,26 @@ void validate_acts(const RegisterRow& row, const Require& require) {
               row.min_words <= row.count,
           "is not a window of words");
   require(row.access == Access::write && row.is_view && row.effect == nullptr && row.fields.empty(),
-          "is a window, which only takes messages");
-  require(!row.ranged, "is a window, whose words are judged by its message");
+          "is a window, which accepts only messages");
+  require(!row.ranged, "is a window, whose words are checked by its message");
 }
 
 void validate_fields(const RegisterRow& row, const Require& require) {
   require(row.fields.empty() || (row.type != Type::bit && row.type != Type::f32),
-          "has fields, and no bits for them");
+          "has fields, but no bits for them");
   std::uint32_t taken = 0;
   for (const BitField& field : row.fields) {
     require(field.bit >= 0 && field.width >= 1 && field.bit + field.width <= width_of(row.type),
-            "has a field that it has no bits for");
-    require((taken & field.mask()) == 0, "has two fields in one bit");
+            "has a field outside its bits");
+    require((taken & field.mask()) == 0, "has two fields that share a bit");
     taken |= field.mask();
     require(!field.name.empty() && field.name.find('.') == std::string_view::npos && !is_number(field.name),
             "has a field with an invalid name");
     const auto same = std::count_if(row.fields.begin(), row.fields.end(),
                                     [&](const BitField& other) { return other.name == field.name; });
-    require(same == 1, "has two fields of the same name");
-    require(field.reader == nullptr || row.reader == nullptr, "has a reader, and a field with another");
+    require(same == 1, "has two fields with the same name");
+    require(field.reader == nullptr || row.reader == nullptr,
+            "has a reader, and a field with a different reader");
   }
 }
 

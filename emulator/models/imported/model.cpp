@@ -25,7 +25,7 @@ namespace understudy::emulator::models::imported {
 namespace {
 
 constexpr std::array<std::string_view, 1> kKnownLimitations{
-    "A file describes it. Registers without a binding only store the values that hosts write.",
+    "The model comes from a file. Registers without a binding only store the values that hosts write.",
 };
 
 constexpr std::size_t kMaxStateRegisters = 12;

@@ -195,8 +195,8 @@ inline constexpr ChoiceRow kChoices[] = {
     {"incremental_while_moving", "附錄 A",
      "From which position does an incremental move count if it replaces a move?", "present_place|old_target",
      kProposal,
-     "The axis drops the old move and its remaining distance. With old_target, an old move at speed 0 counts "
-     "as well. A distance of 0 stops the axis at once with either, as in appendix A."},
+     "The axis drops the old move and its remaining distance. With old_target, an old move at speed 0 also "
+     "counts. A distance of 0 stops the axis at once with either, as in appendix A."},
     {"speed_while_moving", "運動相關",
      "When does a write to Speed, AccTime, DecTime or Resoultion take effect during a move that uses them?",
      "next_move|at_once", kProposal,
@@ -279,7 +279,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "every_mode|position_only", kProposal,
      "It is on while pulses or duty are not 0, or while a velocity is commanded."},
     {"homing_bits", "狀態相關", "What does STATUS show while an axis homes?",
-     "moving_and_homing|homing_alone", kProposal, "Homing is a motion as well."},
+     "moving_and_homing|homing_alone", kProposal, "Homing is also a motion."},
     {"velocity_settings", "系統參數相關",
      "When do Resoultion and VelMode_ACC take effect if written in velocity mode?", "at_once|next_command",
      kProposal, "Each 0.5 ms step uses the current values."},
@@ -305,8 +305,8 @@ inline constexpr ChoiceRow kChoices[] = {
     {"sync_ratio", "系統參數相關", "What is the unit of the ratio EncSync_NUM / _DEN?",
      "pulses_per_encoder_count|revolutions", kProposal,
      "This is the simplest reading. With revolutions, both resolutions count."},
-    {"sync_slope", "系統參數相關", "What is the unit of SyncSlope for each step of 5 ms?", "rpm|pulses",
-     kProposal, "SyncRPM beside it uses this unit: 1 is 200 RPM/s."},
+    {"sync_slope", "系統參數相關", "What is the unit of SyncSlope per 5 ms step?", "rpm|pulses", kProposal,
+     "SyncRPM beside it uses this unit: 1 is 200 RPM/s."},
     {"sync_lost_pulses", "系統參數相關", "What happens to pulses that SyncRPM or SyncSlope cuts off?",
      "forgotten|caught_up", kProposal,
      "The axis follows speed. With caught_up and a SyncSlope, the axis decelerates in time to reach its "

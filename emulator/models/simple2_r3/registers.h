@@ -71,9 +71,9 @@ inline constexpr BitField kStatusBits[] = {
 
 // clang-format off
 inline constexpr auto kStatusRows = section("狀態相關", {
-    reg(0x0000, "STATUS",         u16, R).means("state of both axes, a bit for each fact", "狀態").reads<read_status, Varies::in_ticks>().with_bits(kStatusBits),
-    reg(0x0001, "HW_Code",        u16, R).means("code of the hardware", "硬體識別碼").from_factory(0xC001),
-    reg(0x0002, "Version",        u16, R).means("version of the firmware, in hundredths", "控制器版次").from_factory(152).reads<read_version, Varies::in_ticks>(),
+    reg(0x0000, "STATUS",         u16, R).means("state of both axes, one bit per item", "狀態").reads<read_status, Varies::in_ticks>().with_bits(kStatusBits),
+    reg(0x0001, "HW_Code",        u16, R).means("hardware code", "硬體識別碼").from_factory(0xC001),
+    reg(0x0002, "Version",        u16, R).means("firmware version, in hundredths", "控制器版次").from_factory(152).reads<read_version, Varies::in_ticks>(),
     reg(0x0004, "Aaxis_Mode",     u16, R).means("mode of axis A: 0 position, 1 velocity, 2 PWM, 3 encoder following", "A 軸目前模式").range(0, 3).reads<read_mode, Varies::in_ticks>(kAxisA),
     reg(0x0005, "Baxis_Mode",     u16, R).means("mode of axis B: 0 position, 1 velocity, 2 PWM, 3 encoder following", "B 軸目前模式").range(0, 3).reads<read_mode, Varies::in_ticks>(kAxisB),
     reg(0x000F, "EEPROM_Writing", u16, R).means("1 while the EEPROM is being written", "EEPROM 是否正在寫入").range(0, 1).reads<read_eeprom_busy, Varies::in_ticks>(),
@@ -119,12 +119,12 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
 // The manual prints a minimum of 1 for speeds, but the factory value is 0 and appendix A describes it.
 inline constexpr auto kMotionRows = section("運動相關", kMotion, {
     reg(0x1000, "Aaxis_Pulse",     s32, RW).means("distance or target of the next move of axis A", "A 軸位移值").range(kS32Min, kS32Max).in("Pulse").may(kValue),
-    reg(0x1002, "Aaxis_Speed",     u16, RW).means("speed of moves of axis A", "最大 A 軸速度").range(0, k2To15).in("RPM").does<change_speed>(kAxisA),
+    reg(0x1002, "Aaxis_Speed",     u16, RW).means("move speed of axis A", "最大 A 軸速度").range(0, k2To15).in("RPM").does<change_speed>(kAxisA),
     reg(0x1003, "Aaxis_AccTime",   u16, RW).means("acceleration time of axis A", "A 軸加速時間").range(0, 3000).in("10ms").does<change_speed>(kAxisA),
     reg(0x1004, "Aaxis_DecTime",   u16, RW).means("deceleration time of axis A", "A 軸減速時間").range(0, 3000).in("10ms").does<change_speed>(kAxisA),
     reg(0x1005, "Aaxis_Move_INC",  u16, RW).means("1 starts an incremental move of axis A", "A 軸開始增量移動").range(0, 1).in("ON/OFF").reads<read_incremental_trigger, Varies::in_ticks>(kAxisA).triggers<start_incremental>(kAxisA),
     reg(0x1006, "Baxis_Pulse",     s32, RW).means("distance or target of the next move of axis B", "B 軸位移值").range(kS32Min, kS32Max).in("Pulse").may(kValue),
-    reg(0x1008, "Baxis_Speed",     u16, RW).means("speed of moves of axis B", "最大 B 軸速度").range(0, k2To15).in("RPM").does<change_speed>(kAxisB),
+    reg(0x1008, "Baxis_Speed",     u16, RW).means("move speed of axis B", "最大 B 軸速度").range(0, k2To15).in("RPM").does<change_speed>(kAxisB),
     reg(0x1009, "Baxis_AccTime",   u16, RW).means("acceleration time of axis B", "B 軸加速時間").range(0, 3000).in("10ms").does<change_speed>(kAxisB),
     reg(0x100A, "Baxis_DecTime",   u16, RW).means("deceleration time of axis B", "B 軸減速時間").range(0, 3000).in("10ms").does<change_speed>(kAxisB),
     reg(0x100B, "Baxis_Move_INC",  u16, RW).means("1 starts an incremental move of axis B", "B 軸開始增量移動").range(0, 1).in("ON/OFF").reads<read_incremental_trigger, Varies::in_ticks>(kAxisB).triggers<start_incremental>(kAxisB),
@@ -132,17 +132,17 @@ inline constexpr auto kMotionRows = section("運動相關", kMotion, {
     reg(0x100D, "ALL_STOP",        u16, W).means("1 stops all axes", "所有軸停止運動").range(0, 1).in("ON/OFF").triggers<stop_motion>(kAllAxes),
     reg(0x100E, "Aaxis_STOP",      u16, RW).means("1 stops axis A", "A 軸停止運動").range(0, 1).in("ON/OFF").reads<read_zero, Varies::in_ticks>().triggers<stop_motion>(kAxisA),
     reg(0x100F, "Baxis_STOP",      u16, RW).means("1 stops axis B", "B 軸停止運動").range(0, 1).in("ON/OFF").reads<read_zero, Varies::in_ticks>().triggers<stop_motion>(kAxisB),
-    reg(0x1010, "ALL_GoHome",      u16, W).means("1 starts the homing of all axes", "所有軸返回原點").range(0, 1).in("ON/OFF").triggers<go_home>(kAllAxes),
-    reg(0x1011, "Aaxis_GoHome",    u16, RW).means("1 starts the homing of axis A", "A 軸返回原點").range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisA).triggers<go_home>(kAxisA),
-    reg(0x1012, "Baxis_GoHome",    u16, RW).means("1 starts the homing of axis B", "B 軸返回原點").range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisB).triggers<go_home>(kAxisB),
+    reg(0x1010, "ALL_GoHome",      u16, W).means("1 starts homing all axes", "所有軸返回原點").range(0, 1).in("ON/OFF").triggers<go_home>(kAllAxes),
+    reg(0x1011, "Aaxis_GoHome",    u16, RW).means("1 starts homing axis A", "A 軸返回原點").range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisA).triggers<go_home>(kAxisA),
+    reg(0x1012, "Baxis_GoHome",    u16, RW).means("1 starts homing axis B", "B 軸返回原點").range(0, 1).in("ON/OFF").reads<read_homing_trigger, Varies::in_ticks>(kAxisB).triggers<go_home>(kAxisB),
     reg(0x1013, "ALL_SVON",        u16, W).means("switches the servos of all axes on or off", "所有軸伺服啟動").range(0, 1).in("ON/OFF").does<switch_servo>(kAllAxes).may(kOutput | kMotion),
     reg(0x1014, "Aaxis_SVON",      u16, RW).means("switches the servo of axis A on or off", "A 軸伺服啟動").range(0, 1).in("ON/OFF").reads<read_servo, Varies::in_ticks>(kAxisA).does<switch_servo>(kAxisA).may(kOutput | kMotion),
     reg(0x1015, "Baxis_SVON",      u16, RW).means("switches the servo of axis B on or off", "B 軸伺服啟動").range(0, 1).in("ON/OFF").reads<read_servo, Varies::in_ticks>(kAxisB).does<switch_servo>(kAxisB).may(kOutput | kMotion),
     reg(0x1016, "ALL_ACLR",        u16, W).means("1 clears the alarms of all axes", "所有軸警報清除").range(0, 1).in("ON/OFF").triggers<clear_alarm>(kAllAxes).may(kOutput | kMotion),
     reg(0x1017, "Aaxis_ACLR",      u16, RW).means("1 clears the alarm of axis A", "A 軸警報清除").range(0, 1).in("ON/OFF").reads<read_alarm_clear, Varies::in_ticks>(kAxisA).triggers<clear_alarm>(kAxisA).may(kOutput | kMotion),
     reg(0x1018, "Baxis_ACLR",      u16, RW).means("1 clears the alarm of axis B", "B 軸警報清除").range(0, 1).in("ON/OFF").reads<read_alarm_clear, Varies::in_ticks>(kAxisB).triggers<clear_alarm>(kAxisB).may(kOutput | kMotion),
-    reg(0x1019, "Aaxis_DirectPWM", u16, RW).means("PWM duty of axis A; a write enters the PWM mode", "A 軸 PWM 模式輸出值").range(0, 100).does<command_pwm>(kAxisA),
-    reg(0x101A, "Baxis_DirectPWM", u16, RW).means("PWM duty of axis B; a write enters the PWM mode", "B 軸 PWM 模式輸出值").range(0, 100).does<command_pwm>(kAxisB),
+    reg(0x1019, "Aaxis_DirectPWM", u16, RW).means("PWM duty of axis A; a write enters PWM mode", "A 軸 PWM 模式輸出值").range(0, 100).does<command_pwm>(kAxisA),
+    reg(0x101A, "Baxis_DirectPWM", u16, RW).means("PWM duty of axis B; a write enters PWM mode", "B 軸 PWM 模式輸出值").range(0, 100).does<command_pwm>(kAxisB),
     reg(0x101B, "ALL_Move_ABS",    u16, W).means("1 starts an absolute move of all axes", "所有軸開始絕對位置運動").range(0, 1).in("ON/OFF").triggers<start_absolute>(kAllAxes),
     reg(0x101C, "Aaxis_Move_ABS",  u16, RW).means("1 starts an absolute move of axis A", "A 軸開始絕對位置移動").range(0, 1).in("ON/OFF").reads<read_absolute_trigger, Varies::in_ticks>(kAxisA).triggers<start_absolute>(kAxisA),
     reg(0x101D, "Baxis_Move_ABS",  u16, RW).means("1 starts an absolute move of axis B", "B 軸開始絕對位置移動").range(0, 1).in("ON/OFF").reads<read_absolute_trigger, Varies::in_ticks>(kAxisB).triggers<start_absolute>(kAxisB),
@@ -160,9 +160,9 @@ inline constexpr auto kSpeedSetRows = section("預存速度表", kMemory, {
 });
 
 inline constexpr auto kIncrementalBySetRows = section("預存位置表相關運動指令(增量位置移動)", kMotion, {
-    reg(0x2100, "ALL_ParmsMove_INC",     u16, W).means("starts an incremental move of all axes by the position set of this number", "所有軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAllAxes),
-    reg(0x2101, "Aaxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis A by the position set of this number", "A 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisA),
-    reg(0x2102, "Baxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis B by the position set of this number", "B 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisB),
+    reg(0x2100, "ALL_ParmsMove_INC",     u16, W).means("starts an incremental move of all axes with the position set of this number", "所有軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAllAxes),
+    reg(0x2101, "Aaxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis A with the position set of this number", "A 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisA),
+    reg(0x2102, "Baxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis B with the position set of this number", "B 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisB),
 });
 
 inline constexpr auto kVelocityBySetRows = section("預存速度表相關運動指令", kMotion, {
@@ -172,9 +172,9 @@ inline constexpr auto kVelocityBySetRows = section("預存速度表相關運動�
 });
 
 inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動指令(絕對位置移動)", kMotion, {
-    reg(0x2106, "ALL_ParmsMove_ABS",     u16, W).means("starts an absolute move of all axes by the position set of this number", "所有軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAllAxes),
-    reg(0x2107, "Aaxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis A by the position set of this number", "A 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisA),
-    reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B by the position set of this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
+    reg(0x2106, "ALL_ParmsMove_ABS",     u16, W).means("starts an absolute move of all axes with the position set of this number", "所有軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAllAxes),
+    reg(0x2107, "Aaxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis A with the position set of this number", "A 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisA),
+    reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B with the position set of this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
 });
 
 // A program cell travels as 16 bits but holds 8.
@@ -182,26 +182,26 @@ inline constexpr auto kProgramRows = section("程式控制", kProgram, {
     reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).means("starts the program at this line", "主程式由哪一行執行").range(0, 255).in("line").does<start_program>(),
     reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).means("1 stops the program", "主程式強制停止").range(0, 1).triggers<stop_program>().may(kMotion),
     reg(0x3004, "PROG_MAIN_Erase_ALL",      u16, W).means("1 erases the program", "清除所有主程式").range(0, 1).triggers<erase_program>().may(kMemory),
-    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).means("line that the program executes", "查詢主程式目前在第幾行").range(0, 255).in("line").reads<read_now_line, Varies::in_ticks>(),
+    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).means("line that the program is executing", "查詢主程式目前在第幾行").range(0, 255).in("line").reads<read_now_line, Varies::in_ticks>(),
     reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).means("1 while the program runs", "查詢主程式目前是否在執行中").range(0, 1).reads<read_program_runs, Varies::in_ticks>(),
     reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).means("program line {}: instruction", "主程式行 {} 指令").persists().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(0).does<write_cell>(0),
     reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).means("program line {}: first operand", "主程式行 {} 資料 1").persists().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(1).does<write_cell>(1),
     reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).means("program line {}: second operand", "主程式行 {} 資料 2").persists().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(2).does<write_cell>(2),
-    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).means("program line {}: flag to which programs jump", "主程式行 {} 旗標").persists().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(3).does<write_cell>(3),
-    reg(0x8000, "PROG_MEM{}", s32, RW).means("variable MEM {} of programs, persistent", "記憶表行 {}").persists().times(32, 2, 0).halves("_RegL", "_RegH").may(kMemory),
-    reg(0x8100, "PROG_VAR{}", s32, RW).means("variable VAR {} of programs", "變數表行 {}").times(32, 2, 0).halves("_RegL", "_RegH").may(kValue),
+    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).means("program line {}: flag that jumps refer to", "主程式行 {} 旗標").persists().holding_bits(0xFF).times(256, 4, 0).reads<read_cell, Varies::in_ticks>(3).does<write_cell>(3),
+    reg(0x8000, "PROG_MEM{}", s32, RW).means("program variable MEM {}, persistent", "記憶表行 {}").persists().times(32, 2, 0).halves("_RegL", "_RegH").may(kMemory),
+    reg(0x8100, "PROG_VAR{}", s32, RW).means("program variable VAR {}", "變數表行 {}").times(32, 2, 0).halves("_RegL", "_RegH").may(kValue),
 });
 
 // The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A like 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
-    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).means("speed of the homing of axis A", "最大回原點 A 軸速度").also("Axis_Home_Speed").range(0, k2To15).in("RPM").persists(),
-    reg(0xF001, "Baxis_Home_Speed",    u16, RW).means("speed of the homing of axis B", "最大回原點 B 軸速度").range(0, k2To15).in("RPM").persists(),
+    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).means("homing speed of axis A", "最大回原點 A 軸速度").also("Axis_Home_Speed").range(0, k2To15).in("RPM").persists(),
+    reg(0xF001, "Baxis_Home_Speed",    u16, RW).means("homing speed of axis B", "最大回原點 B 軸速度").range(0, k2To15).in("RPM").persists(),
     reg(0xF002, "Aaxis_Resoultion",    u32, RW).means("pulses of axis A per revolution", "A 軸一圈脈衝").also("Axis_Resoultion").range(1, k2To31).in("Pulse").from_factory(3200).persists().does<change_speed>(kAxisA).may(kMemory | kMotion),
     reg(0xF004, "Baxis_Resoultion",    u32, RW).means("pulses of axis B per revolution", "B 軸一圈脈衝").range(1, k2To31).in("Pulse").from_factory(3200).persists().does<change_speed>(kAxisB).may(kMemory | kMotion),
-    reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).means("speed of axis A in the velocity mode; a write enters it", "A 軸速度模式下輸出速度").range(kS32Min, kS32Max).in("mRPM").does<command_velocity>(kAxisA).may(kMotion),
-    reg(0xF008, "Baxis_DirectmRPM",    s32, RW).means("speed of axis B in the velocity mode; a write enters it", "B 軸速度模式下輸出速度").range(kS32Min, kS32Max).in("mRPM").does<command_velocity>(kAxisB).may(kMotion),
-    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).means("acceleration and deceleration time of the homing of axis A", "A 軸回原點加減速時間").also("Axis_Home_AccTime").range(0, 3000).in("10ms").persists(),
-    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).means("acceleration and deceleration time of the homing of axis B", "B 軸回原點加減速時間").range(0, 3000).in("10ms").persists(),
+    reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).means("speed of axis A in velocity mode; a write enters this mode", "A 軸速度模式下輸出速度").range(kS32Min, kS32Max).in("mRPM").does<command_velocity>(kAxisA).may(kMotion),
+    reg(0xF008, "Baxis_DirectmRPM",    s32, RW).means("speed of axis B in velocity mode; a write enters this mode", "B 軸速度模式下輸出速度").range(kS32Min, kS32Max).in("mRPM").does<command_velocity>(kAxisB).may(kMotion),
+    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).means("homing acceleration and deceleration time of axis A", "A 軸回原點加減速時間").also("Axis_Home_AccTime").range(0, 3000).in("10ms").persists(),
+    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).means("homing acceleration and deceleration time of axis B", "B 軸回原點加減速時間").range(0, 3000).in("10ms").persists(),
     reg(0xF012, "Aaxis_SVON_Polarity", u16, RW).means("level of the servo-on output of axis A: 1 conducts while on", "A 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
     reg(0xF013, "Baxis_SVON_Polarity", u16, RW).means("level of the servo-on output of axis B: 1 conducts while on", "B 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
     reg(0xF014, "Aaxis_ALM_Polarity",  u16, RW).means("level of the alarm input of axis A: 0 conducts at an alarm", "A 軸警報 ALM 輸入極性").range(0, 1).persists().may(kMemory | kMotion),
@@ -210,30 +210,30 @@ inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
     reg(0xF017, "Baxis_DIR_Polarity",  u16, RW).means("1 reverses the direction output of axis B", "B 軸運動方向腳 DIR 極性").range(0, 1).persists().may(kMemory | kMotion),
     reg(0xF018, "Axis_ENC_Polarity",   u16, RW).means("1 reverses the counting direction of encoder A", "A 軸編碼信號 AB 相序").also("Aaxis_ENC_Polarity").range(0, 1).persists().may(kMemory | kMotion),
     reg(0xF019, "Baxis_ENC_Polarity",  u16, RW).means("1 reverses the counting direction of encoder B", "B 軸編碼信號 AB 相序").range(0, 1).persists().may(kMemory | kMotion),
-    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).means("direction in which axis A looks for home first: 1 positive", "A 軸回原點方向").also("Aaxis_GoHome_DIR").range(0, 1).persists(),
-    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).means("direction in which axis B looks for home first: 1 positive", "B 軸回原點方向").range(0, 1).persists(),
-    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).means("acceleration of axis A in the velocity mode", "A 軸速度模式速度漸變加速度").also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).persists(),
-    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).means("acceleration of axis B in the velocity mode", "B 軸速度模式速度漸變加速度").range(1, k2To15).in("2mRPM/s").from_factory(1000).persists(),
+    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).means("direction in which axis A first searches for home: 1 positive", "A 軸回原點方向").also("Aaxis_GoHome_DIR").range(0, 1).persists(),
+    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).means("direction in which axis B first searches for home: 1 positive", "B 軸回原點方向").range(0, 1).persists(),
+    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).means("acceleration of axis A in velocity mode", "A 軸速度模式速度漸變加速度").also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).persists(),
+    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).means("acceleration of axis B in velocity mode", "B 軸速度模式速度漸變加速度").range(1, k2To15).in("2mRPM/s").from_factory(1000).persists(),
     reg(0xF01E, "AutoStart_MainProg",  u16, RW).means("1: the program starts at power-up", "開機後自動執行主程式").range(0, 1).persists().may(kProgram),
-    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).means("numerator of the encoder following of axis A", "A 軸編碼器同步比例分子").also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
-    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).means("denominator of the encoder following of axis A", "A 軸編碼器同步比例分母").also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
-    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).means("numerator of the encoder following of axis B", "B 軸編碼器同步比例分子").range(0, 65535).from_factory(1).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
-    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).means("denominator of the encoder following of axis B", "B 軸編碼器同步比例分母").range(1, 65535).from_factory(1).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
+    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).means("encoder following of axis A: numerator of the ratio", "A 軸編碼器同步比例分子").also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
+    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).means("encoder following of axis A: denominator of the ratio", "A 軸編碼器同步比例分母").also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
+    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).means("encoder following of axis B: numerator of the ratio", "B 軸編碼器同步比例分子").range(0, 65535).from_factory(1).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
+    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).means("encoder following of axis B: denominator of the ratio", "B 軸編碼器同步比例分母").range(1, 65535).from_factory(1).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
     reg(0xF024, "ALL_SyncMode",        u16, W).means("1: both axes follow their encoders", "AB 軸皆執行編碼器同步模式").range(0, 1).triggers<command_following>(kAllAxes).may(kMotion),
     reg(0xF025, "Aaxis_SyncMode",      u16, W).means("1: axis A follows its encoder", "執行 A 軸編碼器同步模式").range(0, 1).triggers<command_following>(kAxisA).may(kMotion),
     reg(0xF026, "Baxis_SyncMode",      u16, W).means("1: axis B follows its encoder", "執行 B 軸編碼器同步模式").range(0, 1).triggers<command_following>(kAxisB).may(kMotion),
-    reg(0xF027, "Axis_SyncSlope",      u16, RW).means("slope of the encoder following of axis A; 0 is unlimited", "A 軸編碼器同步斜率").also("Aaxis_SyncSlope").range(0, 255).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
-    reg(0xF028, "Baxis_SyncSlope",     u16, RW).means("slope of the encoder following of axis B; 0 is unlimited", "B 軸編碼器同步斜率").range(0, 255).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
-    reg(0xF029, "Axis_SyncRPM",        u16, RW).means("highest speed of the encoder following of axis A", "A 軸編碼器同步最高轉速").also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
-    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).means("highest speed of the encoder following of axis B", "B 軸編碼器同步最高轉速").range(1, 3000).in("RPM").from_factory(3000).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
+    reg(0xF027, "Axis_SyncSlope",      u16, RW).means("encoder following of axis A: slope; 0 is unlimited", "A 軸編碼器同步斜率").also("Aaxis_SyncSlope").range(0, 255).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
+    reg(0xF028, "Baxis_SyncSlope",     u16, RW).means("encoder following of axis B: slope; 0 is unlimited", "B 軸編碼器同步斜率").range(0, 255).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
+    reg(0xF029, "Axis_SyncRPM",        u16, RW).means("encoder following of axis A: maximum speed", "A 軸編碼器同步最高轉速").also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).persists().does<change_sync>(kAxisA).may(kMemory | kMotion),
+    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).means("encoder following of axis B: maximum speed", "B 軸編碼器同步最高轉速").range(1, 3000).in("RPM").from_factory(3000).persists().does<change_sync>(kAxisB).may(kMemory | kMotion),
 });
 
 inline constexpr auto kApplicationRows = section("程式應用相關", kValue, {
     reg(0xF100, "CalcREG",        s32, RW).means("working register for calculations in programs", "計算暫存器"),
-    reg(0xF122, "Counter1_Value", u16, RW).means("count of counter 1 of programs", "1 號計數器目前值").range(0, 65535),
-    reg(0xF123, "Counter2_Value", u16, RW).means("count of counter 2 of programs", "2 號計數器目前值").range(0, 65535),
-    reg(0xF126, "Timer1_Value",   u32, RW).means("time of timer 1 of programs", "1 號計時器目前值").range(0, 4294967295).reads<read_timer, Varies::with_time>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
-    reg(0xF128, "Timer2_Value",   u32, RW).means("time of timer 2 of programs", "2 號計時器目前值").range(0, 4294967295).reads<read_timer, Varies::with_time>(1).changes_at<next_count_of_timer>().does<preset_timer>(1),
+    reg(0xF122, "Counter1_Value", u16, RW).means("count of the program's counter 1", "1 號計數器目前值").range(0, 65535),
+    reg(0xF123, "Counter2_Value", u16, RW).means("count of the program's counter 2", "2 號計數器目前值").range(0, 65535),
+    reg(0xF126, "Timer1_Value",   u32, RW).means("time of the program's timer 1", "1 號計時器目前值").range(0, 4294967295).reads<read_timer, Varies::with_time>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
+    reg(0xF128, "Timer2_Value",   u32, RW).means("time of the program's timer 2", "2 號計時器目前值").range(0, 4294967295).reads<read_timer, Varies::with_time>(1).changes_at<next_count_of_timer>().does<preset_timer>(1),
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", kMemory, {
@@ -243,7 +243,7 @@ inline constexpr auto kFactoryRows = section("附錄 C", kMemory, {
     reg(0xFF03, "ADC_10V_B",     u16, RW).means("calibration of analog input B at 10 V", "類比輸入 B 在 10V 的校正值").from_factory(4000).persists(),
     reg(0xFF04, "ADC_1V_A",      u16, RW).means("calibration of analog input A at 1 V", "類比輸入 A 在 1V 的校正值").from_factory(400).persists(),
     reg(0xFF05, "ADC_1V_B",      u16, RW).means("calibration of analog input B at 1 V", "類比輸入 B 在 1V 的校正值").from_factory(400).persists(),
-    reg(0xFF06, "Factory_Reset", u16, W).means("1 restores the factory values of all but the calibration", "全部重置為出廠值").range(0, 1).triggers<reset_to_factory>().may(Hazards::all),
+    reg(0xFF06, "Factory_Reset", u16, W).means("1 restores all factory values except the calibration", "全部重置為出廠值").range(0, 1).triggers<reset_to_factory>().may(Hazards::all),
     reg(0xFF07, "PWD_Input",     u16, RW).means("password that unlocks the program", "程式碼解鎖密碼輸入").also("PWD_INPUT").range(0, 65535).does<enter_password>().since_firmware(151).may(kValue),
     reg(0xFF08, "PROG_UNLOCK",   u16, R).means("1: the program may be read", "程式碼是否可讀取").range(0, 1).from_factory(1).reads<read_unlocked, Varies::in_ticks>().since_firmware(151),
     reg(0xFF09, "NEW_PWD",       u16, RW).means("new password of the program", "程式碼新解鎖密碼輸入").range(0, 65535).reads<read_password, Varies::in_ticks>().does<change_password>().since_firmware(151),

@@ -42,10 +42,10 @@ namespace {
 /// Checks programs with the chosen options; here they are compiled from their lines.
 void settle_programs(State& state, const lang::FlowOptions& options) {
   const std::vector<std::string> texts = state.program.texts();
-  require_state(state.program.set_texts(texts, options.program), "a line is not a command of a program");
+  require_state(state.program.set_texts(texts, options.program), "a line is not a program command");
   lang::Program kept;
   require_state(kept.set_texts(state.kept_program, options.program),
-                "a kept line is not a command of a program");
+                "a stored line is not a program command");
   require_within(state.editor.line, 0, options.program.capacity);
   require_within(state.execution.line, 0, options.program.capacity);
   require_state(is_sound(state.execution, state.program, options), "the program is in an impossible state");

@@ -12,11 +12,11 @@ namespace understudy::emulator::models::slim {
 /// Indexed by error number (rules/errors.h).
 inline constexpr std::array<std::string_view, 14> kErrorWords{
     "",
-    "this is not a command here: check its spelling and its operands",
+    "this is not a valid command: check its spelling and operands",
     "a value or an index is out of range",
-    "this command is not allowed now: typed, in a program, or while one runs",
+    "this command is not allowed in this place: typed, in a program, or while a program runs",
     "that axis is not assigned, or its module belongs to an axis",
-    "PN50 names no such module",
+    "PN50 does not list this module",
     "the chain is paused and accepts no moves",
     "PR2 or PR3 differs between the axes of the command",
     "the buffer of moves, or the program, is full",

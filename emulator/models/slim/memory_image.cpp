@@ -40,7 +40,7 @@ void read_image(State& state, const Setup& setup, const NvImage& given) {
   lang::Program program;
   if (!program.set_texts(image.program, setup.of_programs())) {
     throw NvError(
-        "program: holds a line that is not a command of a program; expected lines as ULP shows them");
+        "program: contains a line that is not a program command; expected lines in the form that ULP prints");
   }
   state.kept = std::move(memory);
   if (setup.history_is_kept()) state.errors = errors;

@@ -40,13 +40,13 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"FU", "", ParameterDefinition::Type::integer, 0, 1, false, 0, "", false,
      "unit of PN10 and PN14: 0 RPM, 1 RPS"},
     {"VA", "", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 10000, "RPM/s or RPS/s, by FU",
-     false, "acceleration of moves of one axis; the name is ours, like TVA"},
+     false, "acceleration of single-axis moves; the name is ours, like TVA"},
     {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none",
      "no load is computed"},
     {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
      "position error limit; 0: none", "the servo follows without error"},
     {"PN37", "", ParameterDefinition::Type::integer, 0, 65535, false, 0x8888, "", true,
-     "module of each axis at power-up, a nibble for x, y, z and w; 8: none"},
+     "module of each axis at power-up, one nibble each for x, y, z and w; 8: none"},
     {"PN44", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "", false,
      "user coordinate unit", "coordinates use PN45 and PN46"},
     {"PN45", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "pulse", false,
@@ -54,7 +54,7 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"PN46", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "unit", false,
      "... are this many units"},
     {"PN50", "", ParameterDefinition::Type::integer, 0, 255, false, 1, "", true,
-     "linked modules, bit p for Tp; T0 always"},
+     "linked modules, bit p for Tp; T0 is always linked"},
     {"PR2", "TVA", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 1000, "unit/s2", false,
      "resultant acceleration of coordinated motion"},
     {"PR3", "TVM", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 100, "unit/s", false,
@@ -64,7 +64,7 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
      "largest angle that CM 2 joins"},
     {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,
-     "master of linked axes, of older models", "arcs need no master"},
+     "master of linked axes, on older models", "arcs need no master"},
 };
 inline constexpr std::size_t kParameterCount = std::size(kParameters);
 

@@ -140,7 +140,7 @@ struct Queries {
     }
     /// Answers a query of an electrical value, which is not modelled (kKnownLimitations).
     Error electrical(double value) const {
-      setup.device.warn_not_implemented(command.name, "nothing electrical is; the value is always the same");
+      setup.device.warn_not_implemented(command.name, "electrical values are constant");
       return whole(value);
     }
   };

@@ -43,7 +43,7 @@ std::string_view cost_of(const lang::InstructionRow& row) {
     case lang::Waits::for_time: return "its time";
     case lang::Waits::for_arrival: return "until all have arrived";
     case lang::Waits::for_home: return "until all are home";
-    case lang::Waits::for_standstill: return "with 0 until it stands";
+    case lang::Waits::for_standstill: return "with 0 until it is at rest";
   }
   return "";
 }

@@ -195,7 +195,7 @@ TEST(ForeignList, SaysHowItsAddressesAreRead) {
             "l.csv:2:1: address: read as addresses on the wire: 1 is the second register (with --addresses "
             "from_one, the first)\n");
   EXPECT_EQ(remark("40001"),
-            "l.csv:2:1: address: read as Modicon numbers: '40001' is 0 on the wire (--addresses wire takes "
+            "l.csv:2:1: address: read as Modicon numbers: '40001' is 0 on the wire (--addresses wire leaves "
             "them unchanged)\n");
   EXPECT_EQ(
       lines_in("address,name\n40069,A\n"),
@@ -220,7 +220,7 @@ TEST(ForeignList, HasNumbersInTheUnit) {
       {"0.0,3.0,A,10,", "0 X u16 0..30 A\n"},
       {"0.005,1.00,0.01Hz,,", "l.csv:2:5: min: '0.005' is not a multiple of '0.01Hz'; expected one"},
       {"0.5,1,Hz,,",
-       "l.csv:2:5: min: '0.5' is in the unit, and the row has no step; expected counts, or a unit such as "
+       "l.csv:2:5: min: '0.5' is in the unit, but the row has no step; expected counts, or a unit such as "
        "0.01Hz"},
       {"0,100 %,%,,", "0 X u16 0..100 %\n"},
   };
@@ -277,7 +277,7 @@ TEST(ForeignList, MayBelongToSeveralFirmwares) {
             "m.yaml:6:5: since: '1.52' is not a firmware of the model; expected one of its `firmware`, such "
             "as 1.52");
   EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n", "firmware: [ '1.52', '1.00' ]\n")),
-            "m.yaml:6:21: firmware[1]: '1.00' is not above the one before it; expected the oldest first");
+            "m.yaml:6:21: firmware[1]: '1.00' is not above the version before it; expected the oldest first");
   EXPECT_NE(starter_model(imported(list), {}, "one", "l.csv").find("firmware: [ '1.00', '1.52' ]"),
             std::string::npos);
 }

@@ -55,15 +55,16 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"targt: TARGET", 15, "axes.A.targt: is not a key here; expected one of target, distance, speed,"},
       {"position: POSITON", 18,
        "axes.A.position: no register is called 'POSITON'; the nearest is 'POSITION'"},
-      {"position: TARGET_L", 18, "axes.A.position: 'TARGET_L' is half of a register; expected the whole"},
+      {"position: TARGET_L", 18,
+       "axes.A.position: 'TARGET_L' is half of a register; expected the whole register"},
       {"position: STATUS.3", 18, "axes.A.position: 'STATUS.3' is a bit; expected a register"},
       {"position: KEPT", 18,
-       "axes.A.position: 'KEPT' is persistent in the list; expected 0 there, since it shows "
+       "axes.A.position: 'KEPT' is persistent in the list; expected 0 there, because it shows "
        "A.position"},
       {"position: ORDER", 18,
-       "axes.A.position: 'ORDER' can only be written; expected a register that hosts read"},
+       "axes.A.position: 'ORDER' is write-only; expected a register that hosts can read"},
       {"encoder: TARGET", 17,
-       "axes.A.encoder: 'TARGET' is written by hosts; expected a register that they only "
+       "axes.A.encoder: 'TARGET' is written by hosts; expected a register that hosts only "
        "read (R)"},
       {"busy: STATUS.16", 14, "axes.A.busy: register 'STATUS' has no bit '16'; expected 0 to 15, BUSY"},
       {"busy: CONTROL.MODE", 14,
@@ -128,11 +129,12 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"line: { parity: mark }\n", 1, 17,
        "line.parity: 'mark' is not valid; expected one of none, even, odd"},
       {"line: { silence: 2s }\n", 1, 18, "line.silence: '2s' is not valid; expected more than 0, up to 1s"},
-      {"line: { stations: [5, 1] }\n", 1, 19, "line.stations: ends before it begins; expected [1, 247]"},
+      {"line: { stations: [5, 1] }\n", 1, 19,
+       "line.stations: ends before it begins; expected a range such as [1, 247]"},
       {"line: { functions: [3, 7] }\n", 1, 24,
-       "line.functions[1]: 7 is not a function that can be served; expected one of 1, 2, 3, 4, 5, 6, "},
+       "line.functions[1]: 7 is not a supported function; expected one of 1, 2, 3, 4, 5, 6, "},
       {"line: { most: { 23: 5 } }\n", 1, 21,
-       "line.most.23: '23' is not one of its functions; expected one of `functions`"},
+       "line.most.23: '23' is not in `functions`; expected one of these"},
       {"line: { most: { 3: 126 } }\n", 1, 20,
        "line.most.3: 126 is more than function 3 can have; expected 125 or fewer"},
       {"line: { most: { 6: 2 } }\n", 1, 20,
@@ -152,15 +154,16 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "'STATUS'"},
       {"bits: { STATUS: { A: 16 } }\n", 1, 22,
        "bits.STATUS.A: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
-      {"bits: { STATUS: { A: 0 } }\n", 1, 22, "bits.STATUS.A: A shares a bit; expected bits of its own"},
+      {"bits: { STATUS: { A: 0 } }\n", 1, 22,
+       "bits.STATUS.A: A shares a bit with another name; expected separate bits"},
       {"inputs: { DI1: CONTROL.0, DI2: CONTROL }\n", 1, 32,
-       "inputs.DI2: 'CONTROL' is written by hosts; expected a register that they only read (R)"},
+       "inputs.DI2: 'CONTROL' is written by hosts; expected a register that hosts only read (R)"},
       {"inputs: { DI1: STATUS.1, DI2: STATUS.1 }\n", 1, 31,
        "inputs.DI2: 'STATUS.1' shows DI1 already; expected another place for DI2"},
       {"outputs: { DO1: SPEED }\n", 1, 17,
        "outputs.DO1: 'SPEED' is not a bit; expected one, as in OUTPUTS.0"},
       {"inputs: { D: SWITCH }\noutputs: { D: RUN }\n", 2, 15,
-       "outputs.D: 'D' is an input as well; expected another "
+       "outputs.D: 'D' is also an input; expected another "
        "name"},
       {"follows: { TEMPERATURE: { time_constant: 1s } }\n", 1, 25,
        "follows.TEMPERATURE: 'of' is missing; expected it here"},
@@ -173,11 +176,11 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"follows: { TEMPERATURE: { of: SPEED, every: 0ms } }\n", 1, 45,
        "follows.TEMPERATURE.every: '0ms' is not valid; expected 1ms to 60s"},
       {"follows: { SPEED: { of: 5 } }\n", 1, 19,
-       "follows.SPEED: 'SPEED' is written by hosts; expected a register that they only read (R)"},
+       "follows.SPEED: 'SPEED' is written by hosts; expected a register that hosts only read (R)"},
       {"shows: { STATUS.1: TEMPERATURE>5 }\n", 1, 20,
-       "shows.STATUS.1: '>' has no spaces around it; expected them, as in TEMPERATURE > LIMIT"},
+       "shows.STATUS.1: '>' has no spaces around it; expected spaces, as in TEMPERATURE > LIMIT"},
       {"shows: { STATUS.1: SPEED > 5, SWITCH: STATUS > 0 }\n", 1, 39,
-       "shows.SWITCH: compares a register that shows a relation itself; expected registers without one"},
+       "shows.SWITCH: compares a register that itself shows a relation; expected registers that do not"},
       {"momentary: [ STATUS ]\n", 1, 14,
        "momentary[0]: 'STATUS' cannot be momentary; expected a 16-bit register or a coil that hosts can "
        "write"},
@@ -369,8 +372,8 @@ TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
   EXPECT_EQ(
       reported("|\n      understudy: 1\n      model: m\n      registers: |\n        table,address\n      "
                "axs: 1\n"),
-      "bench.yaml:9:7: devices.d.model: registers: there is none; expected a line of columns, and one for "
-      "each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
+      "bench.yaml:9:7: devices.d.model: registers: the list is empty; expected a line of columns, and a line "
+      "for each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
       "understudy, model, title, firmware, registers, list, line, map, bits, inputs, outputs, axes, follows, "
       "shows, "
       "momentary (the nearest is 'axes')");
@@ -389,7 +392,7 @@ TEST(ModelFiles, InARecordingHaveTheirListInside) {
   } catch (const FileError& error) {
     EXPECT_STREQ(error.what(),
                  "bench:1:87: devices.it.model: line 3, column 12: registers: is a path; expected the list "
-                 "itself, since a recording contains everything");
+                 "itself, because a recording contains everything");
   }
 }
 

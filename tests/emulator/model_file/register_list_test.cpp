@@ -32,12 +32,13 @@ struct WrongList {
 
 TEST(RegisterList, SaysWhatIsWrongAndWhere) {
   const WrongList kWrong[] = {
-      {"", "l.csv:1:1: registers: there is none; expected a line of columns, and one for each register"},
+      {"",
+       "l.csv:1:1: registers: the list is empty; expected a line of columns, and a line for each register"},
       {"address,name\n",
-       "l.csv:1:1: registers: there is none; expected a line of columns, and one for each "
+       "l.csv:1:1: registers: the list is empty; expected a line of columns, and a line for each "
        "register"},
       {"address,name\n,\n",
-       "l.csv:1:1: registers: there is none; expected a line for each register below the columns"},
+       "l.csv:1:1: registers: the list is empty; expected a line for each register below the columns"},
       {"adress,name\n0,A\n",
        "l.csv:1:1: columns: there is no address, but 'adress'; expected a first line such as "
        "address,name,access,width,unit,min,max,default, or --columns address=HEADING"},
@@ -65,8 +66,8 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:5: width: '8' is not valid; expected 16 or 32, and 1 in coil and discrete"},
       {"address,name,table,width\n0,A,coil,16\n", "l.csv:2:10: width: '16' is not valid there; expected 1"},
       {"address,name,type\n0,A,u12\n",
-       "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another of "
-       "docs/import.md"},
+       "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another type "
+       "in docs/import.md"},
       {"address,name,type\n0,A,bit\n",
        "l.csv:2:5: type: is not as wide as its table; expected bit in coil and discrete, and only there"},
       {"address,name,signed\n0,A,maybe\n",
@@ -90,7 +91,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,bits\n0,A,16 X\n",
        "l.csv:2:5: bits: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
       {"address,name,bits\n0,A,\"0-3 X, 2 Y\"\n",
-       "l.csv:2:5: bits: Y shares a bit; expected bits of its own"},
+       "l.csv:2:5: bits: Y shares a bit with another name; expected separate bits"},
       {"address,name,bits\n0,A,\"0 X, 1 X\"\n", "l.csv:2:5: bits: 'X' appears twice; expected it once"},
       {"address,name,width\n65535,A,32\n",
        "l.csv:2:1: address: has no room for 32 bits; expected 0xFFFE or below"},
@@ -98,13 +99,13 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,unit\n0,\"A\" B,mm\n",
        "l.csv:2:6: registers: 'B' follows a quoted cell; expected a separator"},
       {"address,name,type,width\n0,A,u16,32\n",
-       "l.csv:2:9: width: '32' contradicts the type 'u16'; expected the same, or one of the two"},
+       "l.csv:2:9: width: '32' contradicts the type 'u16'; expected columns that agree, or only one of them"},
       {"address,name,type,signed\n0,A,u16,1\n",
-       "l.csv:2:9: signed: '1' contradicts the type 'u16'; expected the same, or one of the two"},
+       "l.csv:2:9: signed: '1' contradicts the type 'u16'; expected columns that agree, or only one of them"},
       {"address,name,type,real\n0,A,u32,1\n",
-       "l.csv:2:9: real: '1' contradicts the type 'u32'; expected the same, or one of the two"},
+       "l.csv:2:9: real: '1' contradicts the type 'u32'; expected columns that agree, or only one of them"},
       {"address,name\n0,A\xC4\xE3\xBA\xC3\n",
-       "l.csv:2:1: registers: the line is not UTF-8; expected --encoding big5, gbk, or another"},
+       "l.csv:2:1: registers: the line is not UTF-8; expected --encoding big5, gbk, or another encoding"},
   };
   for (const WrongList& wrong : kWrong)
     EXPECT_EQ(diagnostic_about_list(wrong.list), wrong.diagnostic) << wrong.list;

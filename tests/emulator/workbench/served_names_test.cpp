@@ -117,7 +117,7 @@ TEST(ServedNames, WhatCannotBeSetIsReportedInALine) {
       {"Offset.15", 1, "Offset.15: 1 is out of range; expected Offset within -500 to 500"},
       {"holding.Position_X_L", 1,
        "holding.Position_X_L cannot be written alone; expected the whole Position_X"},
-      {"Command0", kStop, "Command0 accepts only whole messages; expected a request from the line"},
+      {"Command0", kStop, "Command0 accepts only complete messages; expected a Modbus request"},
       {"Servo_X", 1, "Servo_X cannot be written; it is read-only"},
       {"Position_X", 1,
        "it: 'Position_X' is in several tables; expected one of holding.Position_X, input.Position_X"},
@@ -129,8 +129,7 @@ TEST(ServedNames, WhatCannotBeSetIsReportedInALine) {
       {"Mode.PROGRAM: 16",
        "60: lines.rs485.stations[0].set.Mode.PROGRAM: 16 is out of range; expected 0 to 15"},
       {"Command0: 5",
-       "56: lines.rs485.stations[0].set.Command0: accepts only whole messages; expected a request from the "
-       "line"},
+       "56: lines.rs485.stations[0].set.Command0: accepts only complete messages; expected a Modbus request"},
       {"input.20: 5", "56: lines.rs485.stations[0].set.input.20: cannot be written; it is read-only"},
   };
   for (const auto& [set, diagnostic] : of_benches) {

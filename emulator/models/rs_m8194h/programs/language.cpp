@@ -131,7 +131,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
   const ProgramCells* cells() const override { return this; }
 
   CellForm cell_form() const override {
-    return {.row = "the registers from 8000 on, one message a line",
+    return {.row = "the registers from 8000 on, one message per line",
             .fewest = 1,
             .max = 20,
             .lowest = 0,
@@ -144,7 +144,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
     if (parsed.first_trigger) {
       throw ProgramError(parsed.first_trigger->line, parsed.first_trigger->column,
-                         "TRIGGER is not a message to the window; expected macros alone");
+                         "TRIGGER is not a message to the window; expected only macros");
     }
     const lang::Options options = language_options(settings).lines;
     std::vector<CellRow> rows;

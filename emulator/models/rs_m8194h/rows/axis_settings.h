@@ -168,7 +168,7 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
     constexpr std::uint32_t kMaxRing = 2'000'000'000;
     const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
                       value.filter_time <= 7 && value.ring_top <= kMaxRing && value.soft_limit_source <= 1;
-    require_state(fits, "a setting is not one of the manual's");
+    require_state(fits, "a setting is not in the manual");
   }
 };
 

@@ -90,7 +90,7 @@ inline constexpr auto kInputRows2 = section("12.1.2", {
 });
 inline constexpr auto kInputRows3 = section("12.1.3", {
     with_names(input(20, "ERROR_CODE {}", u16).means("causes of the stop of axis {}, one bit each", "{} 軸錯誤碼").also("ERROR_CODE_{}").each(kAxisNames, 1).shows<error_code, Varies::in_ticks>(), kErrorBits),
-    input(24,  "MP Call number", u16).means("number of the macro program that runs", "目前正在執行的巨集編號").also("MP_Call_number").shows<running_mp, Varies::in_ticks>(),
+    input(24,  "MP Call number", u16).means("number of the running macro program", "目前正在執行的巨集編號").also("MP_Call_number").shows<running_mp, Varies::in_ticks>(),
     input(25,  "EMERGENCY_STOP state", u16).means("1 after an emergency stop by command", "目前的緊急停止狀態").also("EMERGENCY_STOP").shows<emergency_state, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows4 = section("12.1.4", {
@@ -100,14 +100,14 @@ inline constexpr auto kInputRows4 = section("12.1.4", {
     input(50,  "Current acceleration {}", s32).means("present acceleration of axis {}", "{} 軸的當前加速度").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration, Varies::while_moving>(),
 });
 inline constexpr auto kInputRows5 = section("12.1.5", {
-    input(58,  "Stop Status {}", u16).means("1: axis {} stands still", "{} 軸停止狀態").also("STOP_{}").each(kAxisNames, 1).shows<stop_status, Varies::in_ticks>(),
+    input(58,  "Stop Status {}", u16).means("1: axis {} is at rest", "{} 軸停止狀態").also("STOP_{}").each(kAxisNames, 1).shows<stop_status, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows6 = section("12.1.6", {
     input(62,  "Latch {}", s32).means("position of axis {} when it was latched", "{} 軸的位置栓鎖數值").also("LATCH_{}").each(kAxisNames, 2).in("pulse").shows<latch, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows7 = section("12.1.7", {
     input(70,  "ERROR_STATE", u16).means("1 after an error", "錯誤狀態").shows<error_state, Varies::in_ticks>(),
-    input(71,  "FREE_BUFFER_SIZE", u16).means("free places in the buffer of commands", "指令緩衝區的剩餘空間").shows<free_blocks, Varies::in_ticks>(),
+    input(71,  "FREE_BUFFER_SIZE", u16).means("free places in the command buffer", "指令緩衝區的剩餘空間").shows<free_blocks, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows8 = section("12.1.8", {
     input(72,  "RINT_STATE_ALL", u16).means("interrupts of the module, one bit each", "讀取 RINT 狀態").shows<rint_word, Varies::in_ticks>(),
@@ -119,9 +119,9 @@ inline constexpr auto kInputRows8 = section("12.1.8", {
     input(80,  "Module_Error", u16).means("the module has an error", "RINT_STATE 的位元 7").shows<rint_bit, Varies::in_ticks>(7),
 });
 inline constexpr auto kInputRows9 = section("12.1.9", {
-    input(81,  "i-8094H Module ID", u16).means("kind of the module", "i-8094H 模組 ID").also("MODULE_ID").shows<module_id, Varies::in_ticks>(),
-    input(82,  "RS-M8194H Firmware Version", u32).means("firmware of the RS-M8194H", "RS-M8194H 韌體版本").also("RSM_FIRMWARE").shows<rsm_firmware, Varies::in_ticks>(),
-    input(84,  "i-8094H Firmware Version", u32).means("firmware and board of the i-8094H", "i-8094H 韌體版本").also("I8094H_FIRMWARE").shows<module_firmware, Varies::in_ticks>(),
+    input(81,  "i-8094H Module ID", u16).means("type of the module", "i-8094H 模組 ID").also("MODULE_ID").shows<module_id, Varies::in_ticks>(),
+    input(82,  "RS-M8194H Firmware Version", u32).means("firmware version of the RS-M8194H", "RS-M8194H 韌體版本").also("RSM_FIRMWARE").shows<rsm_firmware, Varies::in_ticks>(),
+    input(84,  "i-8094H Firmware Version", u32).means("firmware and board version of the i-8094H", "i-8094H 韌體版本").also("I8094H_FIRMWARE").shows<module_firmware, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows10 = section("4.14", {
     input(87,  "InterpolationRdyFlag", u16).means("1: the next command of an interpolation may be sent", "補間命令傳送允許旗標").shows<interpolation_ready, Varies::in_ticks>(),
@@ -130,22 +130,22 @@ inline constexpr auto kInputRows11 = section("12.1.10", {
     with_names(input(88, "DI_SIGNAL {}", u16).means("signals of axis {} at the daughter board, one bit each", "{} 軸的所有 DI 訊號").also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),
 });
 inline constexpr auto kInputRows12 = section("4.8", {
-    input(92,  "HOME_STATE {}", u16).means("state of the homing of axis {}", "{} 軸原點復歸狀態").also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state, Varies::in_ticks>(),
+    input(92,  "HOME_STATE {}", u16).means("homing state of axis {}", "{} 軸原點復歸狀態").also("HOME_STATE_{}").each(kAxisNames, 1).shows<home_state, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows13 = section("4.13", {
-    with_names(input(96, "DRIVING_AXIS", u16).means("axes that drive, one bit each", "正在驅動(移動)的軸號").shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
+    with_names(input(96, "DRIVING_AXIS", u16).means("axes that are driving, one bit each", "正在驅動(移動)的軸號").shows<driving_axes, Varies::in_ticks>(), kAxisMaskBits),
 });
 inline constexpr auto kInputRows14 = section("12.1.12", {
-    input(100, "RS-M8194H state", u16).means("state of the RS-M8194H: ready, or a macro is downloaded", "RS-M8194H 目前的狀態").also("RSM_STATE").shows<rsm_state, Varies::in_ticks>(),
+    input(100, "RS-M8194H state", u16).means("state of the RS-M8194H: ready, or a macro is being downloaded", "RS-M8194H 目前的狀態").also("RSM_STATE").shows<rsm_state, Varies::in_ticks>(),
     input(101, "i-8094H state", u16).means("state of the i-8094H", "i-8094H 模組的當前狀態").also("I8094H_STATE").shows<module_state, Varies::in_ticks>(),
     input(102, "Illegal Modbus function", u16).means("why the last request was refused", "函式操作錯誤時的 Modbus 例外回應").also("IllegalFuncErr").shows<illegal_reason, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows15 = section("12.1.13", {
-    input(110, "Download: MP number", u16).means("last error at the download of macros: MP number", "巨集程序的下載錯誤訊息: MP 巨集程序編號").also("DOWNLOAD_MP").shows<download_field, Varies::in_ticks>(0),
-    input(111, "Download: ISR number", u16).means("last error at the download of macros: ISR number", "巨集程序的下載錯誤訊息: ISR 巨集程序編號").also("DOWNLOAD_ISR").shows<download_field, Varies::in_ticks>(1),
-    input(112, "Download: command type", u16).means("last error at the download of macros: code of the command", "巨集程序的下載錯誤訊息: 造成錯誤的指令代碼").also("DOWNLOAD_CMD").shows<download_field, Varies::in_ticks>(2),
-    input(113, "Download: line number", u16).means("last error at the download of macros: line", "巨集程序的下載錯誤訊息: 發生錯誤的指令行號").also("DOWNLOAD_LINE").shows<download_field, Varies::in_ticks>(3),
-    input(114, "Download: error type", u16).means("last error at the download of macros: sort of error", "巨集程序的下載錯誤訊息: 錯誤類型").also("DOWNLOAD_ERROR").shows<download_field, Varies::in_ticks>(4),
+    input(110, "Download: MP number", u16).means("last macro download error: MP number", "巨集程序的下載錯誤訊息: MP 巨集程序編號").also("DOWNLOAD_MP").shows<download_field, Varies::in_ticks>(0),
+    input(111, "Download: ISR number", u16).means("last macro download error: ISR number", "巨集程序的下載錯誤訊息: ISR 巨集程序編號").also("DOWNLOAD_ISR").shows<download_field, Varies::in_ticks>(1),
+    input(112, "Download: command type", u16).means("last macro download error: code of the command", "巨集程序的下載錯誤訊息: 造成錯誤的指令代碼").also("DOWNLOAD_CMD").shows<download_field, Varies::in_ticks>(2),
+    input(113, "Download: line number", u16).means("last macro download error: line", "巨集程序的下載錯誤訊息: 發生錯誤的指令行號").also("DOWNLOAD_LINE").shows<download_field, Varies::in_ticks>(3),
+    input(114, "Download: error type", u16).means("last macro download error: kind of error", "巨集程序的下載錯誤訊息: 錯誤類型").also("DOWNLOAD_ERROR").shows<download_field, Varies::in_ticks>(4),
 });
 inline constexpr auto kInputRows16 = section("12.1.14", {
     input(115, "Execution: MP number", u16).means("last macro execution error: MP number", "巨集程序的執行錯誤訊息: MP 巨集程序編號").also("EXECUTION_MP").shows<execution_field, Varies::in_ticks>(0),
@@ -174,12 +174,12 @@ inline constexpr auto kHoldingRows1 = section("12.2.1", Hazards::output, {
     reg(0,    "FRnet DO group {}", u16, RW).means("outputs of FRnet group {}, one bit each", "設定/讀取 FRnet DO 群組 {}").times(8, 1, 0).shows<do_word, Varies::in_ticks>().does<write_do_word>(),
 });
 inline constexpr auto kHoldingRows2 = section("12.2.2", kMacro, {
-    reg(8,    "CALL_MPn", u16, RW).means("calls the macro program of this number", "寫入巨集程序的編號").also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
+    reg(8,    "CALL_MPn", u16, RW).means("calls the macro program with this number", "寫入巨集程序的編號").also("CALL_MP").range(1, 157).reads<call_register, Varies::in_ticks>().does<call_mp>(),
     reg(9,    "FRnet Event", u16, RW).means("1: FRnet inputs trigger macro programs", "FRnet 事件觸發").also("FRNET_EVENT").range(0, 1).persists_at_once().does<enable_triggers>(),
-    reg(14,   "WORD Order", u16, RW).means("order of words: 0 high word first, 1 low word first", "字組順序").also("WORD_ORDER").range(0, 1).may(kMotion),
+    reg(14,   "WORD Order", u16, RW).means("word order: 0 high word first, 1 low word first", "字組順序").also("WORD_ORDER").range(0, 1).may(kMotion),
 });
 inline constexpr auto kHoldingRows3 = section("12.2.3", kNetwork, {
-    reg(20,   "Lock_IP{}", u16, RW).means("address {} of the TCP client that alone has access", "鎖定 TCP Client IP").times(4, 1, 0),
+    reg(20,   "Lock_IP{}", u16, RW).means("address {} of the only TCP client that has access", "鎖定 TCP Client IP").times(4, 1, 0),
     reg(24,   "UnLock_IP", u16, W).means("unlocks access for all TCP clients", "解開鎖定 TCP Client IP"),
     reg(25,   "RS-M8194H_IP{}", u16, RW).means("IP address, word {}", "設定 RS-M8194H IP").times(2, 1, 0),
     reg(27,   "RS-M8194H_Mask{}", u16, RW).means("network mask, word {}", "設定 RS-M8194H Mask").times(2, 1, 0),
@@ -231,7 +231,7 @@ inline constexpr auto kDiscreteRows1 = section("12.5.1", {
     discrete(112, "FRnet DI group 15 channel {}").means("input {} of FRnet group 15", "FRnet DI 群組 15 通道 {}").times(16, 1, 0).shows<di_bit, Varies::in_ticks>(15),
 });
 inline constexpr auto kDiscreteRows2 = section("12.5.2", {
-    discrete(128, "{} DRIVING").means("axis {} drives", "{} 軸的驅動狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(0),
+    discrete(128, "{} DRIVING").means("axis {} is driving", "{} 軸的驅動狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(0),
     discrete(129, "{} LIMIT+").means("positive limit switch of axis {}", "{} 軸的正方向硬體極限狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(1),
     discrete(130, "{} LIMIT-").means("negative limit switch of axis {}", "{} 軸的反方向硬體極限狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(2),
     discrete(131, "{} EMERGENCY").means("emergency stop of axis {}", "{} 軸的緊急停止狀態").each(kAxisNames, 16).shows<di_all_bit, Varies::in_ticks>(3),

@@ -20,12 +20,12 @@ using namespace emulator::models::slim;
 namespace {
 
 void require_coordinate(double units) {
-  require_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
+  require_state(std::abs(units) <= 1e16, "a coordinate is out of range");
 }
 
 // Also used for accelerations; each has its own unit.
 void require_speed(double value) {
-  require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is beyond its range");
+  require_state(value >= kMinSpeed && value <= kMaxSpeed, "a speed is out of range");
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void StateOf<ModuleSettings>::check(const ModuleSettings& settings) {
   }
   if (settings.jog_speed != 0) require_speed(std::abs(settings.jog_speed));
   require_state(settings.smooth_corner_deg >= 0 && settings.smooth_corner_deg <= 180,
-                "an angle is beyond its range");
+                "an angle is out of range");
 }
 
 void StateOf<Output>::check(const Output& output) {
@@ -86,7 +86,7 @@ void StateOf<Output>::check(const Output& output) {
   const bool fits = output.frequency_hz >= 0 && output.frequency_hz <= 1e6 && output.duty_percent >= 0 &&
                     output.duty_percent <= 100;
   require_state(fits && (output.mode != Output::Mode::pwm || output.frequency_hz >= 0.001),
-                "an output's frequency or duty is beyond its range");
+                "an output's frequency or duty is out of range");
 }
 
 void StateOf<OutputOrder>::check(const OutputOrder& order) {
@@ -114,7 +114,7 @@ void StateOf<Job>::check(const Job& job) {
   for (const double units : job.ends) require_coordinate(units);
   require_state(std::isfinite(job.sweep_deg) && std::isfinite(job.growth_units_turn) &&
                     std::isfinite(job.smooth_corner_deg),
-                "an angle is beyond its range");
+                "an angle is out of range");
   if (job.path_acceleration_units_s2 != 0) require_speed(job.path_acceleration_units_s2);
 }
 

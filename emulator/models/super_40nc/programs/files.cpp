@@ -61,7 +61,7 @@ std::string why_not_recipe(const std::string& text) {
   for (const TextLine line : TextLines(text)) {
     if (!parse_line(line.text)) {
       return "line " + std::to_string(line.number) +
-             ": is not a register of a recipe; expected such as D500 12";
+             ": is not a register of a recipe; expected one such as D500 12";
     }
   }
   return "";

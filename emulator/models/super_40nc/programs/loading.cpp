@@ -70,7 +70,7 @@ void Programs::make_programs_ready() {
 void Programs::load_program(std::string_view text) {
   if (ground_.powered() && registers().is_on(stored_d(d9::kEditLock)) &&
       chose(option("edit_lock", "d9021_refuses_programs"))) {
-    throw ProgramError(0, 0, "D9021 (C15) locks programs; expected it to be 0");
+    throw ProgramError(0, 0, "D9021 (C15) locks programs; expected 0");
   }
   const language::Checked checked = stored_.check(text);
   if (!checked.program) {

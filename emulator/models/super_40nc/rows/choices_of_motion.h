@@ -83,7 +83,7 @@ inline constexpr ChoiceRow kMotionChoices[] = {
     {"flash_time", "D9 參數暫存器的功用(一般用)", "How long does a file or recipe change take?",
      "0|100_ms_without_a_scan", kProposal, "The manual is silent, and nothing shows that the box is busy."},
     {"m8023_scope", "M8 特殊接點的功用(一般用途)", "What does M8023 show?", "files_and_recipes|files_alone",
-     kProposal, "The manual prints \"file number\", and calls a recipe a file as well."},
+     kProposal, "The manual prints \"file number\", and also calls a recipe a file."},
     {"m8008_scope", "M8 特殊接點的功用(一般用途)", "Does M8008 reset the station and the password?",
      "reset_with_the_others|but_for_d9000_and_d9026", kProposal, "The manual says \"D9 parameters\"."},
     {"file_number_range", "D9 參數暫存器的功用(一般用)", "What happens to a file number out of range?",

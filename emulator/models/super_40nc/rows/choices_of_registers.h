@@ -80,7 +80,7 @@ inline constexpr ChoiceRow kRegisterChoices[] = {
      "The manual prints R/W."},
     {"motion_flags_source", "M8x 特殊接點的功用(XYZU 軸用)",
      "Is M8x97 also ON for HOM, and M8x99 for MPG and D8020?", "on_as_well|contacts_alone", kProposal,
-     "The manual names the contacts, and HOM equals the key."},
+     "The manual names the contacts, and HOM acts like the key."},
     {"serr_clears", "M8x 特殊接點的功用(XYZU 軸用)", "When does M8x24 clear?",
      "next_start_m8x02_plc_to_run|one_scan", kProposal,
      "On the chip it clears when read, but the manual prints no register for it."},

@@ -56,7 +56,7 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
     axis_relay(m8x::kJogMinus).means("jogs in the negative direction while on", "-JOG").does<write_command>(m8x::kJogMinus),
     axis_relay(m8x::kHome).means("starts homing on its rising edge", "HOME 起動找原點運動").does<write_command>(m8x::kHome),
     axis_relay(m8x::kZero).means("starts the return to zero on its rising edge", "ZERO 起動回零點運動").does<write_command>(m8x::kZero),
-    axis_relay(m8x::kZeroSet).means("makes the present position 0 on its rising edge", "ZERO SET 座標清除為 0").does<write_command>(m8x::kZeroSet),
+    axis_relay(m8x::kZeroSet).means("sets the present position to 0 on its rising edge", "ZERO SET 座標清除為 0").does<write_command>(m8x::kZeroSet),
     axis_relay(m8x::kMpg1).means("follows the hand wheel at the rate MPG*1 while on", "MPG*1 手搖輪跟隨運動").does<write_command>(m8x::kMpg1),
     axis_relay(m8x::kMpg10).means("follows the hand wheel at the rate MPG*10 while on", "MPG*10 手搖輪跟隨運動").does<write_command>(m8x::kMpg10),
     axis_relay(m8x::kMpg100).means("follows the hand wheel at the rate MPG*100 while on", "MPG*100 手搖輪跟隨運動").does<write_command>(m8x::kMpg100),
@@ -112,7 +112,7 @@ inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU
 
 inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", kProgram, {
     relays(8500, 8501).means_each(kPagesLeft).does<write_command>(m85::kParameterPageLeft),
-    relay(m85::kLogoOver).means("the time of the logo is over", "LOGO 時間到會自動觸發"),
+    relay(m85::kLogoOver).means("the logo time is over", "LOGO 時間到會自動觸發"),
     relays(8503, 8506).means_each(kEditKeys),
     relay(m85::kEditPageEntered).means("the panel goes from the main page to the edit page", "主畫面到編輯頁需觸發").does<write_command>(m85::kEditPageEntered),
     relays(8508, 8510).means_each(kRunKeys).does<write_command>(8508),

@@ -25,7 +25,7 @@ inline constexpr auto kDataRows = section("暫存器元件編號一覽表", kVal
     reg(kFirstTimerValue + 2 * kTimers, "T{}", s32, RW).means("present time of timer {}, persistent", "停電保持計時暫存器").times(8, 2, kTimers).in("ms").persists_at_once().may(kPlc),
     reg(kFirstCounterValue, "C{}", s32, RW).means("present count of counter {}", "計數暫存器").times(16, 2, 0).in("count").may(kPlc),
     reg(kFirstCounterValue + 32, "C{}", s32, RW).means("present count of counter {}, persistent", "停電保持計數暫存器").times(16, 2, 16).in("count").persists_at_once().may(kPlc),
-    reg(kFirstUserAddress, "USER{}", s32, RW).means("buffer of the user program, 10 words a step", "USER 程式執行緩衝區").times(kUserRegisters, 2, 0),
+    reg(kFirstUserAddress, "USER{}", s32, RW).means("user program buffer, 10 words per step", "USER 程式執行緩衝區").times(kUserRegisters, 2, 0),
 });
 
 inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用(一般用途)", kPlc, {
@@ -40,7 +40,7 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8008).means("no function in the manual, plain storage"),
     data(8009, 8018).means("no function in the manual, plain storage"),
     data(8019).means("line of the user table that is being executed", "User Table 程式目前執行的行號").shows<read_table_line, Varies::in_ticks>().does<write_nothing>(),
-    data(d8::kUserCommand).means("command of the user, or the hand wheel's axis", "User Command").range(0, 4).does<select_wheel_or_command>().may(kProgram),
+    data(d8::kUserCommand).means("user command, or the hand wheel's axis", "User Command").range(0, 4).does<select_wheel_or_command>().may(kProgram),
     data(d8::kUserData1).means("first datum of the user command, or the hand wheel's rate", "User Data1").range(0, 2).does<select_wheel>(),
     data(d8::kUserData2).means("second datum of the user command, or the jog speed", "User Data2").range(0, 2).does<select_jog_speed>(),
     data(8023, 8029).means("datum of the user command", "User Data3 ~ User Data9"),
@@ -52,7 +52,7 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8096, R).means("step with a label that appears twice", "重覆 LAB 的步序").shows<read_error, Varies::in_ticks>(2),
     data(8097, R).means("receive errors of RS232", "RS232 接收錯誤的次數").in("count").shows<read_receive_errors, Varies::in_ticks>(0),
     data(8098, R).means("receive errors of RS485", "RS485 接收錯誤的次數").in("count").shows<read_receive_errors, Varies::in_ticks>(1),
-    data(8099, R).means("version of the firmware", "監督程式版本").from_factory(100),
+    data(8099, R).means("firmware version", "監督程式版本").from_factory(100),
 });
 
 // D8x20 to D8x63 bear the names of the chip's registers: PRCMD, PRMV ... RCI.
@@ -106,12 +106,12 @@ inline constexpr auto kAxisSpecialRows = section("D8x 特殊暫存器的功用(X
     axis_data(8161).means("chip register RDS: S-curve of the present deceleration", "系統暫存器 RDS"),
     axis_data(d8x::kRcmp5).means("chip register RCMP5: comparator 5", "系統暫存器 RCMP5"),
     axis_data(d8x::kRci).means("chip register RCI: steps of the present arc", "系統暫存器 RCI"),
-    axis_data(8164, R).means("state of the operation, 0 to 15: 0 stopped, 11 accelerates, 12 at speed, 13 decelerates", "操作狀態報告").shows<read_operation, Varies::while_moving>(),
+    axis_data(8164, R).means("state of the operation, 0 to 15: 0 stopped, 11 accelerating, 12 at speed, 13 decelerating", "操作狀態報告").shows<read_operation, Varies::while_moving>(),
     axis_data(8165, R).means("latched value of counter 1", "COUNTER 鎖存數據 RLTC1").in("pulse").shows<read_latch, Varies::in_ticks>(0),
     axis_data(8166, R).means("latched value of counter 2", "COUNTER 鎖存數據 RLTC2").in("pulse").shows<read_latch, Varies::in_ticks>(1),
     axis_data(8167, R).means("latched value of counter 3", "COUNTER 鎖存數據 RLTC3").in("pulse").shows<read_latch, Varies::in_ticks>(2),
     axis_data(8168, R).means("latched value of counter 4", "COUNTER 鎖存數據 RLTC4").in("pulse").shows<read_latch, Varies::in_ticks>(3),
-    axis_data(8169, R).means("pulses that are left of the move", "定位計數器剩餘值 RPLS").in("pulse").shows<read_remainder, Varies::while_moving>(),
+    axis_data(8169, R).means("remaining pulses of the move", "定位計數器剩餘值 RPLS").in("pulse").shows<read_remainder, Varies::while_moving>(),
     axis_data(8170, R).means("present speed, in the chip's unit", "當前速度").shows<read_chip_speed, Varies::while_moving>(),
     axis_data(8171, R).means("index pulses counted in homing", "回原點的 EZ 計數值").in("count").shows<read_index_count, Varies::in_ticks>(),
     axis_data(8172, R).means("idle pulses", "空轉計數值").always(0),

@@ -22,7 +22,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(d9::kSystemSpeed).means("default feed", "預設速度(Sys. speed)").persists_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000).may(kMemory | kMotion),  // C10
     data(d9::kContinuousPath).means("1: continuous path", "連續路徑(Cont. path)").persists_at_once().range(0, 1).may(kMemory | kMotion),
     data(9006).means("0 absolute, 1 relative", "系統初始為絕對座標或相對座標(Inc. or Abs.)").persists_at_once().range(0, 1),  // C20
-    data(d9::kLogoTime).means("time of the logo", "首頁商標畫面顯示時間(Logo time)").persists_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
+    data(d9::kLogoTime).means("logo time", "首頁商標畫面顯示時間(Logo time)").persists_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
     data(9008, 9009).means("no function in the manual, plain storage").persists_at_once(),
     data(9010).means("lines that the panel shows", "設定顯示行數").persists_at_once().not_modelled("the panel's lines"),
     data(d9::kTargetSpeed).means("speed that acceleration times refer to", "加速時間目標速度").persists_at_once().range(1, 10000).in("RPM").from_factory(5000).may(kMemory | kMotion),  // C22
@@ -78,7 +78,7 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kMpgMode).means("hand-wheel: 0 AB x1, 1 AB x2, 2 AB x4, 3 up and down", "PA/PB 輸入模式(MPG MODE)").range(0, 3).from_factory(2).does<change_axis>(d9x::kMpgMode),  // X40
     parameter(d9x::kMpgDirection).means("hand-wheel reversed", "轉換 PA/PB 輸入的計數方向(MPG dir.)").range(0, 1).does<change_axis>(d9x::kMpgDirection),  // X41
     parameter(d9x::kPulseMask).means("1: sends no pulses", "屏蔽脈沖輸出(Pulse mask)").range(0, 1),
-    parameter(18).means("1: a stop of the axis starts it", "致能同一軸的停止所觸發的啟動(Stop->start)").range(0, 1).not_modelled("synchronous starts"),
+    parameter(18).means("1: a stop of the axis triggers its next start", "致能同一軸的停止所觸發的啟動(Stop->start)").range(0, 1).not_modelled("synchronous starts"),
     parameter(d9x::kEncoderDisable).means("1: encoder off", "禁止 EA/EB 輸入(EA disable)").range(0, 1).does<change_axis>(d9x::kEncoderDisable),
     parameter(d9x::kMpgDisable).means("1: hand-wheel off", "禁止 PA/PB 輸入(MPG disable)").range(0, 1).does<change_axis>(d9x::kMpgDisable),
     parameter(d9x::kHomeMode).means("home mode", "回原點方式(Home mode)").range(0, 12).from_factory(4),  // X20
@@ -135,7 +135,7 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kCdv).means("divisor of positions, CDV", "馬達一轉進給量除數(CDV)").range(1, 131072).from_factory(1).does<change_axis>(d9x::kCdv),  // X11
     parameter(73).means("0 absolute, 1 relative", "預設座標模式(Default Coord. Mode)").range(0, 1),  // X15
     parameter(d9x::kZeroSetEnable).means("ZERO SET by key", "清零致能(Zero Set Enable)").range(0, 1),  // X60
-    parameter(d9x::kMaxSpeed).means("highest speed", "最高速限(Max. speed)").range(1, 10000).in("RPM").from_factory(3000),  // X12
+    parameter(d9x::kMaxSpeed).means("maximum speed", "最高速限(Max. speed)").range(1, 10000).in("RPM").from_factory(3000),  // X12
     parameter(d9x::kBiasSpeed).means("start speed", "自起動速度(Bias speed)").range(1, 10000).in("RPM").from_factory(1),  // X13
     parameter(d9x::kZeroSpeed).means("speed of the return to zero", "回工作零點的速度(Zero speed)").range(1, 10000).in("RPM").from_factory(500),  // X26
     parameter(d9x::kDefaultSpeed).means("default speed", "預設速度(Default Speed)").range(1, 10000).in("RPM").from_factory(100),  // X14

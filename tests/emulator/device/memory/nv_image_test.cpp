@@ -204,7 +204,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
   };
   EXPECT_EQ(reals("[1]"), "reals: is not an object; expected names and values");
   EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is not a number; expected one");
-  EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is too large; expected one that fits into 64 bits");
+  EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is too large; expected one that fits in 64 bits");
   EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "line 1: 'R0': appears twice; expected it once");
 }
 
@@ -220,7 +220,7 @@ TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
   }
   for (const char* value : {"1e999", "-1e999"}) {
     EXPECT_EQ(diagnostic(with_registers(std::string("{\"a\": ") + value + "}")),
-              "a number is too large; expected one that fits into 64 bits")
+              "a number is too large; expected one that fits in 64 bits")
         << value;
   }
   for (const char* value : {"01", "+1", "0x10", "1_000", "NaN", ".5", "--1", "1 2"}) {
@@ -240,7 +240,7 @@ TEST(NvImage, IsNotBroughtDownByItsSize) {
             "registers: is not an object; expected names and values");
   EXPECT_EQ(diagnostic(std::string(5'000'000, '[')), "line 1: is damaged or not JSON; expected an NV image");
   EXPECT_EQ(diagnostic(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
-            "a number is too large; expected one that fits into 64 bits");
+            "a number is too large; expected one that fits in 64 bits");
   const std::string long_name(2'000'000, 'n');
   EXPECT_EQ(parse_nv_image(with_registers("{\"" + long_name + "\": 1}")).registers.front().first, long_name);
   std::string many = "{";

@@ -170,7 +170,7 @@ TEST(RsM8194hLanguage, MessagesMakeTheSameTextAgain) {
     ADD_FAILURE() << "triggers are not messages";
   } catch (const ProgramError& error) {
     EXPECT_EQ(in_text(error.first()),
-              "line 13, column 1: TRIGGER is not a message to the window; expected macros alone");
+              "line 13, column 1: TRIGGER is not a message to the window; expected only macros");
   }
   try {
     cells.assemble("\xEF\xBB\xBF  TRIGGER 8.0 on MP1\n\n; no more\n", settings_with());

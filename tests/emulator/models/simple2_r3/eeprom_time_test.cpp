@@ -92,7 +92,7 @@ TEST(EepromTime, IsNoneForWhatIsNotKeptOrIsThereAlready) {
 
 TEST(EepromTime, IsNoneForARequestThatIsRefused) {
   Writer feeder;
-  const Words wrong{1, 0, 3, 4, 3001};  // the last is beyond its range
+  const Words wrong{1, 0, 3, 4, 3001};  // the last is out of range
   EXPECT_EQ(write_words(*feeder.device().register_bank(), Table::holding, 0x2000, wrong), Refusal::bad_value);
   EXPECT_FALSE(feeder.writing());
 }

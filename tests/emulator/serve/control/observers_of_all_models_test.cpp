@@ -326,7 +326,7 @@ TEST(ErrorLines, HaveTheirMeaningAndAreRefusals) {
   one.act("text NONSENSE");
   const Json reply = last_reply(one);
   EXPECT_EQ(reply.value("text", ""),
-            "\"ERR 1\": this is not a command here: check its spelling and its operands");
+            "\"ERR 1\": this is not a valid command: check its spelling and operands");
   EXPECT_EQ(reply.value("exception", false), true);
   const Json events = one.ask({{"do", "events"}})["events"];
   EXPECT_EQ(events.back().value("what", ""), "exception") << events;
