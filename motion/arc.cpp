@@ -175,7 +175,7 @@ double sweep_between(const Flat& from, const Flat& to, const Flat& chord, Turn t
   return wrong_way || std::abs(min) < kSameDirection_rad ? min + whole : min;
 }
 
-/// The circle through the origin and two points; sweep from the origin through `middle` to `end`.
+/// The circle through the origin and two points, and its sweep from the origin through `middle` to `end`.
 struct CircleThrough {
   Flat centre;
   double sweep_rad = 0;

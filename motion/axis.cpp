@@ -44,8 +44,8 @@ Sample forward_sample(const PulseDrive& drive, Instant at) {
   return here;
 }
 
-/// Plans on to the target and never back, because a drive has one direction. If it can no longer stop there,
-/// it slows down as far as possible and ends there abruptly.
+/// Plans a continuation to the target that never goes back, because a drive has one direction. If it can no
+/// longer stop there, it slows down as far as possible and ends there abruptly.
 Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   Profile rest = change_target(here, target_u, law);
   if (rest.segment_count == 0) return rest;
@@ -323,7 +323,7 @@ void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Ti
   };
   if (comes_back) {
     require_return(drive.profile.end_position_u);
-    target_pulses = distance_pulses;  // it stops first, and then goes there
+    target_pulses = distance_pulses;  // the axis stops first, and then goes to the target
     return;
   }
   const Sample here = forward_sample(drive, at);

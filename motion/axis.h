@@ -100,7 +100,7 @@ struct Comparator {
 
   Relation relation = Relation::off;
   Count count = Count::command;
-  Reaction reaction = Reaction::ignore;  // of the axis itself; other axes react through motion/synchronous.h
+  Reaction reaction = Reaction::ignore;  // of this axis only; other axes react through motion/synchronous.h
   bool was_true = false;
   Counter counter{};  // the counter in whose numbers `value` is given
   std::int64_t value = 0;
@@ -193,8 +193,8 @@ struct alignas(64) Axis {
   // State of the commanded motion.
   bool in_backlash = false;
   bool slowing = false;            // slowing down to a stop, for `cause`
-  bool comes_back = false;         // after that, returns to the target it has passed
-  bool settling = false;           // all pulses are sent; it waits for in-position
+  bool comes_back = false;         // after stopping, returns to the target that it has passed
+  bool settling = false;           // all pulses are sent; the axis waits for in-position
   bool encoder_is_known = false;   // the environment determines what the encoder counts along the travel
   std::int64_t target_pulses = 0;  // whole distance of a move, in the drive's coordinate
   SpeedLaw law;
@@ -293,8 +293,8 @@ struct alignas(64) Axis {
   /// The result of a tick in which nothing can happen, and the state before it. Such a tick can be taken back
   /// and stepped again the slow way.
   struct QuietTick {
-    std::int64_t pulses = 0;  // signed as they come out
-    std::int64_t travel = 0;  // before the tick
+    std::int64_t pulses = 0;  // the pulses, signed as they come out
+    std::int64_t travel = 0;  // the travel before the tick
     std::int64_t sent = 0;
     // pulses that a follower asked for, even in a tick that is not quiet
     std::optional<std::int64_t> followed{};
@@ -406,7 +406,7 @@ struct alignas(64) Axis {
   // Homing: motion/homing_run.cpp.
   // true if the phase handles this signal, so the axis does not react to it
   bool homing_takes(Signal signal) const;
-  void homing_sees(Signals changed, Instant at);  // `signals` are the new ones
+  void homing_sees(Signals changed, Instant at);  // `signals` contains the new signals
   void homing_comes_to_its_place(Instant at);     // called at the place where a phase ends by its distance
   void homing_slows(Cause why);                   // slows down to a stop for `why`, unless it already does
   void homing_stands(Cause why, Instant at);      // called when the phase's motion has ended

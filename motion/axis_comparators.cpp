@@ -80,7 +80,7 @@ bool Axis::counts_by_encoder() const {
 void Axis::set_encoder(std::int64_t pulses) {
   if (pulses == encoder_pulses) return;
   encoder_pulses = pulses;
-  if (encoder_is_known) return;  // it has been followed within the tick
+  if (encoder_is_known) return;  // the encoder has been followed within the tick
   if (counts_by_encoder()) {
     must_recheck = true;
   } else {

@@ -17,7 +17,7 @@ Tick Axis::quiet_until(Tick next, Tick limit, const Environment& environment, Tr
   const Tick last = std::min(limit, drive.next_check - 1);
   if (last < next || travel_pulses < low || travel_pulses > high) return none;
   if (drive.drive != Drive::running) return last;
-  // A segment has one direction, but a rounding may send a pulse a tick early. So the last pulse before
+  // A segment has one direction, but rounding may send a pulse a tick early. So the last pulse before
   // anything can happen is left to single ticks; all pulses before it are inside because the last one is.
   const bool upwards = drive.direction > 0;
   const auto is_inside = [&](Tick tick) {

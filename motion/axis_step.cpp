@@ -26,7 +26,7 @@ std::int64_t Axis::step_slow_path(Tick tick, const Environment& environment,
   return part.finish();
 }
 
-/// Steps the follower, and moves the axis if there is nothing in between.
+/// Steps the follower, and moves the axis if no event lies in between.
 bool Axis::follow_quietly(const Environment& environment, QuietTick& quiet) {
   if (!is_undisturbed(environment)) return false;
   const std::int64_t pulses = follower.step();

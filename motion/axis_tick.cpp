@@ -348,7 +348,7 @@ std::int64_t AxisTick::finish() {
   axis_.must_recheck = axis_.must_recheck || axis_.in_backlash || at_a_limit ||
                        (axis_.settings.raises & bit(Event::pulse)) != 0 || axis_.waits_for_constant_speed();
   if (axis_.task == Task::following)
-    axis_.drive.next_check = 0;  // it has no plan, so each of its ticks is handled here
+    axis_.drive.next_check = 0;  // the drive has no plan, so each of its ticks is handled here
   axis_.events = static_cast<Events>(taken_ | at_end_ | axis_.events_between);
   axis_.events_between = next_tick_;
   return axis_.inverted ? -pulses : pulses;

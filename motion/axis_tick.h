@@ -43,7 +43,7 @@ class AxisTick {
   bool is_over() const { return is_over_; }
   /// Recomputes how far the axis may go from here before anything can happen.
   void watch() { axis_.watch(here_); }
-  /// Moves by `pulses` and handles everything there. For an axis that only its path moves.
+  /// Moves by `pulses` and handles everything at the new position, for an axis that only its path moves.
   void go_by(std::int64_t pulses, Instant at);
   /// Makes the axis check everything again at its present position. Call it after another object has changed
   /// the axis.

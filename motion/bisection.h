@@ -17,7 +17,7 @@ struct Turnover {
 /// are enough however far apart they are.
 template <class Over>
 Turnover turnover(double from, double to, const Over& over) {
-  auto low = std::bit_cast<std::uint64_t>(from > 0 ? from : 0.0);  // -0.0 has other bits
+  auto low = std::bit_cast<std::uint64_t>(from > 0 ? from : 0.0);  // -0.0 has different bits
   auto high = std::bit_cast<std::uint64_t>(to > 0 ? to : 0.0);
   while (low < high && high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;

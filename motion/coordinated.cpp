@@ -39,7 +39,7 @@ AnyAxis* axis_at(std::int8_t number, std::span<AnyAxis> axes) {
   return there ? &axes[static_cast<std::size_t>(number)] : nullptr;
 }
 
-/// No path reverses further away than this within a tick.
+/// Within a tick, no path reverses further away than this.
 constexpr double kFarthestTurn_pulses = 1'000'000;
 
 /// Returns true if an axis may go beyond its watch window and come back within the tick, at the turn of an
@@ -92,7 +92,7 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
     if (const Cause why_not = axis->forbidden_anywhere(); why_not != Cause::none) return why_not;
   }
   for (const UnitScale& factors : scale) (void)UnitScale::of(factors.multiplier, factors.divider);
-  run.stand_at(from);  // this and the next may throw
+  run.stand_at(from);  // this statement and the next may throw
   run.start(now);
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);

@@ -45,8 +45,8 @@ static_assert(kFarthestAngle_rad * kQuartersPerRadian < (1 << 20));
 // Adding and subtracting it rounds to a whole number, which the last bits of the sum then hold.
 constexpr double kRounder = 0x1.8p52;
 
-/// Taylor, for |r| <= pi/4; the first omitted term is below 1e-19. `low` is the angle's part below r's last
-/// bit. Even and odd terms are summed separately: two short chains are faster than a long one.
+/// The Taylor series for |r| <= pi/4; the first omitted term is below 1e-19. `low` is the angle's part below
+/// r's last bit. Even and odd terms are summed separately: two short chains are faster than a long one.
 double sine_near_0(double r, double low) {
   const double z = r * r;
   const double w = z * z;
@@ -81,7 +81,8 @@ constexpr std::array<Parts, 9> kArctangentOfEighths{{{0, 0},
 constexpr Parts kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Parts kWholePi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
-/// For 0 <= y <= x, x > 0: the arctangent of an eighth near y/x, plus that of the rest by Taylor.
+/// For 0 <= y <= x with x > 0, adds the arctangent of an eighth near y/x and that of the rest, by its Taylor
+/// series.
 Parts angle_in_first_octant(double y, double x) {
   const int eighths = static_cast<int>(8 * (y / x) + 0.5);
   const double slope = eighths * 0.125;

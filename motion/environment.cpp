@@ -20,7 +20,7 @@ std::int64_t index_phase(const Environment& environment, std::int64_t travel) {
   return phase < period ? phase : phase - period;
 }
 
-/// Returns a - b, or the last number: a zone may end at INT64_MAX.
+/// Returns a - b, limited to 64 bits, because a zone may end at INT64_MAX.
 std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
   std::int64_t difference = 0;
   if (!__builtin_sub_overflow(a, b, &difference)) return difference;
@@ -73,7 +73,7 @@ std::optional<std::int64_t> Environment::steps_until_change(std::int64_t travel,
   const auto consider_beyond = [&](std::int64_t last_steps) {
     if (last_steps >= 0 && last_steps < INT64_MAX) consider(last_steps + 1);
   };
-  // The first pulse inside, and the first one beyond, seen from either side.
+  // Consider the first pulse inside and the first one beyond, from either side.
   const auto consider_ends = [&](std::int64_t from, std::int64_t to) {
     if (direction > 0) {
       consider(bounded_difference(from, travel));

@@ -30,8 +30,8 @@ struct ExternalDrive {
 struct DriveOrder {
   enum class What : std::uint8_t { nothing, move, run, slow_down };
   What what = What::nothing;
-  std::int64_t pulses = 0;    // of a move, signed
-  std::int8_t direction = 0;  // of a run
+  std::int64_t pulses = 0;    // the distance of a move, signed
+  std::int8_t direction = 0;  // the direction of a run
 
   bool operator==(const DriveOrder&) const = default;
 };

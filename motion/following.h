@@ -18,7 +18,7 @@ struct Follower {
   std::int64_t top_speed_pps = 0;  // no faster than this; 0: no bound
   std::int64_t slope_pps = 0;      // largest change of speed from period to period; 0: no bound
   // True: pulses held back by the bounds are sent later, and the axis slows down in time to stop at its
-  // place. False: they are dropped.
+  // position. False: they are dropped.
   bool catches_up = false;
 
   // State.

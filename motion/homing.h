@@ -40,8 +40,8 @@ struct HomingPhase {
   // Where homing goes: the number of a row, or one of these.
   static constexpr std::int8_t kRowBelow = -1;  // the row below; below the last row, home is found
   static constexpr std::int8_t kFail = -2;
-  static constexpr std::int8_t kNext = -3;   // as in `next`
-  static constexpr std::int8_t kAwait = -4;  // nowhere: the signal must go away and come again
+  static constexpr std::int8_t kNext = -3;   // continues as `next` says
+  static constexpr std::int8_t kAwait = -4;  // stays in the row: the signal must go off and come on again
 
   Does does = Does::search;
   std::int8_t direction = +1;  // +1 or -1; go and go_back take the sign of their distance
@@ -94,7 +94,8 @@ struct Homing {
   HomingProgram program;
   std::int8_t phase = -1;     // the row that runs; -1: not homing
   std::int8_t ended_in = -1;  // the row that ran when the last homing ended
-  // arrived: home is found. If the axis decelerates to give up, this is set before it stops.
+  // `arrived` means that home is found. If homing has failed and the axis decelerates, this is set before it
+  // stops.
   Cause ended_by{};
   bool met = false;               // true: the row has met its signal and comes to a stop
   std::int32_t counted = 0;       // edges of the row's signal so far

@@ -142,7 +142,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   if (mode.zero) program.add({.does = Does::go_back, .speed = last});
   program.add({.does = Does::go, .speed = last, .distance_pulses = how.offset_pulses});
   if (mode.at != At::dog || !how.turns_at_limit) return program;
-  // A row below the last: go past the DOG and search again. Home is found below it.
+  // A row below the last one passes the DOG and repeats the search. It is skipped if home is found.
   const std::int8_t past = program.phase_count;
   program.phases[static_cast<std::size_t>(search)].if_limit = past;
   program.phases[static_cast<std::size_t>(past - 1)].next = static_cast<std::int8_t>(past + 1);

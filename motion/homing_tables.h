@@ -50,13 +50,13 @@ struct Super40ncMark {
 HomingProgram super40nc_mark(const Super40ncMark& how);
 
 /// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each with
-/// its own direction or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is the value
+/// its own direction or skipped. Signals: near_home is IN0, home IN1, index IN2. A phase's code is the value
 /// that input 92 + a shows during it.
 struct Rsm8194hHoming {
-  std::array<int, 4> directions{};   // of steps 1 to 4: +1, -1, or 0: skipped
+  std::array<int, 4> directions{};   // the directions of steps 1 to 4: +1, -1, or 0 to skip the step
   SpeedLaw drive;                    // V: steps 1 and 4
   SpeedLaw home;                     // HV: steps 2 and 3
-  std::int64_t offset_pulses = 0;    // of step 4, >= 0
+  std::int64_t offset_pulses = 0;    // the offset of step 4, >= 0
   bool limit_is_home = false;        // HOME_LIMIT 1: the limit in step 2's direction replaces HOME
   bool limit_is_near_home = false;   // HOME_LIMIT 1: the limit in step 1's direction replaces NHOME
   bool soft_limits_lead_on = false;  // true: soft limits act as hard ones do

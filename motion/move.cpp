@@ -69,7 +69,7 @@ void append_move(Profile& profile, const Profile& move, double sign) {
   }
 }
 
-/// Rises as far as slowing down allows, with the ramp broken off there.
+/// Accelerates as far as slowing down allows, and breaks the ramp off there.
 Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   Profile profile;
   append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
@@ -263,7 +263,7 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
     stop.end_exactly_at(target_u);
     return stop;
   }
-  // A law that assumes too short a ramp passes no target ahead: the move is cut off there.
+  // A law that assumes too short a ramp does not pass a target ahead: the move is cut off at the target.
   if (stop.end_position_u > target_u && (room < 0 || needed(faded) > room)) {
     append_move(stop, plan(stop.end_position_u - target_u, law), -1);
     stop.end_exactly_at(target_u);

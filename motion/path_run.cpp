@@ -87,7 +87,7 @@ void PathRun::append(const Path& path, Joint joint, Tick now) {
     lay_out_chain(now + 1);
   } else if (chain_count_ + 1 == count_) {
     added.joined = false;                // the previous chain will have ended
-    if (open_ && running_) replan(now);  // it must now stop at its end
+    if (open_ && running_) replan(now);  // the run must now stop at its end
   }
 }
 

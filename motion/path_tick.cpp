@@ -137,7 +137,7 @@ void PathTick::step_events() {
 
 double PathTick::along_at(const Instant& at) const {
   const double along_u = std::clamp(path_.run.along_at(gone_, at), along_u_, std::max(gone_.to_u, along_u_));
-  // A rounding must not carry an axis over the next edge.
+  // Rounding must not carry an axis over the next edge.
   return edge_u_ ? std::min(along_u, *edge_u_) : along_u;
 }
 

@@ -22,7 +22,7 @@ namespace understudy::motion {
 
 /// A piece of motion at constant jerk. The quantities are those at its beginning.
 struct Segment {
-  double begin_s = 0;  // from the beginning of the profile
+  double begin_s = 0;  // the beginning, counted from that of the profile
   double position_u = 0;
   double speed_u_s = 0;
   double acceleration_u_s2 = 0;

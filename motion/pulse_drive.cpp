@@ -90,7 +90,7 @@ Instant PulseDrive::time_of_pulse(std::int64_t pulse, Instant from, Instant unti
   const double base_s = elapsed_s(from);
   const double reached_s = time_of(profile, static_cast<double>(pulse) - tolerance, base_s, elapsed_s(until));
   Instant at{.tick = from.tick, .after_s = from.after_s + (reached_s - base_s)};
-  // Whole seconds at once, because a state from elsewhere may have begun long ago.
+  // Advance by whole seconds at once, because a state from elsewhere may have begun long ago.
   const double whole_s = std::floor(at.after_s);
   at.after_s -= whole_s;
   at.tick += static_cast<Tick>(whole_s * kTicksPerSecond);
@@ -98,7 +98,7 @@ Instant PulseDrive::time_of_pulse(std::int64_t pulse, Instant from, Instant unti
     at.after_s -= 1 / kTicksPerSecond;
     ++at.tick;
   }
-  // A rounding must not put it into the next tick.
+  // Rounding must not put the moment into the next tick.
   if (at.tick > until.tick || (at.tick == until.tick && at.after_s > until.after_s)) return until;
   return at;
 }

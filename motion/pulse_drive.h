@@ -27,8 +27,8 @@ enum class Drive : std::uint8_t {
 /// A segment in ticks: position = place + k (first + k (second + k third)), k ticks after its beginning.
 /// Counting in ticks keeps k exact where it is whole, and needs no division.
 struct TickSegment {
-  double begin_ticks = 0;  // after the drive's begin_tick
-  double place = 0;        // includes the tolerance, so only the fraction remains to be dropped
+  double begin_ticks = 0;  // the beginning, counted from the drive's begin_tick
+  double place = 0;        // the place plus the tolerance, so only the fraction remains to be dropped
   double first = 0;
   double second = 0;
   double third = 0;
@@ -41,7 +41,7 @@ struct PulseDrive {
   TickSegment now{};
   Tick begin_tick = 0;           // the tick at which the profile is at its beginning
   Tick next_check = kNoTick;     // from this tick on, `now` is no longer the current segment
-  std::int64_t sent_pulses = 0;  // counted from the beginning of the profile's coordinate
+  std::int64_t sent_pulses = 0;  // pulses sent, counted from the beginning of the profile's coordinate
   std::int64_t direction = +1;   // +1 or -1: the direction of a rising position; an owner may set 0 at rest
   Drive drive = Drive::idle;
   double begin_after_s = 0;  // the profile begins this long after `begin_tick`

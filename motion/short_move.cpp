@@ -35,7 +35,7 @@ Sum sum_at(const RampLaw& up, const RampLaw& down, double x) {
 /// Returns the cube root of a value > 0, slightly too large rather than too small, as a start for Newton's
 /// method.
 double above_cube_root(double value) {
-  // A third of the exponent, then three Newton steps, which come down from above.
+  // Start from a third of the exponent; three Newton steps then come down from above.
   const auto bits = std::bit_cast<std::uint64_t>(value);
   double y = std::bit_cast<double>(bits / 3 + 0x2A9F789300000000ULL);
   for (int step = 0; step < 3; ++step) y = (2 * y + value / (y * y)) / 3;

@@ -1,6 +1,6 @@
 // Checks of restored values, for state_fields.h. Saved bytes may be anything, and a few numbers have more bit
 // patterns than valid values. The checks make sure that later ticks neither index beyond a table nor run
-// away.
+// forever.
 #pragma once
 
 #include <array>
@@ -128,7 +128,7 @@ inline void check_restored(const Axis& axis) {
        {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses}) {
     require_reach(pulses);
   }
-  // Plan by the law now, as a later tick will: a command must not have refused it.
+  // Plan with the law now, as a later tick will: it must be a law that a command would accept.
   const bool has_law = axis.task == Task::move || axis.task == Task::endless;
   if (has_law) {
     require_accepted([&] {

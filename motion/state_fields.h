@@ -354,7 +354,7 @@ struct StateOf<motion::PathRun> {
                 field<&motion::PathRun::ran_dry_>(),     field<&motion::PathRun::completed_>(),
                 field<&motion::PathRun::last_place_>()};
   static constexpr std::size_t members = 17;
-  static void name_all(motion::PathRun& run) {  // does not compile if there are others
+  static void name_all(motion::PathRun& run) {  // does not compile if a member is missing
     [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, begin_after,
                             law, override, late_joint, running, paused, open, ran_dry, completed,
                             last_place] = run;

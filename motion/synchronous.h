@@ -48,7 +48,7 @@ struct SyncTable {
   struct Latch {
     bool taken = false;
     std::int64_t travel_pulses = 0;   // travel of the axis, if latch_command
-    std::int64_t encoder_pulses = 0;  // if latch_encoder
+    std::int64_t encoder_pulses = 0;  // the encoder count, if latch_encoder
     bool operator==(const Latch&) const = default;
   };
 

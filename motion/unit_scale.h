@@ -8,7 +8,7 @@ namespace understudy::motion {
 
 /// pulses = units * multiplier / divider, both 1 .. 2^31 - 1 (SUPER-40NC CMX/CDV, SLIM PN45/PN46). Rounds
 /// half away from zero or, with `truncates`, pulses towards zero. Always convert absolute positions, to keep
-/// roundings from adding up.
+/// rounding errors from adding up.
 struct UnitScale {
   std::int64_t multiplier = 1;
   std::int64_t divider = 1;

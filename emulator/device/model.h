@@ -42,7 +42,7 @@ struct ParameterRow {
 struct NamedParameterRow {
   std::string_view number;  // "PN10", if the maker counts them
   std::string_view name;    // "VM"
-  int width = 32;           // bits
+  int width = 32;           // the width in bits
   bool persistent = true;
   std::string min{};
   std::string max{};
@@ -123,7 +123,7 @@ struct AxisRow {
   int upper_limit_input = -1;  // numbers of terminals
   int lower_limit_input = -1;
   int home_input = -1;
-  int alarm_input = -1;  // from its drive, like ready_input
+  int alarm_input = -1;  // the alarm input, which comes from the drive, like ready_input
   int ready_input = -1;
   int servo_output = -1;
   int alarm_clear_output = -1;
@@ -153,7 +153,7 @@ struct StationNumbers {
 /// A serial port, which connects a device to a line.
 struct PortRow {
   enum class Kind : std::uint8_t {
-    rs232,  // point to point: the device is alone on that line
+    rs232,  // point to point: the device is alone on its line
     rs485,
   } kind = Kind::rs485;
   std::string_view name;       // letters, digits, _ and -, as in a bench
@@ -171,7 +171,7 @@ struct LineRules {
 /// A limit for one request that is lower than the standard's.
 struct FunctionLimit {
   std::uint8_t code = 0;
-  int max = 0;  // bits or registers
+  int max = 0;  // the maximum number of bits or registers
 };
 
 /// An object of the device identification (MODBUS Application Protocol, 6.21): 0 is the vendor's name.
@@ -194,15 +194,15 @@ struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                       // 0: the model's default
   std::optional<int> address{};                // its station number; none: 1, or the number in its memory
-  std::vector<int> bauds{};                    // of its ports; 0 or missing: the factory setting
-  int modules = 0;                             // of a chain; 0: the model's default
-  std::map<std::string, std::string> choices;  // overrides
+  std::vector<int> bauds{};                    // the speeds of its ports; 0 or missing: the factory setting
+  int modules = 0;                             // the number of modules of a chain; 0: the model's default
+  std::map<std::string, std::string> choices;  // options; other choices have defaults
   std::map<std::string, bool> dip;             // switches on the housing, by the terminal's name
   std::optional<NvImage> nv;                   // the content of its memory; by default the factory settings
   std::string program;                         // text, loaded when it is made
-  std::string program_name;                    // the file it is from, for messages
+  std::string program_name;                    // the file that contains the program, for messages
   std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
-  std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
+  std::vector<std::pair<std::string, double>> assignments{};  // like `set`, for a model without registers
 };
 
 /// The files that `understudy init` writes for a beginner: a bench, and the steps of a first move on it.
@@ -216,7 +216,7 @@ struct FirstFiles {
 /// text, whichever the model has.
 struct StopStep {
   std::string_view text;
-  Value value = 1;  // of a register
+  Value value = 1;  // the value to write to a register
 };
 
 struct Model {
@@ -227,7 +227,7 @@ struct Model {
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
   const CommandWindow* window = nullptr;      // for commands that have names; null: there are none
-  const ProgramLanguage* language = nullptr;  // of the programs that its devices run; null: they run none
+  const ProgramLanguage* language = nullptr;  // the language of its devices' programs; null: they run none
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
@@ -237,13 +237,13 @@ struct Model {
   std::span<const TerminalRow> terminals;
   std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
-  std::span<const std::string_view> state_registers;  // those that best show what the device is doing
+  std::span<const std::string_view> state_registers;  // the registers that best show what the device is doing
   std::span<const std::string_view>
       known_limitations;  // what is missing beyond single registers, one sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};            // for a model with ModbusStation
   const FirstFiles* first_files = nullptr;  // null: there are none
-  std::span<const StopStep> stop{};         // in this order; none: it cannot be stopped over its line
+  std::span<const StopStep> stop{};  // executed in this order; none: a device cannot be stopped over its line
   /// Returns what a message to the window can do; null: there is no window.
   Hazards (*hazards_of_command)(std::span<const std::uint16_t> words) = nullptr;
   /// Returns what a line of text can do; null: the device accepts no text lines.

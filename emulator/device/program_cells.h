@@ -24,7 +24,7 @@ struct CellForm {
 
 struct CellRow {
   std::vector<std::int64_t> cells;
-  int line = 0;  // in the text that it was read from; 0: none
+  int line = 0;  // the line in the text that the row was read from; 0: none
 };
 
 /// A facet of a language. It is null if the language's programs have no such form.
@@ -33,8 +33,8 @@ class ProgramCells {
   virtual CellForm cell_form() const = 0;
   /// Throws ProgramError. `settings` are as for ProgramLanguage::check().
   virtual std::vector<CellRow> assemble(std::string_view text, const DeviceSettings& settings) const = 0;
-  /// The rows must have that format. Throws ProgramError with line numbers of the text that the rows were
-  /// read from.
+  /// The rows must have the format of cell_form(). Throws ProgramError with line numbers of the text that the
+  /// rows were read from.
   virtual std::string disassemble(const std::vector<CellRow>& rows, const DeviceSettings& settings) const = 0;
 
  protected:

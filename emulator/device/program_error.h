@@ -9,8 +9,8 @@
 namespace understudy::emulator {
 
 struct ProgramMistake {
-  int line = 0;      // of the text, from 1; 0: the whole text
-  int column = 0;    // in bytes, from 1; 0: the whole line
+  int line = 0;      // the line of the text, from 1; 0: the whole text
+  int column = 0;    // the column in bytes, from 1; 0: the whole line
   std::string what;  // "operand 2: 'maybe' is not a level; expected ON or OFF"
 
   bool operator==(const ProgramMistake&) const = default;

@@ -30,7 +30,7 @@ struct InstructionRow {
   std::string_view mnemonic;
   std::span<const OperandRow> operands{};
   std::string_view areas{};  // the parts of a program that may contain it: "C X Y Z U"
-  int size = 0;              // its size in program memory, in the language's unit; 0: unknown
+  int size = 0;              // the size in program memory, in the language's unit; 0: unknown
   std::string_view cost{};   // its time, for people: "3 lines", "until the axes stop"
   std::string_view meaning{};
 };
@@ -45,7 +45,7 @@ struct ProgramControl {
   std::string_view word;  // "start"
   By by = By::registers;
   std::string_view what;
-  // If `what` contains {}: the limits of the number that replaces it.
+  // The limits of the number that replaces {} in `what`, if `what` contains it.
   int lowest = 0;
   int highest = 0;
 };

@@ -7,7 +7,7 @@
 namespace understudy::emulator {
 
 struct ProgramLine {
-  int text_line = 0;  // in the text that it was read from, from 1; 0: nowhere
+  int text_line = 0;  // the line in the text that it was read from, counted from 1; 0: none
   std::string code;   // normalized: equal instructions have equal codes
   bool decides = false;
 

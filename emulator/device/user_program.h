@@ -19,11 +19,11 @@ struct ProgramLocation {
   enum class State : std::uint8_t { stopped, running, waiting, failed };
   std::string program;  // "MAIN", "P1"; empty if there is only one
   State state = State::stopped;
-  int line = 0;                    // in program_text(), from 1; 0: unknown
+  int line = 0;                    // the line in program_text(), from 1; 0: unknown
   std::string text;                // the program's text at that line
   std::string waits_for;           // if waiting: "input 3 is ON", "a delay"
   std::string why;                 // why it has stopped or failed, or what went wrong, if known
-  std::optional<SimTime> until{};  // if waiting for a time: when the wait ends
+  std::optional<SimTime> until{};  // the end of the wait, if the program waits for a time
   std::vector<int> callers{};      // the lines at which its callers continue, the innermost first
 };
 

@@ -55,7 +55,7 @@ class Binder {
   const models::imported::Description& description_;
   const RegisterMap& map_;
   std::map<std::size_t, std::vector<std::pair<std::uint32_t, std::string>>>
-      taken_;  // bits, and what they show
+      taken_;  // the bits in use, and what they show
 };
 
 }  // namespace understudy::emulator::model_file

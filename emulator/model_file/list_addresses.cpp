@@ -170,7 +170,7 @@ std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressRe
 
 void AddressEvidence::add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words) {
   lowest = std::min(lowest, printed.number);
-  if (printed.counts_from_one) return;  // its form says what it is
+  if (printed.counts_from_one) return;  // the form of the address determines the table
   if (printed.is_hexadecimal) {
     all_are_modicon = false;
     return;

@@ -15,8 +15,8 @@ namespace understudy::emulator::model_file {
 /// A printed address, before it is known what the list counts.
 struct PrintedAddress {
   std::int64_t number = 0;
-  std::int64_t last = 0;         // of a pair or a range; otherwise `number`
-  bool is_hexadecimal = false;   // by its form
+  std::int64_t last = 0;         // the last address of a pair or a range; otherwise `number`
+  bool is_hexadecimal = false;   // true if the form of the address shows it
   std::optional<Table> table{};  // "4x0001", "HR100"
   bool counts_from_one = false;  // "4x0001" always does
   int bit = -1;                  // "10.3"

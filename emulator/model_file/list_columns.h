@@ -20,7 +20,7 @@ struct ListPlace {
 
 struct ColumnPlan {
   std::size_t heading_row = 0;       // rows before it are titles
-  std::vector<Column> columns{};     // by cell
+  std::vector<Column> columns{};     // the columns, by cell
   std::vector<std::size_t> names{};  // the cells of names, the best first
   bool has_hexadecimal_addresses = false;
   bool operator==(const ColumnPlan&) const = default;

@@ -24,12 +24,12 @@ inline constexpr std::array<std::string_view, 3> kAddressReadings{"wire", "from_
 
 /// A user's settings for a list: flags of `import`, or `list` in a model file.
 struct ListReading {
-  std::vector<std::pair<Column, std::string>> columns{};  // and their headings
+  std::vector<std::pair<Column, std::string>> columns{};  // the columns and their headings
   std::optional<AddressReading> addresses{};              // none: wire, unless that is impossible
   bool guesses_addresses = false;                         // false: uncertain addresses are refused
-  Table table = Table::holding;                           // of rows that do not name one
-  std::string encoding{};                                 // empty: guessed
-  std::vector<Firmware> firmwares{};                      // that rows may begin with; empty: any
+  Table table = Table::holding;                           // the table of rows that do not name one
+  std::string encoding{};                                 // the encoding; empty: it is guessed
+  std::vector<Firmware> firmwares{};  // the versions that rows may begin with; empty: any version
 };
 
 /// Collects what a reader had to guess or skip. It keeps the first remark of each kind, and counts the rest.

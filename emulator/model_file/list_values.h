@@ -25,7 +25,7 @@ bool has_decimals(std::string_view text);
 struct Step {
   Decimal step{1, 0};
   Decimal offset{};
-  std::string text{};  // as it is written; empty: the list has none
+  std::string text{};  // the step as it is written; empty: the list has none
 };
 /// Returns nothing if no whole number of counts has this value.
 std::optional<std::int64_t> counts_of(const Decimal& value, const Step& step);

@@ -65,8 +65,8 @@ using models::imported::WordOrder;
 /// Returns nothing for an unknown word.
 std::optional<WordOrder> order_called(std::string_view word);
 
-/// The meaning of a word for a type. A type without a Type, or with more than two words, only holds its
-/// words.
+/// The meaning of a word for a type. A type that no Type describes, or that has more than two words, is only
+/// stored as words.
 struct TypeMeaning {
   enum class Kind : std::uint8_t {
     number,   // one of Type
@@ -77,7 +77,7 @@ struct TypeMeaning {
   } kind = Kind::number;
   Type type = Type::u16;
   int words = 1;  // 0: the list says how many
-  int bits = 0;   // of a part
+  int bits = 0;   // the number of bits of a part
   WordOrder order{};
 };
 /// Returns nothing for an unknown word.

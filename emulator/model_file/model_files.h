@@ -32,7 +32,7 @@ class DescribedModels final : public ModelFiles {
 
   const ModelList house_;
   mutable std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<models::imported::ImportedModel>> models_;  // by their whole text
+  std::map<std::string, std::unique_ptr<models::imported::ImportedModel>> models_;  // by description
 };
 
 }  // namespace understudy::emulator::model_file

@@ -233,8 +233,8 @@ class ListReader {
   ColumnPlan plan_;
   KnownTypes types_;
   ListContext context_{reading_, plan_, place_, AddressReading::wire, list_.remarks, types_};
-  std::vector<const CsvRow*> cells_;  // of the rows that are not empty
-  std::vector<ListRow> read_rows_;    // those rows
+  std::vector<const CsvRow*> cells_;  // the cells of the rows that are not empty
+  std::vector<ListRow> read_rows_;    // the same rows after reading
   std::vector<std::optional<PrintedAddress>> printed_;
   AddressEvidence evidence_;
   TakenPlaces taken_;

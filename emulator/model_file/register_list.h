@@ -14,7 +14,7 @@ namespace understudy::emulator::model_file {
 
 struct RegisterList {
   std::vector<models::imported::ListedRegister> registers{};
-  AddressReading addresses = AddressReading::wire;  // how they were read
+  AddressReading addresses = AddressReading::wire;  // how the addresses were read
   Remarks remarks{};
 };
 
@@ -27,7 +27,7 @@ RegisterList read_register_list(const std::string& text, const ListPlace& place,
 /// Parses named bits of a list: "READY, 4-7 STATE". Throws std::invalid_argument with what is wrong and what
 /// was expected.
 std::vector<models::imported::BitName> parse_bits(const std::string& text, Type type);
-/// Requires that no two share a bit or a name. Throws std::invalid_argument.
+/// Requires that no two of the names share a bit or are equal. Throws std::invalid_argument.
 void require_apart(const std::vector<models::imported::BitName>& all);
 /// Parses the bits of one name: "4", "4-7". Throws std::invalid_argument.
 models::imported::BitName bits_called(const std::string& name, const std::string& bits, Type type);

@@ -18,8 +18,8 @@ struct RowRegisters {
   std::optional<models::imported::BitName> part{};
 };
 
-/// Collects all errors; the result is empty if there was one. `printed`: the row's address, or nothing if it
-/// is not one.
+/// Collects all errors; the result is empty if there was one. `printed` is the row's address, or nothing if
+/// the cell is not an address.
 RowRegisters registers_of(const ListRow& row, const std::optional<PrintedAddress>& printed,
                           world::Diagnostics& diagnostics);
 /// Returns the table that the row's own cells give.

@@ -18,7 +18,7 @@ namespace {
 
 using TypeKind = TypeMeaning::Kind;
 
-constexpr int kMaxWords = 125;  // of one request
+constexpr int kMaxWords = 125;  // the limit of one request
 
 /// Requires that columns agree. A list may say the same thing twice, but not two different things.
 void require_agreement(const ListRow& row, Type type) {

@@ -28,7 +28,7 @@ namespace {
 /// A key of an axis, and the words that makers use for such registers.
 struct Guess {
   std::string_view key;
-  bool is_written = true;  // by hosts
+  bool is_written = true;  // true if hosts write the register
   std::array<std::string_view, 4> words{};
   std::string_view suffix{};  // comes after the name, such as a bit
   std::string_view otherwise;

@@ -24,14 +24,14 @@ class TakenPlaces {
 
  private:
   struct Place {
-    std::size_t number = 0;  // of the register in the list, plus 1
+    std::size_t number = 0;  // the number of the register in the list, plus 1
     int line = 0;
     std::string name{};
   };
   static std::vector<std::string> names_of(const models::imported::ListedRegister& listed);
   int line_of_name(const models::imported::ListedRegister& listed) const;
 
-  std::array<std::vector<Place>, 4> words_;  // by table and address
+  std::array<std::vector<Place>, 4> words_;  // the registers, by table and address
   std::array<std::unordered_map<std::string, int>, 4> names_;
 };
 

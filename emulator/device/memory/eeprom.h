@@ -73,12 +73,12 @@ class Eeprom {
   /// With `even_at_once`, also stores the registers that need no time.
   void keep_all(std::span<const std::uint32_t> image, bool even_at_once);
 
-  Tick done_at_ = kNever;  // first, because each tick reads it
+  Tick done_at_ = kNever;  // the first member, because each tick reads it
   std::uint64_t revision_ = 0;
-  std::vector<std::uint32_t> content_;  // by slot
+  std::vector<std::uint32_t> content_;  // the stored values, by slot
   std::vector<Slot> slots_;
   std::vector<Job> jobs_;                 // the first is in progress
-  std::vector<std::uint32_t> rewriting_;  // by slot, during an erasure; otherwise empty
+  std::vector<std::uint32_t> rewriting_;  // the new values by slot, during an erasure; otherwise empty
 };
 
 }  // namespace understudy::emulator

@@ -21,12 +21,12 @@ struct NvEntryError : NvError {
         name(std::move(name_of_it)),
         diagnostic(std::move(what_is_wrong)) {}
   List list;
-  std::string kind;        // for blocks
-  std::string name;        // of the entry; for blocks, empty means all of this kind
+  std::string kind;        // the kind, if the entry is a block
+  std::string name;        // the name of the entry; for blocks, empty means all of this kind
   std::string diagnostic;  // for messages that already name the entry
 };
 
-/// Makes the error for a refused value: "registers: " or "reals: ", then the reason.
+/// Makes the error for a refused value. Its text is "registers: " or "reals: ", followed by the reason.
 NvEntryError refused_value(NvEntryError::List list, const std::string& name, const std::string& why);
 
 /// Removes the refused entry. Returns true if the image contained it.

@@ -55,7 +55,7 @@ class NvWriter {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::string, Contents> waiting_;  // by path
+  std::map<std::string, Contents> waiting_;  // the contents that are waiting, by path
   std::vector<std::string> news_;
   bool is_busy_ = false;
   bool is_hurried_ = false;  // flush() waits: write without delay

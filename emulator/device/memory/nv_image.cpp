@@ -82,7 +82,7 @@ class LineCount {
 struct BlockPlace {
   std::string kind;
   std::string name;
-  std::size_t line = 0;  // in the file
+  std::size_t line = 0;  // the line in the file
 };
 
 /// Returns "blocks: files: 'A': ".

@@ -24,12 +24,12 @@ using BlockLines = std::map<std::pair<std::string, std::string>, std::size_t>;
 
 struct NvImage {
   std::string model;
-  std::string firmware;                                           // of the device that wrote it; for people
-  std::vector<std::pair<std::string, std::int64_t>> registers{};  // by the manual's names
-  std::vector<std::pair<std::string, double>> reals{};            // finite
-  std::vector<std::string> program{};                             // its lines
-  NamedBlocks blocks{};                                           // in UTF-8
-  BlockLines block_lines{};  // in the text that was parsed: for messages, not part of the content
+  std::string firmware;  // the firmware of the device that wrote the image; for people
+  std::vector<std::pair<std::string, std::int64_t>> registers{};  // the registers, by the manual's names
+  std::vector<std::pair<std::string, double>> reals{};            // the reals; all are finite
+  std::vector<std::string> program{};                             // the lines of the program
+  NamedBlocks blocks{};                                           // the blocks, in UTF-8
+  BlockLines block_lines{};  // the lines in the text that was parsed, for messages; not part of the content
 
   bool operator==(const NvImage& other) const;
 };
@@ -41,7 +41,7 @@ using LateImage = std::function<NvImage()>;
 /// 3: " in front if the line is known.
 struct NvError : std::runtime_error {
   explicit NvError(const std::string& diagnostic, std::size_t line_of_it = 0);
-  std::size_t line;  // in the file; 0: the error concerns the whole image
+  std::size_t line;  // the line in the file; 0: the error concerns the whole image
   /// Returns the message for an image in a file: "path:3: field: what is wrong; what was expected".
   std::string in_file(const std::string& path) const;
 };

@@ -15,8 +15,8 @@ namespace understudy::emulator {
 
 class PersistentMemory {
  public:
-  /// Convert to and from the form in files. load_nv() requires that the power is off, and throws NvError for
-  /// an image that the device cannot hold.
+  /// Convert the memory to and from the form in files. load_nv() requires that the power is off, and throws
+  /// NvError for an image that the device cannot hold.
   NvImage nv_image() const { return content_now()(); }
   void load_nv(const NvImage& image);
   /// Captures the memory's content at this moment. The result can make the image later, in another thread,

@@ -28,8 +28,7 @@ class ModbusStation {
   /// Returns true if the device answers refused requests with an exception; otherwise it does not answer
   /// them.
   virtual bool answers_refusals() const { return true; }
-  /// Notes that characters at that port were not a frame; they get no answer. Called only while the device
-  /// has power.
+  /// Called when characters at that port were not a frame, while the device has power. They get no answer.
   virtual void receive_failed(std::size_t /*port*/, pty::ReceiveError /*error*/) {}
 
  protected:

@@ -36,7 +36,7 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
 struct Change {
   Place place;
   std::uint32_t bits = 0;
-  bool low = false;  // the request has this word
+  bool low = false;  // true if the request contains the low word
   bool high = false;
 };
 
@@ -221,8 +221,8 @@ void take_effect(RegisterBank& bank, const Change& change) {
   if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
-/// Makes the changes in ascending order. By policy it first stores them all and then applies their
-/// effects, or does both for each register in turn.
+/// Makes the changes in ascending order. Depending on the policy, it first stores all of them and then
+/// applies their effects, or does both for each register in turn.
 void carry_out(RegisterBank& bank, Changes& changes) {
   std::span all = std::span(changes.all).first(changes.count);
   const auto diverted = std::remove_if(
@@ -324,7 +324,7 @@ std::optional<Value> value_of_number(const NamedPlace& place, double number) {
     if (std::isinf(real) && !std::isinf(number)) return std::nullopt;
     return value_of_real(real);
   }
-  constexpr double kMax = 1e15;  // beyond it every double is whole, and no register can hold it
+  constexpr double kMax = 1e15;  // larger doubles are all whole numbers, and fit in no register
   if (!(std::abs(number) <= kMax) || number != std::trunc(number)) return std::nullopt;
   return static_cast<Value>(number);
 }

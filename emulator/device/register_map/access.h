@@ -55,7 +55,7 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Checks a write as if it came from the wire, and makes its words. The words stay right if other writes come
+/// Checks a write as if it came from the wire, and makes its words. The words stay valid if other writes come
 /// first (except one that changes the order of words), but the device may refuse them then, because it is
 /// busy or fails (RegisterBank::admits). A bit is written through its present register.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);

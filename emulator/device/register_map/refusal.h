@@ -40,7 +40,7 @@ struct DeviceAnswer {
       : refusal(given), reason(static_cast<std::uint16_t>(number)) {}
 
   Refusal refusal = Refusal::none;
-  std::uint16_t reason = 0;  // the device's number; 0: it has none
+  std::uint16_t reason = 0;  // the device's number for the reason; 0: it has none
 };
 
 /// A refusal with its cause and the address where it was found.

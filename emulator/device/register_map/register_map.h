@@ -28,7 +28,7 @@ struct Place {
   Part part = Part::whole;
 
   explicit operator bool() const { return row != nullptr; }
-  std::uint16_t address() const {  // of the first word of the whole register
+  std::uint16_t address() const {  // the address of the first word of the whole register
     return static_cast<std::uint16_t>(row->address + index * row->stride);
   }
   bool is_second_word(bool low_word_first) const {
@@ -41,7 +41,7 @@ struct Place {
 /// A place, or bits of it: "STATUS.4", "STATUS.READY".
 struct NamedPlace {
   Place place;
-  int bit = -1;   // the lowest bit; -1: the whole
+  int bit = -1;   // the lowest bit; -1: the whole place
   int width = 1;  // number of bits
 
   bool is_real() const { return bit < 0 && place.part == Place::Part::whole && place.row->type == Type::f32; }
@@ -50,10 +50,10 @@ struct NamedPlace {
 /// How a bit is read. It is computed once, because hosts read hundreds of bits in a request.
 struct BitSource {
   enum class How : std::uint8_t {
-    asks,      // through its row, as at() finds it; used even if nothing is at the address
-    reader,    // by the reader of a row that every firmware has: `slot` is its number, `run` the index in it
-    stored,    // in the image
-    constant,  // 0 or 1, in `slot`
+    asks,    // read through its row, as at() finds it; used even if nothing is at the address
+    reader,  // read by the reader of a row that every firmware has: `slot` is the row, `run` the index in it
+    stored,  // stored in the image
+    constant,  // always 0 or 1, as `slot` says
   } how = How::asks;
   // How many equal sources begin here: stored bits in neighbouring slots, or equal constants.
   std::uint16_t run = 1;
@@ -138,8 +138,8 @@ class RegisterMap {
   struct TableIndex {
     Entries entries;  // empty if the model has no such table
     int end = 0;
-    std::vector<BitSource> bits{};      // by address
-    std::vector<std::int32_t> pairs{};  // by address
+    std::vector<BitSource> bits{};      // the sources of bits, by address
+    std::vector<std::int32_t> pairs{};  // the slots of pairs, by address
   };
   void find_bit_sources(TableIndex& table) const;
   void find_stored_pairs(TableIndex& table) const;

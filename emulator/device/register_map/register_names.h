@@ -24,8 +24,8 @@ class RegisterNames {
   explicit RegisterNames(std::span<const RegisterRow> rows);
 
   struct Named {
-    std::size_t row = 0;  // its index in the rows
-    int index = 0;        // of the register in the row
+    std::size_t row = 0;  // the index of the row in the rows
+    int index = 0;        // the number of the register in its row
     RegisterPart part = RegisterPart::whole;
   };
   std::optional<Named> find(Table table, std::string_view name) const;
@@ -55,7 +55,7 @@ class RegisterNames {
 
   std::span<const RegisterRow> rows_;
   std::vector<Pattern> patterns_;
-  std::vector<std::uint32_t> buckets_;  // their number is a power of two
+  std::vector<std::uint32_t> buckets_;  // the number of buckets is a power of two
   std::size_t longest_ = 0;             // length of the longest beginning
 };
 

@@ -72,8 +72,8 @@ constexpr TypeLimits limits_of(Type type) {
 struct Cell {
   int argument = 0;       // declared with the row, for example an axis
   int index = 0;          // 0 .. count-1
-  int axis = 0;           // if the row is for several axes: the device's number of the axis
-  bool high_half = true;  // in a write: the high word is included (always true for 16-bit registers)
+  int axis = 0;           // the device's number of the axis, if the row is for several axes
+  bool high_half = true;  // true if a write includes the high word (always true for 16-bit registers)
 };
 
 /// Says when the value of a reader may change without a write. A program that waits for a value is evaluated
@@ -95,8 +95,8 @@ using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Handles the words that one request has written to a window, or refuses them without changing anything.
 using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
-/// Adapts a model's functions. They take their own device, which contains the bank that they are called for
-/// (register_bank.h). `D` may be incomplete at the rows.
+/// Adapts a model's functions, which take the device that contains the bank for which they are called
+/// (register_bank.h). `D` may be incomplete where the rows are declared.
 template <auto function>
 struct Handler;
 template <typename D, Value (*function)(const D&, Cell)>
@@ -135,7 +135,7 @@ struct BitField {
   int bit = 0;  // the lowest bit
   std::string_view name;
   int width = 1;
-  Reader reader = nullptr;  // their present value, if it is not simply the register's
+  Reader reader = nullptr;  // reads the present value, if it is not simply the register's
   Varies varies = Varies::in_ticks;
 
   template <auto function, Varies when>
@@ -183,7 +183,7 @@ struct RegisterRow {
   int stride = 1;  // `stride` addresses apart; in names, first_number + index * number_step replaces "{}"
   int first_number = 0;
   int number_step = 1;
-  std::span<const std::string_view> labels{};  // in names instead of numbers: the axes, for example
+  std::span<const std::string_view> labels{};  // used in names instead of numbers: the axes, for example
   int first_axis = 0;                          // the axis of the first label
   std::string_view low_half = "_L";            // the manual's endings for the halves of a 32-bit register
   std::string_view high_half = "_H";
@@ -191,10 +191,10 @@ struct RegisterRow {
   bool swaps_bytes = false;  // the low byte of each word comes first
 
   Firmware since = 0;
-  std::string_view section;  // of the manual
+  std::string_view section;  // the section of the manual
   Meaning meaning{};
-  std::span<const Meaning> meanings{};             // or these, one for each register of the row
-  std::span<const std::string_view> axis_names{};  // of its registers, if their names have numbers instead
+  std::span<const Meaning> meanings{};             // the meanings, if each register of the row has its own
+  std::span<const std::string_view> axis_names{};  // axes of the registers, if names have numbers
 
   int argument = 0;
   Reader reader = nullptr;
@@ -207,7 +207,7 @@ struct RegisterRow {
   int min_words = 1;                 // if it is at least this many words
   bool acts_on_zero = true;          // false: a trigger, for which a written 0 has no effect
   std::string_view not_implemented;  // if the register only stores and reads back: what is missing
-  Hazards hazards = Hazards::unmarked;  // of a write; see hazards_of()
+  Hazards hazards = Hazards::unmarked;  // the hazards of a write; see hazards_of()
 
   // --- how a row is written down ---------------------------------------------------------------
   /// Says what a write can do in a real controller.
@@ -434,7 +434,7 @@ struct MapPolicy {
   } read_halves = ReadHalves::may_be_read_alone;
   /// The refusal of a request that cuts a register if that is not allowed.
   Refusal cut_pair = Refusal::no_register;
-  /// `stored`: the value is stored unchanged and limited on use; the range is the manual's.
+  /// With `stored`, the value is stored unchanged and limited on use; the range is the manual's.
   enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
   /// What a request with one value out of range leaves written: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;

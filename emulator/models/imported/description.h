@@ -61,14 +61,14 @@ struct Spot {
   bool operator==(const Spot&) const = default;
 };
 
-/// Stands for the value of a register, or for a fixed number.
+/// The value of a register, or a fixed number.
 struct Quantity {
   std::optional<Spot> spot{};
   double number = 0;  // if there is no register
   double unit = 1;    // the quantity that one count represents
 };
 
-/// Holds if the spot has `value`. Without a value, it holds if the spot is not 0.
+/// A condition that is true if the spot has `value`. Without a value, it is true if the spot is not 0.
 struct Condition {
   Spot spot;
   std::optional<Value> value{};
@@ -93,7 +93,7 @@ enum class Number : std::uint8_t {
 };
 inline constexpr std::size_t kNumbers = 10;
 
-/// The commands of hosts to an axis, in the order in which the commands of one request act.
+/// The commands that hosts give to an axis, in the order in which those of one request take effect.
 enum class Command : std::uint8_t {
   stop_at_once,
   stop,
@@ -158,8 +158,8 @@ struct AxisBinding {
   std::array<std::optional<Quantity>, kNumbers> numbers{};
   std::array<std::optional<Condition>, kCommands> commands{};
   std::array<std::optional<Spot>, kViews> views{};
-  motion::UnitScale pulses_per_count{};  // of position
-  double pps_per_count = 1;              // of speed
+  motion::UnitScale pulses_per_count{};  // pulses per position count
+  double pps_per_count = 1;              // pulses per second for each speed count
   // Numbers of inputs; -1: none.
   int upper_limit_input = -1;
   int lower_limit_input = -1;

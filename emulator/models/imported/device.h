@@ -30,9 +30,9 @@ struct ShownPart;
 struct State {
   bool touched = true;  // host requests or inputs may have changed since motion last checked them
   std::vector<std::uint32_t> image{};
-  std::vector<std::uint8_t> held{};  // by axis and command: whether its condition held at the last check
+  std::vector<std::uint8_t> held{};  // whether the condition was true at the last check, by axis and command
   std::vector<AxisState> axes{};
-  std::vector<double> followed{};  // by following: its value, in counts
+  std::vector<double> followed{};  // the values in counts, by following
   Eeprom eeprom{};
 
   bool operator==(const State&) const = default;
@@ -129,9 +129,9 @@ class ImportedDevice final : public StatefulDevice<ImportedDevice, State>,
   const ImportedModel& model_;
   const CountsOf counts_of_ = [this](const Quantity& quantity) { return counts_of(quantity); };
   std::vector<MachineEdges> edges_;        // not state: set again after a restore
-  std::vector<std::uint8_t> is_restored_;  // by axis; not state
+  std::vector<std::uint8_t> is_restored_;  // the axes that have been restored; not state
   std::vector<std::size_t> written_;       // slots of the registers written by the current request
-  std::vector<double> shares_;             // by following: the share of the distance covered in one period
+  std::vector<double> shares_;             // the shares of the distance covered in one period, by following
 };
 
 /// Read and write every row that shows other state (Cell::argument: the register's number in the list).

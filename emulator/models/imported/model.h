@@ -47,7 +47,7 @@ class ImportedModel {
   std::vector<std::vector<BitField>> fields_;
   const RegisterMap map_;
   std::vector<int> slots_;
-  std::vector<bool> moving_outputs_;  // by terminal
+  std::vector<bool> moving_outputs_;  // true for outputs that may change with each pulse, by terminal
   bool numbers_move_ = false;
   std::vector<IdentityObject> identity_;
   std::vector<PortRow> ports_;

@@ -31,7 +31,7 @@ inline Took frnet_write(Module& it, const Command& command) {
   return Took::done;
 }
 
-/// The quantity of a number, which determines its range.
+/// The kind of quantity, which determines the range of a number.
 enum class Speed : std::uint8_t { other, speed, slope, jerk };
 /// Returns the value to store: as sent, or limited to the range that MAX_V gives it now.
 template <Speed kind>
@@ -133,8 +133,8 @@ inline Took axis_assign(Module& it, const Command& command) {
 
 inline Took path(Module& it, const Command& command) { return it.path_starts.follow(command); }
 
-/// INITIAL of a stream: settings for all its CONTINUE commands. It waits while a stream runs (7.4.2, 7.4.5,
-/// 7.4.8).
+/// INITIAL of a stream: stores the settings for all its CONTINUE commands. INITIAL waits while a stream runs
+/// (7.4.2, 7.4.5, 7.4.8).
 template <Stream stream>
 Took initial(Module& it, const Command& command) {
   Paths& paths = it.chip.paths();
@@ -155,7 +155,8 @@ Took initial(Module& it, const Command& command) {
   return Took::done;
 }
 
-/// LINE_SCAN (7.4.12): the next scan uses up the setting. The scan uses C+, so the soft limits end.
+/// LINE_SCAN (7.4.12): stores the setting, which the next scan consumes. A scan uses C+, so the soft limits
+/// end.
 inline Took line_scan(Module& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     AxisUnit& unit = it.chip.unit(a);

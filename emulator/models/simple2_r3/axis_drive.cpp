@@ -59,7 +59,7 @@ std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
     const std::int64_t speed_before = axis.speed_urpm;
     axis.speed_urpm = std::clamp(target, axis.speed_urpm - step, axis.speed_urpm + step);
     const std::int64_t speed = settings.pulses_by_speed_before ? speed_before : axis.speed_urpm;
-    // At most 6e12 because of the speed limit, plus a remainder of 1.2e11.
+    // The phase is at most 6e12 because of the speed limit, plus a remainder of 1.2e11.
     axis.velocity_phase += speed * static_cast<std::int64_t>(settings.pulses_per_revolution);
     pulses += axis.velocity_phase / kVelocityPhase;
     axis.velocity_phase %= kVelocityPhase;
@@ -250,8 +250,8 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) return motion::simple2_homing(how);
   const auto direction = static_cast<std::int8_t>(how.direction < 0 ? -1 : +1);
   motion::HomingProgram program{.speeds = {how.speed}};
-  program.add(
-      {.direction = direction, .marks = true, .next = 2, .if_limit = 1});  // there is no step 2: found
+  // There is no step 2: home is found.
+  program.add({.direction = direction, .marks = true, .next = 2, .if_limit = 1});
   program.add({.direction = static_cast<std::int8_t>(-direction), .marks = true});
   return program;
 }

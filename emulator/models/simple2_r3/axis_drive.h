@@ -36,10 +36,10 @@ struct alignas(64) AxisState {
   std::int32_t coordinate_pulses = 0;
   // The value at the last velocity command, for the choice that latches it.
   std::uint32_t velocity_step_urpm = 1;
-  std::int64_t pulses_this_tick = 0;  // as they leave the device, after DIR_Polarity
+  std::int64_t pulses_this_tick = 0;  // the pulses as they leave the device, after DIR_Polarity
   Tick alarm_clear_until = 0;         // first tick after the end of ACLR
-  std::int64_t encoder_raw = 0;       // as the plant reports it
-  std::int64_t encoder_counts = 0;    // since power-up, each counted with the polarity at that time
+  std::int64_t encoder_raw = 0;       // the encoder as the plant reports it
+  std::int64_t encoder_counts = 0;    // counts since power-up, each with the polarity at its time
   // For ENCx_RPM: when the counts last changed.
   static constexpr Tick kSpeedWindow = 100;
   Tick encoder_changed = -kSpeedWindow;
@@ -70,7 +70,7 @@ inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
 struct DriveSettings {
   std::uint32_t pulses_per_revolution = 1;
   std::uint32_t velocity_step_urpm = 1;  // the change of speed in 0.5 ms
-  std::int64_t encoder_counts = 0;       // of the encoder that sync mode follows
+  std::int64_t encoder_counts = 0;       // the counts of the encoder that sync mode follows
   bool stops_with_encoder = false;       // in sync mode, ignoring its slope
   bool pulses_by_speed_before = false;   // in velocity mode a step's pulses come before its change of speed
 };
@@ -93,8 +93,8 @@ Activity activity(const AxisState& axis);
 int heading(const AxisState& axis);
 Phase phase_of(const AxisState& axis, Tick now);
 
-/// Runs velocity mode towards `target_mrpm`, from the present speed if it runs already. The caller checks
-/// with transitions.h whether it may; likewise for the next two functions.
+/// Runs velocity mode towards `target_mrpm`, from the present speed if it is already running. The caller
+/// checks with transitions.h whether it may; likewise for the next two functions.
 void run_velocity(AxisState& axis, std::int64_t target_mrpm);
 /// Runs at the wanted velocity, if nothing forbids it.
 void resume_velocity(AxisState& axis);
@@ -169,7 +169,7 @@ struct SkipContext {
   Tick done = 0;  // the last completed tick
   DriveSettings settings;
   bool reversed = false;          // DIR_Polarity
-  bool encoder_reversed = false;  // by its polarity
+  bool encoder_reversed = false;  // the encoder's polarity
   int axis = 0;
   const ClearTravel* ahead = nullptr;
 };

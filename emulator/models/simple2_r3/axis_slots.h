@@ -1,4 +1,4 @@
-// The registers of each axis, which allow the same code to serve both.
+// The registers of each axis, in a form that lets the same code serve both axes.
 #pragma once
 
 #include <array>

@@ -46,7 +46,7 @@ Simple2R3::Simple2R3(const DeviceSettings& given)
 // --- its line --------------------------------------------------------------------------------------
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
-  if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
+  if (now() + 1 < state_.first_tick) return Addressing::ignore;  // the device has not booted yet
   const int rotary_switch = *station_number();
   if (rotary_switch == 0) {
     return address == 0 && chose(option("switch_0_broadcast", "silent")) ? Addressing::execute_silently
@@ -105,7 +105,7 @@ void Simple2R3::update_outputs(Tick tick) {
 
 Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
-  Tick next = state_.eeprom.next_active_tick();  // it continues while the device boots
+  Tick next = state_.eeprom.next_active_tick();  // the EEPROM continues while the device boots
   if (done < state_.first_tick && starts_by_itself(state_)) next = std::min(next, state_.first_tick);
   if (state_.execution.running) next = std::min(next, next_slot(state_, setup_, *this, done));
   for (const AxisState& axis : state_.axes) {

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::simple2_r3 {
 
 struct AxisMark {
   std::string_view name;
-  Set taken_off_by;  // of Outcome
+  Set taken_off_by;  // a set of Outcome values
   void (*take_off)(AxisState&);
   bool (*is_off)(const AxisState&);
 };

@@ -94,7 +94,7 @@ void Programs::start(std::uint8_t line) {
   const interpreter::simple2::LoopState loop = execution.loop;
   interpreter::simple2::start(execution, line);
   if (setup_.chose(option("start_while_running", "jumps")))
-    execution.loop = loop;  // it has no loop if the program was not running
+    execution.loop = loop;  // the execution has no loop if the program was not running
   find_flags_if_requested();
   if (!setup_.chose(option("program_start", "clears_them"))) return;
   for (Timer& timer : state_.timers) timer = {};

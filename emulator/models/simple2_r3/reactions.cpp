@@ -116,7 +116,7 @@ void AxisReactions::note_for_motor(motion::Signals changed, motion::Signals on) 
     const bool is_on = (on & bit) != 0;
     if (((state().motor.signals ^ on) & bit) != 0) {
       (void)reaction(event_of(state(), signal, is_on));
-    } else {  // it has met the switch on its way, in the tick before
+    } else {  // the axis met the switch on its way, in the tick before
       note(is_on ? Phase::moving : Phase::leaving, is_on ? Event::limit_ahead : Event::limit_gone);
     }
   }

@@ -177,7 +177,7 @@ inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動�
     reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B with the position set of this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
 });
 
-// A program cell travels as 16 bits but holds 8.
+// A program cell is sent as 16 bits but holds 8.
 inline constexpr auto kProgramRows = section("程式控制", kProgram, {
     reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).means("starts the program at this line", "主程式由哪一行執行").range(0, 255).in("line").does<start_program>(),
     reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).means("1 stops the program", "主程式強制停止").range(0, 1).triggers<stop_program>().may(kMotion),
@@ -192,7 +192,7 @@ inline constexpr auto kProgramRows = section("程式控制", kProgram, {
     reg(0x8100, "PROG_VAR{}", s32, RW).means("program variable VAR {}", "變數表行 {}").times(32, 2, 0).halves("_RegL", "_RegH").may(kValue),
 });
 
-// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A like 0xF029.
+// The manual prints EncSync up to 2^16, which 16 bits cannot hold. It prints 0xF02A with the name of 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
     reg(0xF000, "Aaxis_Home_Speed",    u16, RW).means("homing speed of axis A", "最大回原點 A 軸速度").also("Axis_Home_Speed").range(0, k2To15).in("RPM").persists(),
     reg(0xF001, "Baxis_Home_Speed",    u16, RW).means("homing speed of axis B", "最大回原點 B 軸速度").range(0, k2To15).in("RPM").persists(),

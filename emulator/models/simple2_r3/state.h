@@ -17,7 +17,7 @@ namespace understudy::emulator::models::simple2_r3 {
 /// Timer1, Timer2: 32 bits, in the timer's unit (Setup::timer_time). The value is computed from its
 /// start, so a running timer costs nothing.
 struct Timer {
-  std::uint32_t value = 0;  // at `since`
+  std::uint32_t value = 0;  // the value at `since`
   Tick since = 0;
   bool running = false;
 
@@ -62,9 +62,9 @@ struct MoveParameters {
 /// A command that waits for SVON, if a choice makes it wait.
 struct KeptCommand {
   Mode mode = Mode::position;
-  Command command = Command::none;  // of position mode; none: no command waits
+  Command command = Command::none;  // a command of position mode; none: no command waits
   MoveParameters move{};
-  std::int64_t value = 0;  // mRPM or percent
+  std::int64_t value = 0;  // the value in mRPM or percent
 
   bool operator==(const KeptCommand&) const = default;
 };
@@ -80,7 +80,7 @@ struct alignas(64) State {
   std::uint16_t assignments = 0;     // bit n: the register 0x0A00 + n, as at power-up
   std::array<std::uint16_t, kAnalogCount> adc{};  // as sampled in this tick
   std::uint16_t password = 0;                     // NEW_PWD, independent of the image while it is locked
-  Tick first_tick = 1;  // the first after power-up, in which AutoStart_MainProg is checked
+  Tick first_tick = 1;  // the first tick after power-up, in which AutoStart_MainProg is checked
   interpreter::simple2::Execution execution;
   Eeprom eeprom;
   std::array<AxisState, 2> axes;
@@ -88,7 +88,7 @@ struct alignas(64) State {
   interpreter::simple2::Program program;  // the cells of the image, in a form that can run
   std::array<Timer, 2> timers;
   std::array<ProgramSpeed, 2> program_speeds{};
-  std::array<KeptCommand, 2> kept{};  // by axis
+  std::array<KeptCommand, 2> kept{};  // the waiting commands, by axis
 
   bool operator==(const State&) const = default;
 };

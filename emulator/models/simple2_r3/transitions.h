@@ -137,7 +137,7 @@ inline constexpr OtherOutcome kUnlessMoving{option("command_while_moving", "igno
 inline constexpr OtherOutcome kUnlessPositioning{option("mode_change_while_moving", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessInOtherMode{option("move_in_other_mode", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessIntoLimit{option("command_into_limit", "dropped"), dropped};
-inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // for motion that would have resumed
+inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // discards a motion that would have resumed
 inline constexpr OtherOutcome kFromTheSpeed{option("move_in_other_mode", "goes_on_from_the_speed"), changes};
 
 // clang-format off

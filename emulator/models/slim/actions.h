@@ -45,7 +45,7 @@ struct VerbActions {
 const VerbActions& actions_of(lang::Verb verb);
 
 Order order_of(State& state, const Setup& setup, const lang::Machine& machine, const lang::Command& command);
-/// Executes a typed command, or a program's.
+/// Executes a typed command, or a command of a program.
 Error perform(Order& order, Action action);
 /// Executes a line of a program. If a host would be refused, the program waits: for room in a buffer, and
 /// (unless chosen otherwise) for the end of a pause.

@@ -27,7 +27,7 @@ inline constexpr Hazards kMemory = Hazards::memory;
 inline constexpr Hazards kProgram = kMemory | kOutput | kMotion;
 // A line of a program is only stored; typed, it is refused.
 inline constexpr Hazards kInProgram = kMemory;
-// Speeds, limits, modes of inputs and outputs, and the modules that are linked.
+// Parameters include speeds, limits, modes of inputs and outputs, and the modules that are linked.
 inline constexpr Hazards kAnyParameter = kOutput | kMotion | Hazards::stops_answering;
 inline constexpr Hazards kEverything = Hazards::all;
 

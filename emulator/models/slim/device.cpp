@@ -145,7 +145,8 @@ void Slim::run_interpreters(Tick tick) {
   if (watch() != nullptr) watch()->program_loaded(mark_of(state_.program));
   const Error error = step(state_.execution, tick, state_.program, setup_.flow, *this);
   if (error == Error::none) return;
-  // A program that fails repeatedly is faster than its line: errors without room on the line are only stored.
+  // A program that fails repeatedly is faster than its line: errors for which the line has no room are only
+  // stored.
   const bool is_said =
       chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_print(state_, setup_);
   const int module = is_said ? fail(state_, setup_, failed_module_, error)

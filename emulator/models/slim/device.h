@@ -114,7 +114,7 @@ class Slim final : public StatefulDevice<Slim, State>,
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
-  /// Called when something comes from outside, possibly after skipped ticks.
+  /// Called at an event from outside, possibly after skipped ticks.
   void wake();
 
   const Setup setup_;

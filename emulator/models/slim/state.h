@@ -38,8 +38,8 @@ struct State {
   lang::Execution execution{};
   std::array<Errors, kModules> errors{};
   std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as sampled in this tick
-  Tick powered_at = 0;                          // ?time counts from it
-  Tick clock_zero = 0;                          // TM counts from it
+  Tick powered_at = 0;                          // the tick from which ?time counts
+  Tick clock_zero = 0;                          // the tick from which TM counts
   std::string output{};                         // not yet read by the line
   bool touched = true;                          // an outside event has come since the last tick
 

@@ -64,8 +64,8 @@ void Commands::stop_by_emergency(language::Area area, bool is_new) {
   if (!pauses || (is_new && phase == language::Phase::held))
     return programs_.handle(language::Event::emergency, area);
   if (!is_new) return;
-  programs_.handle(language::Event::limit_pauses, area);  // the motion of its line is over
-  programs_.handle(language::Event::hold, area);          // its wait, or its lines
+  programs_.handle(language::Event::limit_pauses, area);  // the motion of the program's line is over
+  programs_.handle(language::Event::hold, area);          // holds the program's wait, or its lines
 }
 
 void Commands::apply_emergency() {

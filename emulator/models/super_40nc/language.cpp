@@ -81,7 +81,7 @@ class ProgramListing final : public ProgramLanguage {
     static const Instructions instructions;
     return instructions.rows;
   }
-  /// Checks a listing; some rules are choices.
+  /// Checks a listing; some rules depend on choices.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
     return Super40nc(settings).parts().programs.stored().mistakes_in(text);
   }

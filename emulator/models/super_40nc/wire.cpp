@@ -36,7 +36,7 @@ MapPolicy chosen_map_policy(const Device& device, MapPolicy policy) {
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
-  // D9000 is the station number; 0 is also a number, and answers.
+  // D9000 is the station number; 0 is also a valid number, and the device answers it.
   if (address == 0 && chose(option("station_rule", "0_is_never_answered")))
     return Addressing::execute_silently;
   const StoredRegister kept = stored_d(d9::kStation);

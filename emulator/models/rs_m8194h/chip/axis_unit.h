@@ -121,9 +121,9 @@ struct AxisUnit {
   HomeSettings homing{};
   motion::Counter logic{};
   motion::Counter absolute{};
-  motion::Counter encoder{};  // of the travel, or of the bench's encoder if there is one
+  motion::Counter encoder{};  // counts the travel, or the bench's encoder if there is one
   bool has_encoder = false;
-  std::int64_t encoder_raw = 0;   // from the bench, in edges
+  std::int64_t encoder_raw = 0;   // the bench's encoder, in edges
   std::int64_t encoder_zero = 0;  // raw count at which the divided count was 0
   std::int64_t sent_pulses = 0;   // pulses of the last tick
   std::uint16_t error_code = 0;

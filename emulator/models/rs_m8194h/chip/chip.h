@@ -89,9 +89,10 @@ class Chip final : public Part {
   bool holds_back() const { return state_.holds_back; }
   /// Lets all levels pass, as at power-up.
   void pass_all_pins();
-  /// Updates what the motor meets. Call it after inputs or their settings have changed.
+  /// Updates the signals that the motor meets. Call it after inputs or their settings have changed.
   void update_environment(std::size_t axis);
-  /// Updates what the motor watches and meets. Call it after a setting or a counter has changed.
+  /// Updates the limits and comparators that the motor watches, and the signals that it meets. Call it after
+  /// a setting or a counter has changed.
   void rearm(std::size_t axis);
   void rearm_all();
   /// Sets the positions at which a machine's inputs change.

@@ -1,4 +1,4 @@
-// The inputs of the axes: their filters, and what the motors meet and watch.
+// Handles the inputs of the axes: their filters, and the signals and limits of the motors.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -85,7 +85,7 @@ Took Drives::drive(AxisMask axes, const Drive& what) {
         chip_.unit(a).held_drive = what;
         if (has(streams_.axes_of_held(), a)) streams_.drop_held();
         break;
-      case Start::waits: chip_.unit(a).held_drive = what; break;  // starts it after it has stopped
+      case Start::waits: chip_.unit(a).held_drive = what; break;  // starts after the stop
     }
   }
   return Took::done;

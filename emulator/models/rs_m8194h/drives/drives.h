@@ -53,7 +53,7 @@ class Drives final : public Part {
   // --- how they begin ---------------------------------------------------------------------------
   /// Starts a drive of single axes.
   Took drive(AxisMask axes, const Drive& what);
-  /// Starts one axis without a check for locks and waits; what it meets at its start becomes its error.
+  /// Starts one axis without checking locks and waits; anything that it meets at its start becomes its error.
   void start(std::size_t axis, const Drive& what, bool without_ramps = false);
   void start_held();
   /// Applies a changed V: a T-shaped drive continues at the new speed, an S-shaped one keeps its own (7.1).

@@ -55,7 +55,7 @@ void External::watch(std::size_t axis, Tick tick) {
   const std::array<std::uint32_t, 2> edges{edges_of(axis, 0), edges_of(axis, 1)};
   std::array<std::uint32_t, 2> done{};
   while (done[0] < edges[0] || done[1] < edges[1]) {
-    const auto place = [&](std::size_t i) { return std::int64_t{done[i]} * 2 + 1; };  // of 2 * edges[i]
+    const auto place = [&](std::size_t i) { return std::int64_t{done[i]} * 2 + 1; };  // in 2 * edges[i]
     const bool is_plus =
         done[1] == edges[1] || (done[0] < edges[0] && place(0) * edges[1] <= place(1) * edges[0]);
     const std::size_t i = is_plus ? 0 : 1;

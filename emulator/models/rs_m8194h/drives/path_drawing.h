@@ -16,7 +16,7 @@ namespace understudy::emulator::models::rs_m8194h {
 struct PathDrawing {
   motion::PathRun run;
   std::array<double, 4> end{};  // in pulses from where the run began
-  double length = 0;            // of the part drawn now; 0: the command draws nothing
+  double length = 0;            // the length of the part drawn now; 0: the command draws nothing
   motion::SpeedLaw law;
 
   motion::Point at() const { return {end[0], end[1], end[2], end[3]}; }

@@ -28,8 +28,8 @@ struct PathRow {
   Draws draws;
   int dimensions;
   bool absolute;
-  Turn turn;      // of arcs and circles
-  Stream stream;  // of streams
+  Turn turn;      // the direction of arcs and circles
+  Stream stream;  // the kind of stream
 };
 inline constexpr auto kCw = Turn::clockwise;
 inline constexpr auto kCcw = Turn::counter_clockwise;

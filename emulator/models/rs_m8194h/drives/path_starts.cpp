@@ -182,7 +182,7 @@ bool PathStarts::set_out(const HeldPath& path, const PathDrawing& drawing) {
     motion::Axis& motor = chip_.motor(axis);
     motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
   }
-  streams_.on_path_end(false);  // if the path was stopped after the last tick
+  streams_.on_path_end(false);  // needed if the path was stopped after the last tick
   if (is_kept_off(path.codes, drawing.run.path().direction_at(0)) ||
       made.begin(motion::Point::Zero(), chip_.state().motors, now()) != motion::Cause::none) {
     return false;

@@ -12,7 +12,7 @@ namespace understudy::emulator::models::rs_m8194h {
 /// corners (the drawing of 7.4.1 is lost).
 struct RectanglePlan {
   std::array<std::array<double, 2>, 16> points{};
-  std::array<std::array<double, 2>, 4> centres{};  // of the corners that follow points 2, 6, 10 and 14
+  std::array<std::array<double, 2>, 4> centres{};  // of the corners after points 2, 6, 10 and 14
 };
 inline RectanglePlan rectangle_plan(double length, double width, double radius) {
   const double right = length - radius;

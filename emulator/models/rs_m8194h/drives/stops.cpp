@@ -36,8 +36,8 @@ void Stops::leave_path(std::size_t axis, Halt halt) {
   const motion::Events before = motor.events_between;
   const bool slows = halt == Halt::slows && std::abs(speed_pps) > law.start_speed_u_s;
   if (slows && motor.move_on(speed_pps, speed_pps < 0 ? -1 : +1, law, now()) == motion::Cause::none) {
-    motor.events_between = before;  // it is already moving there
-    motor.slow_down(now());         // otherwise it would come back
+    motor.events_between = before;  // the axis is already moving to its target
+    motor.slow_down(now());         // without this, the axis would come back
   } else {
     motor.stop();
   }

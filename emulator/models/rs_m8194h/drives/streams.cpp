@@ -166,9 +166,9 @@ void Streams::break_off() {
   Paths& paths = chip_.paths();
   const bool is_stream = paths.runs == Paths::Runs::stream || paths.open;
   const bool has_more = std::exchange(paths.open, false);
-  if (!is_stream || (!has_more && state_.loaded.empty())) return;  // all of it is done
+  if (!is_stream || (!has_more && state_.loaded.empty())) return;  // no part of the stream is left
   break_off(paths.stream, has_more);
-  if (paths.together.engaged) return;  // it slows down
+  if (paths.together.engaged) return;  // the path is slowing down
   auto loaded = std::exchange(state_.loaded, {});
   if (loaded.size() < 2 || !chose(option("broken_stream", "runs_all_the_same"))) return;
   // The segments after the interrupted one run as soon as they can, before everything that waits.

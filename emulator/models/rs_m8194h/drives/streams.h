@@ -73,7 +73,7 @@ class Streams final : public Part {
   /// Forgets the segments that have been run.
   void forget_done();
 
-  /// Return the law by which the path slows down to its end, and slow it down.
+  /// Return the law by which the path slows down to its end, and slow the path down by it.
   motion::SpeedLaw law_to_slow_down() const;
   void slow_down(Tick tick);
   void stop(motion::Instant at = {});

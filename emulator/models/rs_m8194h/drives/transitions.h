@@ -39,7 +39,7 @@ struct ObstacleRow {
   Start command;
   Start external;
   bool sets_error;  // true: it sets a bit of the error code
-  ErrorBit error;   // that bit
+  ErrorBit error;   // the bit of the error code
 };
 /// Obstacles (7.5.1 to 7.5.10, 3.12). A lock sets its error bit when it is set, not when it prevents a drive.
 inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{

@@ -12,7 +12,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// The scan takes 2.88 ms (1.1): counted in units of 10 us.
+/// The duration of a scan, 2.88 ms (1.1), in units of 10 us.
 constexpr Tick kScanUnits = 288;
 constexpr Tick kTickUnits = 100;
 

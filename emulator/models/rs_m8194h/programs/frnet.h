@@ -14,10 +14,10 @@ namespace understudy::emulator::models::rs_m8194h {
 using FrnetWords = std::array<std::uint16_t, kFrnetGroups>;
 
 struct FrnetState {
-  FrnetWords outputs{};    // as set
-  FrnetWords sent{};       // as sent by the last scan
-  FrnetWords inputs{};     // as found by the last scan
-  Tick powered_at = 0;     // scans are counted from here
+  FrnetWords outputs{};    // the outputs as set
+  FrnetWords sent{};       // the outputs as sent by the last scan
+  FrnetWords inputs{};     // the inputs as found by the last scan
+  Tick powered_at = 0;     // the tick from which scans are counted
   bool unscanned = false;  // inputs differ from those of the last scan
 
   bool operator==(const FrnetState&) const = default;

@@ -32,7 +32,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-/// 512 lines of the longest command are shorter.
+/// A macro of 512 lines with the longest command is shorter.
 constexpr std::size_t kLongestMacro = 100'000;
 constexpr std::size_t kLongestLine = 200;
 constexpr std::size_t kLongestTable = 4'000;

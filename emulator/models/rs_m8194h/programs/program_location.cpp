@@ -46,7 +46,7 @@ std::vector<ProgramLocation> Programs::locations() const {
     if (!run.is_alive()) return;
     if (text.empty()) text = this->text();
     const lang::Level& level = run.levels.back();
-    // An ISR may call an MP: the lowest level shows which of them it is.
+    // An ISR may call an MP: the lowest level shows which of the two is running.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
     ProgramLocation place;
     place.program = to_string(name);

@@ -33,7 +33,7 @@ void require_speed(double value) {
 void StateOf<Group>::write(const Group& group, StateWriter& writer) {
   const auto& [motion, paths, end] = group;
   writer.write(motion.engaged);
-  if (!motion.engaged) return;  // it is in its initial state
+  if (!motion.engaged) return;  // a motion that is not engaged is in its initial state
   writer.write(motion);
   writer.write(paths);
   writer.write(end);

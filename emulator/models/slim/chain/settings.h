@@ -15,7 +15,7 @@ class ChainSettings {
   explicit ChainSettings(ChainState& chain) : chain_(chain) {}
 
   void set_linked(int module, bool linked);  // module 0 is always linked
-  /// Refused while the module moves or has a command to do.
+  /// Refused while the module moves or has a command to execute.
   Error set_scale(int module, std::int64_t multiplier, std::int64_t divider);
   Error set_pulses_per_revolution(int module, std::int32_t pulses);
   Error set_speed_unit(int module, SpeedUnit unit);

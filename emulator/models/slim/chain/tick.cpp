@@ -26,7 +26,7 @@ namespace {
 
 using Pulses = std::array<std::int64_t, kModules>;
 
-/// Switches outputs at their places, in the order in which the axes pass them.
+/// Switches outputs at their positions, in the order in which the axes pass these.
 class TriggerOwner final : public motion::EdgeOwner {
  public:
   explicit TriggerOwner(ChainState& chain) : chain_(chain) {}

@@ -35,7 +35,7 @@ struct Job {
   // In the user units of each module: targets or distances; for an arc its centre and, at Z, its height.
   std::array<double, kLetters> units{};
   bool absolute = true;
-  bool height_absolute = true;  // of an arc
+  bool height_absolute = true;  // for an arc: true if the height is absolute
   double sweep_deg = 0;
   // `sweep_deg` is a radius: of an arc to `units`, turning left, or at the end of a spiral
   bool by_radius = false;

@@ -91,7 +91,7 @@ void stop_jog(const Motor& motor) {
 
 void hold_jog(const Motor& motor) {
   Module& module = motor.module;
-  const bool is_over = motor.axis.slowing && !module.starved;  // JG0 has stopped it
+  const bool is_over = motor.axis.slowing && !module.starved;  // true if JG0 has stopped the jog
   std::int8_t direction = module.held_jog_direction;
   std::int32_t force = module.held_thrust;
   if (module.next_jog_direction != 0 || module.next_thrust != 0) {

@@ -1,4 +1,5 @@
-// Jogs and thrust of one module. They bypass the FIFO; one that comes during another motion follows it.
+// Jogs and thrust of one module. They bypass the FIFO; a jog or thrust that is commanded during another
+// motion starts after it.
 #pragma once
 
 #include <cstdint>

@@ -71,7 +71,7 @@ struct Module {
   std::int32_t thrust = 0;             // FT's operand while it pushes; otherwise 0
   std::int64_t zero_pulses = 0;        // travel at which the coordinate is 0
   double place_units = 0;              // at rest: the commanded coordinate; travel is this, rounded to pulses
-  std::int64_t sent_pulses = 0;        // of the last tick, as they are sent
+  std::int64_t sent_pulses = 0;        // pulses of the last tick, as they are sent
   Error late_error = Error::none;      // error of a queued command when its turn came
   std::array<Output, kOutputs> outputs{};
   std::array<PositionTrigger, 2> triggers{};

@@ -20,7 +20,7 @@ struct Output {
   Mode mode = Mode::level;
   bool on = false;  // the level in mode level; in the other modes, the level before `since`
   Tick since = 0;
-  Tick width = 0;  // of a single pulse
+  Tick width = 0;  // the width of a single pulse
   double frequency_hz = 0;
   double duty_percent = 0;
 
@@ -37,14 +37,14 @@ struct Output {
 struct OutputOrder {
   enum class Kind : std::uint8_t { set, clear, toggle, pulse, pwm, all, arm };
   Kind kind = Kind::set;
-  std::uint8_t output = 0;   // 0 is P1
-  std::uint8_t mask = 0;     // all: bit 0 is P1
-  std::uint8_t trigger = 0;  // arm: which of the two, 0 or 1
+  std::uint8_t output = 0;   // the output; 0 is P1
+  std::uint8_t mask = 0;     // for `all`: bit 0 is P1
+  std::uint8_t trigger = 0;  // for `arm`: which of the two triggers, 0 or 1
   bool trigger_sets = false;
   Tick width = 0;
   double frequency_hz = 0;
   double duty_percent = 0;
-  double at_units = 0;  // arm: the coordinate
+  double at_units = 0;  // for `arm`: the coordinate
 
   bool operator==(const OutputOrder&) const = default;
 };

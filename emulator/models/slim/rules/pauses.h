@@ -38,7 +38,7 @@ enum class InPause : std::uint8_t {
   taredo,
   taupz,
   tastop,
-  reset,   // of T0; a RESET of another module concerns only that module
+  reset,   // a RESET of T0; that of another module concerns only that module
   motion,  // a motion that can wait in the buffer: MA, H, 2MA ...
   jog,     // a motion that cannot wait: JGF, JGR, FT
 };

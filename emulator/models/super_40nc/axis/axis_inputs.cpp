@@ -26,7 +26,8 @@ Value AxisInputs::limit_logic(int axis, int direction) const {
 
 void AxisInputs::update_environment(int axis_number) {
   const Settings settings = registers();
-  const auto limit_level = [&](int direction) -> std::optional<bool> {  // of an active limit, if it is in use
+  // Returns the level of an active limit, or nothing if the limit is not in use.
+  const auto limit_level = [&](int direction) -> std::optional<bool> {
     const Value how = limit_logic(axis_number, direction);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
@@ -52,7 +53,7 @@ void AxisInputs::update_environment(int axis_number) {
       {limit_plus_input(axis_number), motion::Signal::limit_plus, limit_or_mark(+1)},
       {limit_minus_input(axis_number), motion::Signal::limit_minus, limit_or_mark(-1)},
       {dog, motion::Signal::home, dog_level},
-      {dog, motion::Signal::mark, dog_level},  // for latches
+      {dog, motion::Signal::mark, dog_level},  // used for latches
       {pin_of(axis_number, kIndexPin), motion::Signal::index, true},
       {pin_of(axis_number, kAlarmPin), motion::Signal::alarm, true},
       {pin_of(axis_number, kInPositionPin), motion::Signal::in_position, true}};

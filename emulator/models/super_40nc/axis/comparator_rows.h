@@ -1,4 +1,5 @@
-// The settings of the comparators (D9x31 to D9x48, D8x44 to D8x48), and when a number meets one.
+// The settings of the comparators (D9x31 to D9x48, D8x44 to D8x48), and the moment at which a number meets
+// one.
 #pragma once
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace understudy::emulator::models::super_40nc {
 /// The axes before a tick.
 struct BeforeTick {
   std::array<std::int64_t, kAxisCount> travel{};
-  std::array<std::int8_t, kAxisCount> phase{};  // of a homing
+  std::array<std::int8_t, kAxisCount> phase{};  // the phase of a homing
 };
 
 /// The input that the counters can count.

@@ -47,7 +47,7 @@ motion::SpeedLaw Drives::drive_law(int axis, std::int32_t rpm, Mover mover) cons
 bool Drives::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(axis_number);
   starts_.prepare(axis_number);
-  state.mover = mover;  // its line is reported in D8095 if the motion cannot begin
+  state.mover = mover;  // the mover's line is reported in D8095 if the motion cannot begin
   const std::int64_t distance = distance_to(axis_number, target_lu);
   const motion::SpeedLaw law = drive_law(axis_number, rpm, mover);
   starts_.begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Activity::move);

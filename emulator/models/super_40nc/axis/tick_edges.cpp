@@ -57,7 +57,7 @@ void TickEdges::latch(const motion::SharedTick& tick, int axis_number) {
   AxisState& state = axis(axis_number);
   const auto compared = state.compared;
   counters_.take_latch(axis_number, chip(axis_number).travel_pulses, speed(axis_number, seconds(tick.now())));
-  // A latch may clear counters, but not the rest of a move or the speed.
+  // A latch may clear counters, but not the remaining distance or the speed.
   for (std::size_t which = 0; which < kComparators; ++which) {
     if (question(axis_number, which).source >= kRemaining) state.compared[which] = compared[which];
   }
@@ -91,7 +91,7 @@ bool TickEdges::is_answered(const Question& of, std::int64_t before, std::int64_
   if (of.method != kSoftLimit) return is_met(of.source, of.method, before, present, of.set);
   const motion::Axis& motor = chip(of.axis);
   const bool reacts = !motor.moving() || motor.slowing || axes_.path.slowing_for != motion::Cause::none;
-  if (reacts) return false;  // it has been reported already
+  if (reacts) return false;  // the comparator has been reported already
   const int direction = motor.last_direction;
   return of.which == 0 ? direction > 0 && present > of.set
                        : of.which == 1 && direction < 0 && present < of.set;
@@ -215,7 +215,7 @@ std::optional<double> TickEdges::next_flip(motion::SharedTick& tick, int axis, C
   const std::int64_t begin = travel_at(from_s);
   const std::int64_t end = travel_at(to_s);
   const bool is_inside = pin_seen(axis, pin) == span->level_inside;
-  // The first place from here on, in this direction, with the other level.
+  // The first place from here on, in this direction, that has the other level.
   std::int64_t place = 0;
   if (is_inside) {
     const bool has_left = begin > span->last + span->slack || begin < span->first - span->slack;
@@ -266,7 +266,7 @@ void TickEdges::at_moment(motion::SharedTick& tick) {
   tick.bring(static_cast<std::size_t>(number));
   counters_.count_until(number, at_s);
   if (found_.comparator) return compare(tick, question(number, *found_.comparator));
-  if (is_held_cleared(number, kCounter1)) pins_.clear_by_pin(number);  // they were held at 0 until now
+  if (is_held_cleared(number, kCounter1)) pins_.clear_by_pin(number);  // the counters were held at 0
   pins_.pin_changes(number, found_.pin, !pin_seen(number, found_.pin), speed(number, at_s));
 }
 

@@ -55,7 +55,7 @@ struct GroundState {
   Contacts contacts;
   ErrorReport error;
   std::array<Tick, kSignalCount> signal_until{};
-  std::array<std::uint32_t, 2> receive_errors{};           // by port
+  std::array<std::uint32_t, 2> receive_errors{};           // receive errors, by port
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up
   std::int32_t station = 0;                                // D9000, as it was at power-up

@@ -30,8 +30,8 @@ Ground::Ground(const Device& device, GroundState& state, const StepStates& steps
       parameters_wait_(!chose(option("parameter_moment", "by_kind"))),
       shares_signals_(chose(option("signal_outputs", "the_plc_has_them_between"))) {}
 
-/// The panel's parameters have other factory values where its chapter and the table of D9 differ (3 of them
-/// in every axis, the decimals, the logo).
+/// The panel's parameters have different factory values where the panel's chapter and the table of D9 differ
+/// (3 of them in every axis, the decimals, the logo).
 std::uint32_t Ground::factory_bits(const RegisterRow& row) const {
   struct Panel {
     int number;

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::super_40nc {
 struct PathPlan {
   motion::Path path;
   std::array<bool, kAxisCount> takes{};
-  std::array<std::int64_t, kAxisCount> target_lu{};  // in the work coordinate
+  std::array<std::int64_t, kAxisCount> target_lu{};  // the target in the work coordinate
   std::int32_t feed_lu_per_s = 0;
   int mode = 0;  // the value of the chip's PRMD
 };

@@ -35,7 +35,7 @@ std::string why_not_recipe_name(const std::string& name) {
 }
 
 struct RecipeLine {
-  int number = 0;  // of the register
+  int number = 0;  // the number of the register
   std::int32_t value = 0;
 };
 

@@ -38,7 +38,7 @@ namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
-constexpr std::int32_t kFirstCommand = 100;  // of D8020
+constexpr std::int32_t kFirstCommand = 100;  // the offset of commands in D8020
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void Programs::make_programs_ready() {
   const auto texts = state_.blocks.all().find(kPrograms);
   ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this, controls_);
-  std::set<std::int32_t> labels;  // of earlier areas, if labels belong to the first area
+  std::set<std::int32_t> labels;  // labels of earlier areas, if labels belong to the first area
   for (const language::AreaRow& row : language::kAreas) {
     const language::AreaProgram program =
         stored_.area(kPrograms, row.name, row.area).value_or(language::AreaProgram{.base = row.base});
@@ -81,7 +81,7 @@ void Programs::load_program(std::string_view text) {
   }
   const bool runs = state_.plc.runs;
   const bool has_plc = checked.program->area(language::Area::plc).has_value();
-  if (has_plc) {  // its jogs stop, even if the new program never scans
+  if (has_plc) {  // the old program's jogs stop, even if the new program never scans
     ProgramMachine machine(*this, controls_);
     language::stop(state_.plc, machine);
   }
@@ -178,7 +178,7 @@ void Programs::take_user_command(std::int32_t number) {
     ground_.put(stored_d(d8::kPlane), plane);
   }
   ground_.touch();
-  leave_table();  // if it did not start
+  leave_table();  // in case the table did not start
 }
 
 void Programs::put_table_in_place() {

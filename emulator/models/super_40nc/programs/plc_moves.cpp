@@ -53,7 +53,7 @@ void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
     if ((search.axes >> axis & 1) == 0 || controls_.keys.is_inhibited(axis)) continue;
     AxisState& state = state_of(axis);
     const bool is_free = state.holder == Activity::nobody;
-    if (is_free) state.mover = Mover::plc;  // if the motion begins
+    if (is_free) state.mover = Mover::plc;  // applies only if the motion begins
     controls_.parts.homes.start_home(axis);
     if (state.holder != Activity::home) state.mover = is_free ? Mover::hand : state.mover;
   }
@@ -86,7 +86,7 @@ bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogStep
     }
     ground_.set_plc_step(step);
     const bool is_free = state.holder == Activity::nobody;
-    if (is_free) state.mover = Mover::plc;  // if the motion begins
+    if (is_free) state.mover = Mover::plc;  // applies only if the motion begins
     controls_.parts.jogs.start_jog(axis, direction, &AxisState::asked_by_plc);
     if (is_free) state.mover = Mover::hand;
     ground_.set_plc_step(0);

@@ -1,4 +1,4 @@
-// The PLC: RUN and STOP, its scans, and when it needs none.
+// The PLC: RUN and STOP, its scans, and the ticks in which it needs none.
 #include <algorithm>
 #include <cstddef>
 #include <span>

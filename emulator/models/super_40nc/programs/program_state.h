@@ -17,9 +17,9 @@ struct ProgramState {
   interpreter::super_40nc::StepStates steps;
   bool file_changed = false;  // M8023 is ON for the next scan
   bool shows_file_changed = false;
-  std::int32_t file = 0;          // the loaded file, as D9001 selects it
+  std::int32_t file = 0;          // the loaded file, selected by D9001
   bool file_is_left_out = false;  // the loaded file is too long: it is not in memory and stays unchanged
-  std::int32_t recipe = 0;        // as D9002 selects it
+  std::int32_t recipe = 0;        // the recipe that D9002 selects
   Tick flash_until = 0;           // no scan before this, while the flash is written
   UserTable table;
   TextBlocks blocks;

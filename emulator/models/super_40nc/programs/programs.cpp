@@ -89,7 +89,7 @@ void Programs::run_steps() {
     machine.set_watch(&without_c.emplace(*watch()));
   }
   language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
-  state_.plc_quiet_scans = 0;  // they may have written what the PLC reads
+  state_.plc_quiet_scans = 0;  // the step programs may have written what the PLC reads
 }
 
 bool Programs::are_busy() const {

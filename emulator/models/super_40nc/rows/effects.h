@@ -11,7 +11,7 @@ class Super40nc;
 /// controller's own.
 enum AxisStatus : int {
   SSCM,  // a motion runs
-  SRUN,  // pulses come
+  SRUN,  // pulses are sent
   SENI,  // a motion has ended
   SEND,  // no motion runs
   SERR,  // it was stopped by an error

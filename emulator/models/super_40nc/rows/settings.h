@@ -20,7 +20,7 @@ inline constexpr double kFastestPps = 6'553'500;
 
 using Image = std::array<std::uint32_t, kSlotCount>;
 
-/// The registers from D9000 on are the last of the image.
+/// The registers from D9000 on are the last ones in the image.
 inline constexpr std::size_t kFirstParameterSlot = stored_d(d9::kStation).slot;
 inline constexpr std::size_t kParameterCount = kSlotCount - kFirstParameterSlot;
 
