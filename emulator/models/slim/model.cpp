@@ -124,8 +124,8 @@ std::vector<NamedParameterRow> parameter_rows() {
 constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
 
 constexpr std::array<std::string_view, 5> kKnownLimitations{
-    ("?AC and ?TEMP always show the same values, 24 and 25 or those that a bench has chosen, and ?IMX "
-     "and ?IC show 0, because nothing electrical is modelled. ?VER and ?MT do not belong to a "
+    ("?AC and ?TEMP always show the same values (24 and 25, or those that a bench has chosen), and ?IMX "
+     "and ?IC show 0, because electrical values are not modelled. ?VER and ?MT do not belong to a "
      "particular version."),
     "The servo loop has no following error: ?FLE shows 0, and EL and LL are stored without effect.",
     ("FT pushes against something that does not move. TpSYN and one of PN44 to PN46 are stored "

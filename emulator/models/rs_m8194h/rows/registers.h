@@ -114,7 +114,7 @@ inline constexpr auto kInputRows8 = section("12.1.8", {
     input(73,  "Line_Scan_Completed", u16).means("a line scan is complete", "RINT_STATE 的位元 0").shows<rint_bit, Varies::in_ticks>(0),
     input(74,  "MP_Completed", u16).means("a macro program has ended", "RINT_STATE 的位元 1").shows<rint_bit, Varies::in_ticks>(1),
     input(75,  "User-Defined_RINT", u16).means("interrupt that a macro has requested", "RINT_STATE 的位元 2").shows<rint_bit, Varies::in_ticks>(2),
-    input(76,  "Continuous_Inp_Interrupt", u16).means("continuous interpolation wants more data", "RINT_STATE 的位元 3").shows<rint_bit, Varies::in_ticks>(3),
+    input(76,  "Continuous_Inp_Interrupt", u16).means("continuous interpolation needs more data", "RINT_STATE 的位元 3").shows<rint_bit, Varies::in_ticks>(3),
     input(79,  "Axes_Error", u16).means("an axis has an error", "RINT_STATE 的位元 6").shows<rint_bit, Varies::in_ticks>(6),
     input(80,  "Module_Error", u16).means("the module has an error", "RINT_STATE 的位元 7").shows<rint_bit, Varies::in_ticks>(7),
 });
@@ -124,7 +124,7 @@ inline constexpr auto kInputRows9 = section("12.1.9", {
     input(84,  "i-8094H Firmware Version", u32).means("firmware and board version of the i-8094H", "i-8094H 韌體版本").also("I8094H_FIRMWARE").shows<module_firmware, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows10 = section("4.14", {
-    input(87,  "InterpolationRdyFlag", u16).means("1: the next command of an interpolation may be sent", "補間命令傳送允許旗標").shows<interpolation_ready, Varies::in_ticks>(),
+    input(87,  "InterpolationRdyFlag", u16).means("1: the next interpolation command may be sent", "補間命令傳送允許旗標").shows<interpolation_ready, Varies::in_ticks>(),
 });
 inline constexpr auto kInputRows11 = section("12.1.10", {
     with_names(input(88, "DI_SIGNAL {}", u16).means("signals of axis {} at the daughter board, one bit each", "{} 軸的所有 DI 訊號").also("DI_SIGNAL_{}").each(kAxisNames, 1).shows<di_signal, Varies::in_ticks>(), kDiSignalBits),

@@ -15,9 +15,9 @@ inline constexpr Meaning kSwappedArcs[] = {  // D9017 to D9019
     {"swaps CW and CCW in YZ", ""},
 };
 inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功用(一般用)", kMemory, {
-    data(d9::kStation).means("station number on the line", "工作站號(Station)").persists_at_once().range(0, 15).may(kMemory | Hazards::stops_answering),
-    data(d9::kFileNumber).means("file of the path program", "運動路徑程式號碼選取(File number)").persists_at_once().range(0, 29999).does<select_file>().may(kProgram),
-    data(d9::kRecipeNumber).means("file of the recipe", "配方暫存器檔案號碼(D file num.)").persists_at_once().range(0, 99).does<select_recipe>().may(kProgram),
+    data(d9::kStation).means("station number", "工作站號(Station)").persists_at_once().range(0, 15).may(kMemory | Hazards::stops_answering),
+    data(d9::kFileNumber).means("file number of the path program", "運動路徑程式號碼選取(File number)").persists_at_once().range(0, 29999).does<select_file>().may(kProgram),
+    data(d9::kRecipeNumber).means("file number of the recipe", "配方暫存器檔案號碼(D file num.)").persists_at_once().range(0, 99).does<select_recipe>().may(kProgram),
     data(9003).means("axes of the common coordinate system", "共用座標系軸數").persists_at_once().range(0, 4).in("axes").may(kMemory | kMotion),  // C21
     data(d9::kSystemSpeed).means("default feed", "預設速度(Sys. speed)").persists_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000).may(kMemory | kMotion),  // C10
     data(d9::kContinuousPath).means("1: continuous path", "連續路徑(Cont. path)").persists_at_once().range(0, 1).may(kMemory | kMotion),
@@ -38,8 +38,8 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(d9::kKeyLock).means("lock of the main page", "按鍵上鎖(Key Lock)").persists_at_once().range(0, 111111),  // C16
     data(d9::kPassword).means("password", "密碼(Password)").persists_at_once().from_factory(1234).not_modelled("the panel's password"),  // C3
     data(9027).means("no function in the manual, plain storage").persists_at_once(),
-    data(d9::kFinishSignalTime).means("time of the finish signal Y8", "完成信號時間(Finish Signal Tmr.)").persists_at_once().range(0, 9999).in("ms"),  // C4
-    data(d9::kEndSignalTime).means("time of the end signal Y9", "結束信號時間(End Signal Timer)").persists_at_once().range(0, 9999).in("ms"),  // C5
+    data(d9::kFinishSignalTime).means("duration of the finish signal Y8", "完成信號時間(Finish Signal Tmr.)").persists_at_once().range(0, 9999).in("ms"),  // C4
+    data(d9::kEndSignalTime).means("duration of the end signal Y9", "結束信號時間(End Signal Timer)").persists_at_once().range(0, 9999).in("ms"),  // C5
     data(9030, 9034).means("no function in the manual, plain storage").persists_at_once(),
     data(9035, R).means("reserved", "僅讀保留").persists_at_once(),
     data(9036, R).means("lines of the PLC program", "PLC 程式行數").persists_at_once().in("lines").from_factory(1000),
@@ -66,7 +66,7 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kAlmStop).means("stop at an alarm: 0 at once, 1 slows down", "ALM 有效時的停止方式(ALM stop)").range(0, 1).does<change_axis>(d9x::kAlmStop),
     parameter(d9x::kElAlmErc).means("1: sends ERC at a stop by EL, ALM or CEMG", "自動輸出 ERC 信號(EL/ALM ERC)").range(0, 1).from_factory(1).not_modelled("ERC"),
     parameter(d9x::kHomeErc).means("1: sends ERC when home is found", "完成原點送 ERC(Home ERC)").range(0, 1).from_factory(1).not_modelled("ERC"),
-    parameter(d9x::kErcSignal).means("length of ERC", "ERC 的輸出寬度(ERC signal)").range(0, 7).from_factory(4).not_modelled("ERC"),
+    parameter(d9x::kErcSignal).means("output width of ERC", "ERC 的輸出寬度(ERC signal)").range(0, 7).from_factory(4).not_modelled("ERC"),
     parameter(7).means("CSTA: 0 level, 1 edge", "CSTA 為位準/邊緣觸發(CSTA signal)").range(0, 1).from_factory(1).not_modelled("there is no CSTA"),
     parameter(8).means("stop at CSTP: 0 at once, 1 slows down", "CSTP 有效時的停止方式(CSTP stop)").range(0, 1).from_factory(1).not_modelled("there is no CSTP"),
     parameter(d9x::kClrSignal).means("CLR clears: 0 and 1 at an edge, 2 and 3 at a level", "CLR 輸入信號模式(CLR signal)").range(0, 3).not_modelled("there is no CLR").does<change_axis>(d9x::kClrSignal),
@@ -75,17 +75,17 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(12).means("encoder: 0 AB x1, 1 AB x2, 2 AB x4, 3 up and down", "EA/EB 輸入模式(EA/EB signal)").range(0, 3).not_modelled("an encoder gives counts"),
     parameter(d9x::kEncoderDirection).means("1: encoder reversed", "轉換 EA/EB 輸入的計數方向(EA/EB dir.)").range(0, 1).does<change_axis>(d9x::kEncoderDirection),
     parameter(14).means("edge of EZ: 0 falling, 1 rising", "EZ 信號的輸入邏輯(EZ logic)").range(0, 1).from_factory(1).not_modelled("the edge of EZ"),
-    parameter(d9x::kMpgMode).means("hand-wheel: 0 AB x1, 1 AB x2, 2 AB x4, 3 up and down", "PA/PB 輸入模式(MPG MODE)").range(0, 3).from_factory(2).does<change_axis>(d9x::kMpgMode),  // X40
-    parameter(d9x::kMpgDirection).means("hand-wheel reversed", "轉換 PA/PB 輸入的計數方向(MPG dir.)").range(0, 1).does<change_axis>(d9x::kMpgDirection),  // X41
+    parameter(d9x::kMpgMode).means("hand wheel: 0 AB x1, 1 AB x2, 2 AB x4, 3 up and down", "PA/PB 輸入模式(MPG MODE)").range(0, 3).from_factory(2).does<change_axis>(d9x::kMpgMode),  // X40
+    parameter(d9x::kMpgDirection).means("1: hand wheel reversed", "轉換 PA/PB 輸入的計數方向(MPG dir.)").range(0, 1).does<change_axis>(d9x::kMpgDirection),  // X41
     parameter(d9x::kPulseMask).means("1: sends no pulses", "屏蔽脈沖輸出(Pulse mask)").range(0, 1),
     parameter(18).means("1: a stop of the axis triggers its next start", "致能同一軸的停止所觸發的啟動(Stop->start)").range(0, 1).not_modelled("synchronous starts"),
-    parameter(d9x::kEncoderDisable).means("1: encoder off", "禁止 EA/EB 輸入(EA disable)").range(0, 1).does<change_axis>(d9x::kEncoderDisable),
-    parameter(d9x::kMpgDisable).means("1: hand-wheel off", "禁止 PA/PB 輸入(MPG disable)").range(0, 1).does<change_axis>(d9x::kMpgDisable),
+    parameter(d9x::kEncoderDisable).means("1: encoder disabled", "禁止 EA/EB 輸入(EA disable)").range(0, 1).does<change_axis>(d9x::kEncoderDisable),
+    parameter(d9x::kMpgDisable).means("1: hand wheel disabled", "禁止 PA/PB 輸入(MPG disable)").range(0, 1).does<change_axis>(d9x::kMpgDisable),
     parameter(d9x::kHomeMode).means("home mode", "回原點方式(Home mode)").range(0, 12).from_factory(4),  // X20
     parameter(d9x::kCNumber).means("number of C signals minus 1", "回原點 C 的數量(C number)").range(0, 15).in("count"),  // X31
-    parameter(d9x::kC2Source).means("counter 2 counts: 0 encoder, 1 pulses, 2 hand-wheel", "COUNTER2 的來源(C2 source)").range(0, 2).does<change_axis>(d9x::kC2Source),
-    parameter(d9x::kC3Source).means("counter 3 counts the deviation of: 0 pulses and encoder, 1 pulses and hand-wheel, 2 encoder and hand-wheel", "COUNTER3 偏差計數器的來源(C3 source)").range(0, 2).does<change_axis>(d9x::kC3Source),
-    parameter(d9x::kC4Source).means("counter 4 counts: 0 pulses, 1 encoder, 2 hand-wheel, 3 time", "COUNTER4 的來源(C4 source)").range(0, 3).does<change_axis>(d9x::kC4Source),
+    parameter(d9x::kC2Source).means("counter 2 counts: 0 encoder, 1 pulses, 2 hand wheel", "COUNTER2 的來源(C2 source)").range(0, 2).does<change_axis>(d9x::kC2Source),
+    parameter(d9x::kC3Source).means("counter 3 counts the deviation of: 0 pulses and encoder, 1 pulses and hand wheel, 2 encoder and hand wheel", "COUNTER3 偏差計數器的來源(C3 source)").range(0, 2).does<change_axis>(d9x::kC3Source),
+    parameter(d9x::kC4Source).means("counter 4 counts: 0 pulses, 1 encoder, 2 hand wheel, 3 time", "COUNTER4 的來源(C4 source)").range(0, 3).does<change_axis>(d9x::kC4Source),
     parameter(d9x::kC4Enable).means("1: counter 4 counts only during an operation", "當 LSI 正在操作時只能操作計數器 4(C4 enable)").range(0, 1).does<change_axis>(d9x::kC4Enable),
     parameter(d9x::kClrResetC).means("counters that CLR clears", "CLR 有效時復位計數器(CLR reset C)").range(0, 15).with_bits(kCounterBits).not_modelled("there is no CLR").does<change_axis>(d9x::kClrResetC),
     parameter(d9x::kHomeResetC).means("counters that are cleared at home", "原點結束復位計數器(Home rst. C)").range(0, 15).with_bits(kCounterBits).from_factory(15),
@@ -144,22 +144,22 @@ inline constexpr auto kAxisParameterRows = section("D9x 參數暫存器的功用
     parameter(d9x::kHomeDirection).means("home direction: 0 positive, 1 negative", "回機械原點的方向(Home dir.)").range(0, 1),  // X23
     parameter(d9x::kHomePosition).means("position at home", "原點顯示位置 (Home posi.)").range(-9999999, 9999999).in("0.001 mm"),  // X24
     parameter(d9x::kHomeOffset).means("offset from home", "找到原點後的偏移量(Home offset)").range(-9999999, 9999999).in("0.001 mm"),  // X30
-    parameter(d9x::kZeroSequence).means("order of ZERO, 0 never", "回零點順序(Zero Sequence)").range(0, 4),  // X51
+    parameter(d9x::kZeroSequence).means("order number of ZERO; 0: never", "回零點順序(Zero Sequence)").range(0, 4),  // X51
     parameter(d9x::kPlusSoftLimit).means("positive soft limit", "正軟體極限(+Soft limit)").range(-9999999, 9999999).in("0.001 mm").from_factory(9999999).does<change_axis>(d9x::kPlusSoftLimit),  // X35
     parameter(d9x::kMinusSoftLimit).means("negative soft limit", "負軟體極限(-Soft limit)").range(-9999999, 9999999).in("0.001 mm").from_factory(-9999999).does<change_axis>(d9x::kMinusSoftLimit),  // X36
-    parameter(d9x::kMpg1Rate).means("hand-wheel *1", "MPG*1 的倍率(MPG*1 Rate)").range(0, 9999).from_factory(1).does<change_axis>(d9x::kMpg1Rate),  // X42
-    parameter(d9x::kMpg10Rate).means("hand-wheel *10", "MPG*10 的倍率(MPG*10 Rate)").range(0, 9999).from_factory(10).does<change_axis>(d9x::kMpg10Rate),  // X43
-    parameter(d9x::kMpg100Rate).means("hand-wheel *100", "MPG*100 的倍率(MPG*100 Rate)").range(0, 9999).from_factory(100).does<change_axis>(d9x::kMpg100Rate),  // X44
+    parameter(d9x::kMpg1Rate).means("hand wheel *1", "MPG*1 的倍率(MPG*1 Rate)").range(0, 9999).from_factory(1).does<change_axis>(d9x::kMpg1Rate),  // X42
+    parameter(d9x::kMpg10Rate).means("hand wheel *10", "MPG*10 的倍率(MPG*10 Rate)").range(0, 9999).from_factory(10).does<change_axis>(d9x::kMpg10Rate),  // X43
+    parameter(d9x::kMpg100Rate).means("hand wheel *100", "MPG*100 的倍率(MPG*100 Rate)").range(0, 9999).from_factory(100).does<change_axis>(d9x::kMpg100Rate),  // X44
     parameter(d9x::kLowSpeedLength).means("low-speed distance of MRK", "MRK 低速距離(Low Speed Length)").range(-999999, 999999).in("0.001 mm"),  // X16
-    parameter(d9x::kFinishSignalTime).means("time of the finish signal", "完成信號時間(Finish Signal Tmr.)").range(0, 9999).in("ms"),  // X45
-    parameter(d9x::kEndSignalTime).means("time of the end signal", "結束信號時間(End Signal Timer)").range(0, 9999).in("ms"),  // X46
+    parameter(d9x::kFinishSignalTime).means("duration of the finish signal", "完成信號時間(Finish Signal Tmr.)").range(0, 9999).in("ms"),  // X45
+    parameter(d9x::kEndSignalTime).means("duration of the end signal", "結束信號時間(End Signal Timer)").range(0, 9999).in("ms"),  // X46
     parameter(d9x::kMoveOff).means("step away from the DOG", "離開 DOG 的距離(MOVE OFF)").range(0, 999).in("pulse").from_factory(5),  // X25
     parameter(d9x::kJogLow).means("low jog speed", "寸動低速").range(1, 9999).in("RPM").from_factory(50),  // X53
     parameter(d9x::kJogMedium).means("medium jog speed", "寸動中速").range(1, 9999).in("RPM").from_factory(100),  // X54
     parameter(d9x::kJogHigh).means("high jog speed", "寸動高速").range(1, 9999).in("RPM").from_factory(250),  // X55
     parameter(d9x::kJogDirection).means("jog keys swapped", "人機寸動方向").range(0, 1),  // X52
     parameter(d9x::kKeyLock).means("lock of the manual page", "按鍵上鎖(Key Lock)").range(0, 111111111),  // X56
-    parameter(d9x::kHomeSequence).means("order of HOME, 0 never", "回原點順序(Home Sequence)").range(0, 4),  // X50
+    parameter(d9x::kHomeSequence).means("order number of HOME; 0: never", "回原點順序(Home Sequence)").range(0, 4),  // X50
 });
 // clang-format on
 
