@@ -44,8 +44,7 @@ namespace {
 /// Checks what every reader of a model relies on. make_device() checks the facets of a device when it makes
 /// one.
 const Model& whole(const Model& model) {
-  if (model.line.ports.empty())
-    throw std::logic_error(std::string(model.name) + ": lacks a port on its line");
+  if (model.line.ports.empty()) throw std::logic_error(std::string(model.name) + ": has no port on its line");
   for (const PortRow& port : model.line.ports) {
     if (port.bauds.empty())
       throw std::logic_error(std::string(model.name) + ": lacks a speed of its port " +

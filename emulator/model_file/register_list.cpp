@@ -73,7 +73,8 @@ std::vector<BitName> parse_bits(const std::string& text, Type type) {
     part.erase(part.find_last_not_of(' ') + 1);
     const std::size_t blank = part.find(' ');
     if (blank == std::string::npos)
-      throw std::invalid_argument(quoted(part) + " is not a bit; expected 0 READY");
+      throw std::invalid_argument(quoted(part) +
+                                  " is not a named bit; expected a number and a name, as in 0 READY");
     all.push_back(bits_called(part.substr(part.find_first_not_of(' ', blank)), part.substr(0, blank), type));
   }
   require_apart(all);

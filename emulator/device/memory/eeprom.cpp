@@ -106,7 +106,7 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
     require_within(job.takes, 0, kLongestJob);
     if (job.slot == kEverything) {
       require_state(i == 0 && rewriting_.size() == content_.size(),
-                    "the memory cannot be writing everything");
+                    "the memory cannot be rewriting its whole content");
     } else {
       require_state(job.slot < left.size() && left[job.slot] == Slot::waits,
                     "the memory's writes are out of order");
@@ -116,8 +116,8 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   require_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
                 "the memory's writes are out of order");
   const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
-  require_state(rewrites || rewriting_.empty(), "the memory cannot be writing everything");
-  require_state(jobs_.empty() == (done_at_ == kNever), "the memory never stops writing");
+  require_state(rewrites || rewriting_.empty(), "the memory cannot be rewriting its whole content");
+  require_state(jobs_.empty() == (done_at_ == kNever), "the memory would never finish writing");
   if (done_at_ != kNever) require_reach(done_at_);
 }
 

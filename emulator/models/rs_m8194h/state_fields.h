@@ -133,11 +133,11 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                            field<&Value::image>()};
   static void check(const Value& state) {
     constexpr std::size_t kMaxHeld = emulator::models::rs_m8194h::kFifoBlocks + motion::PathRun::kMaxPaths;
-    require_state(state.held_paths.size() <= kMaxHeld, "more is held than there is room for");
+    require_state(state.held_paths.size() <= kMaxHeld, "more paths are held than fit");
     for (const auto& held : state.held_paths) {
       require_state(emulator::models::rs_m8194h::is_path(held.command), "a held path is not a path");
     }
-    require_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more is loaded than there is room for");
+    require_state(state.loaded.size() <= motion::PathRun::kMaxPaths, "more segments are loaded than fit");
     for (const auto& segment : state.loaded) {
       require_state(emulator::models::rs_m8194h::is_path(segment.command) &&
                         emulator::models::rs_m8194h::is_segment(segment),

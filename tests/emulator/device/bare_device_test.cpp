@@ -143,7 +143,7 @@ TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
   EXPECT_EQ(diagnostic_of_making(with_lamp()), "bare: lacks the facet Terminals, for its terminals");
   EXPECT_EQ(diagnostic_of_making(with_wheel()), "bare: lacks the facet Axes, for its axes");
   EXPECT_EQ(diagnostic_of_making(with_frames()), "bare: lacks the facet ModbusStation, for its `rtu`");
-  EXPECT_EQ(diagnostic_of_making(without_port()), "bare: lacks a port on its line");
+  EXPECT_EQ(diagnostic_of_making(without_port()), "bare: has no port on its line");
 }
 
 // A bench uses a model's ports before any device is made.
@@ -154,7 +154,7 @@ TEST(BareDevice, OfAModelWithoutAPortIsRefusedByABench) {
                        "b.yaml", ".");
     ADD_FAILURE() << "taken";
   } catch (const std::logic_error& error) {
-    EXPECT_STREQ(error.what(), "bare: lacks a port on its line");
+    EXPECT_STREQ(error.what(), "bare: has no port on its line");
   }
 }
 
