@@ -207,7 +207,7 @@ bool Requests::diverts(const Place& place, std::uint32_t bits) {
   return true;
 }
 
-/// Clears what was read, by choice; otherwise reading clears nothing.
+/// Clears what was read, if so chosen; otherwise reading clears nothing.
 void Requests::read_answered(const RegisterRequest& request) {
   if (request.table != Table::input) return;
   InterruptState& interrupts = module_.interrupts.state();

@@ -1,5 +1,5 @@
 // RS-M8194H: requests before and after the module handles them. Admits them, turns writes to the tables into
-// lines of a macro or, by choice, into one message, and records exceptions.
+// lines of a macro or, if so chosen, into one message, and records exceptions.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class Requests final : public Part {
   void read_answered(const RegisterRequest& request);
   void exception_answered(const RefusedRequest& request);
 
-  // --- writes that are one message by choice (whole_writes.cpp) -----------------------------------
+  // --- writes that are one message if so chosen (whole_writes.cpp) -----------------------------------
   bool takes_whole(const RegisterRequest& request) const;
   DeviceAnswer take_whole(const RegisterRequest& request);
 

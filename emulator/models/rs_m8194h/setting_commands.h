@@ -34,13 +34,14 @@ inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t
   }
 }
 
-/// Returns true if, by choice, an enabled ring keeps soft limits off, or soft limits keep a ring off.
+/// Returns true if, under the chosen option, an enabled ring keeps soft limits off, or soft limits keep a
+/// ring off.
 inline bool is_kept_off(const Module& it, const BasicSettings& present, Verb verb) {
   const bool meets =
       (verb == Verb::set_slmt && present.ring) || (verb == Verb::vring_enable && present.soft_limits);
   return meets && it.chose(option("ring_and_soft_limits", "the_earlier_keeps_the_other_off"));
 }
-/// Copies soft limits to the comparators' registers, if by choice soft limits use the comparators.
+/// Copies soft limits to the comparators' registers, if soft limits are chosen to use the comparators.
 inline void take_comparators(const Module& it, AxisUnit& unit) {
   const BasicSettings& basic = unit.basic;
   if (!basic.soft_limits || !it.chose(option("soft_limits_and_comparators", "become_the_limits"))) return;

@@ -21,7 +21,7 @@ namespace understudy::emulator::models::rs_m8194h {
 /// What the RS-M8194H itself stores about requests.
 struct RequestState {
   std::uint16_t illegal_reason = 0;                      // input 102
-  std::array<std::uint16_t, kWindowWords> parameters{};  // parameters written before their command, by choice
+  std::array<std::uint16_t, kWindowWords> parameters{};  // written before their command, if so chosen
 
   bool operator==(const RequestState&) const = default;
 };

@@ -164,7 +164,7 @@ Value interpolation_ready(const Module& it, Cell) {
 Value driving_axes(const Module& it, Cell) { return it.chip.driving(); }
 Value rsm_state(const Module& it, Cell) { return static_cast<Value>(it.programs.state().rsm); }
 Value module_state(const Module& it, Cell) {
-  // The numbering of 4.16.2. States that pass within a tick are shown only by choice.
+  // The numbering of 4.16.2. States that pass within a tick are shown only if so chosen.
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;

@@ -1,5 +1,5 @@
-// Writes to the tables that are one message by choice: two words as one number for a group of FRnet outputs
-// (5.2.4), and coils that switch servos although they are of type R (12.4.2).
+// Writes to the tables that are one message if so chosen: two words as one number for a group of FRnet
+// outputs (5.2.4), and coils that switch servos although they are of type R (12.4.2).
 #include <cstddef>
 #include <cstdint>
 

@@ -53,7 +53,7 @@ bool is_write_protected(const Simple2R3& device) {
   return !is_unlocked(device) && device.chose(option("locked_writes", "ignored"));
 }
 
-/// Copies a set to the axis's registers, by choice only.
+/// Copies a set to the axis's registers, only if so chosen.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;

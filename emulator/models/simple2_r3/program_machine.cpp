@@ -132,7 +132,7 @@ MoveParameters ProgramMachine::parameters_for(std::size_t axis, std::int64_t dis
           .of_the_axis = true};
 }
 
-/// By choice only, a program's move shows in the axis's register.
+/// Only if so chosen, a program's move is shown in the axis's register.
 void ProgramMachine::show_pulse(std::size_t axis, std::int32_t pulses) {
   if (!setup_.chose(option("program_pulse", "shown"))) return;
   state_.image[kAxisSlots[axis].pulse] = static_cast<std::uint32_t>(pulses);

@@ -61,7 +61,7 @@ struct alignas(64) Setup {
   Tick timer_time() const { return now() / timer_unit; }
   /// Returns the tick that counts as the last one before a motion commanded now.
   Tick tick_before_motion() const { return chose(option("move_begins", "one_tick_in")) ? now() - 1 : now(); }
-  /// Returns true if, by choice, this signal (a limit or the alarm) does not stop an axis.
+  /// Returns true if, under the chosen option, this signal (a limit or the alarm) does not stop an axis.
   bool ignores(motion::Signal signal) const {
     return chose(signal == motion::Signal::alarm ? option("alarm_reaction", "none")
                                                  : option("limit_reaction", "none"));

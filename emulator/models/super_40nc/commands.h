@@ -39,7 +39,7 @@ class Commands : protected Chips {
 
   /// Executes the scan's step of contacts, if anything was written since the last one.
   void check_contacts();
-  /// Returns true if axes have errors that, by choice, the next scan clears.
+  /// Returns true if axes have errors that, if so chosen, the next scan clears.
   bool has_errors_for_a_scan() const;
 
  private:

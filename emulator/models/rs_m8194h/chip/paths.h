@@ -41,7 +41,7 @@ struct Paths {
   SpeedSettings vector{};                  // set by VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
   std::array<double, 4> end{};  // end of the queued paths, in pulses from where they began
-  std::int8_t constant_axis = motion::Coordinated::kNone;  // by choice: axis1 of a path at constant speed
+  std::int8_t constant_axis = motion::Coordinated::kNone;  // if so chosen: axis1 of a path at constant speed
 
   bool operator==(const Paths&) const = default;
 

@@ -77,7 +77,7 @@ void Scans::step(Tick tick) {
   }
 }
 
-/// Ends a scan. By choice, C+ is then where the next trigger would have been.
+/// Ends a scan. If so chosen, C+ is then where the next trigger would have been.
 void Scans::end(std::size_t axis) {
   LineScan& scan = chip_.scan(axis);
   if (chose(option("scan_comparator", "the_next_trigger"))) {

@@ -20,7 +20,7 @@ class Scans final : public Part {
 
   /// Begins the scans of LINE_SCAN_START; the flag of finished scans is off until all of them have ended.
   void open(AxisMask axes);
-  /// Returns true if, by choice, a scan at this speed is void.
+  /// Returns true if, under the chosen option, a scan at this speed is void.
   bool is_too_fast(std::size_t axis, const motion::SpeedLaw& law) const;
   /// Begins the scan of an axis whose drive of `distance_pulses` has begun.
   void begin(std::size_t axis, std::int64_t distance_pulses);

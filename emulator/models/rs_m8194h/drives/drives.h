@@ -44,10 +44,10 @@ class Drives final : public Part {
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits for what keeps axes from starting.
   void note_obstacles(AxisMask axes);
-  /// By choice, a drive that would be held waits behind one that is held already, or is void.
+  /// If so chosen, a drive that would be held waits behind one that is held already, or is void.
   bool waits_behind_held(AxisMask axes) const;
   bool keeps_first_held(AxisMask axes) const;
-  /// Returns true if, by choice, the drive is void because its speed was never set.
+  /// Returns true if, under the chosen option, the drive is void because its speed was never set.
   bool lacks_speed(std::size_t axis, Drive::What what) const;
 
   // --- how they begin ---------------------------------------------------------------------------

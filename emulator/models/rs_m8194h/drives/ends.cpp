@@ -78,7 +78,8 @@ void Edges::on_homed(std::size_t axis) {
   }
 }
 
-/// Returns true for a limit that, by choice, is not the cause of an end, because the drive ends there anyway.
+/// Returns true for a limit that, if so chosen, is not the cause of an end, because the drive ends there
+/// anyway.
 bool Edges::is_no_cause(motion::Cause cause, bool is_at_its_end) const {
   const bool is_limit = cause == motion::Cause::limit_plus || cause == motion::Cause::limit_minus;
   return is_limit && is_at_its_end && chose(option("limit_at_the_end", "is_complete"));

@@ -80,7 +80,7 @@ class Programs final : public Part {
   bool mp_runs() const { return state_.execution.mp.is_alive(); }
   bool isr_runs() const { return !state_.execution.isrs.empty(); }
   bool is_alive() const { return state_.execution.is_alive(); }
-  /// By choice, calls are refused while an MP runs.
+  /// If so chosen, calls are refused while an MP runs.
   bool are_calls_refused() const {
     return mp_runs() && !chose(option("calls_while_an_mp_runs", "wait_their_turn"));
   }

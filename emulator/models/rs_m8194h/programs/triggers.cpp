@@ -68,7 +68,7 @@ void Triggers::check(const FrnetWords& before, bool at_start) {
   }
 }
 
-/// Ends the level's pause, by choice, and releases the axes that it held unless another level still holds
+/// Ends the level's pause, if so chosen, and releases the axes that it held unless another level still holds
 /// them.
 void Triggers::on_level_end(int channel, const lang::Trigger& trigger) {
   ProgramState& programs = known_.programs.state();

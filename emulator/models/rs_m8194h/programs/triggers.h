@@ -38,8 +38,8 @@ class Triggers final : public Part {
       : Part(ground), state_(state), known_(known) {}
 
   void reset() { state_ = {}; }
-  /// Handles the scan of inputs that were `before`. By choice, check_at_start() also counts levels that are
-  /// already present.
+  /// Handles the scan of inputs that were `before`. If so chosen, check_at_start() also counts levels that
+  /// are already present.
   void check(const FrnetWords& before);
   void check_at_start();
   /// Handles a write to holding 9.
@@ -59,7 +59,8 @@ class Triggers final : public Part {
   void hold(int channel, const lang::Trigger& trigger);
   void abort_command();
   void pause(int channel);
-  /// Returns true if, by choice, the level of a channel is still present and calls its MP again.
+  /// Returns true if, under the chosen option, the level of a channel is still present and calls its MP
+  /// again.
   bool calls_again(int channel) const;
   bool a_level_calls_again() const;
   void repeat_levels();

@@ -63,7 +63,7 @@ struct ArcOrder {
   double centre_y_units = 0;
   double sweep_deg = 0;  // > 0 counter-clockwise
   std::optional<double> height_units{};
-  // by choice: the centre is the end, and the radius determines the sweep
+  // if so chosen: the centre is the end, and the radius determines the sweep
   std::optional<double> radius_units{};
 };
 
@@ -110,8 +110,8 @@ class Chain {
   /// Takes two to four coordinates: X, Y, Z, W.
   Error line(std::span<const double> units, bool absolute);
   Error arc(const ArcOrder& order);
-  /// `growth_units` is the growth of the radius, per turn or in total (a choice). By choice `sweep_deg` is
-  /// the radius at the end.
+  /// `growth_units` is the growth of the radius, per turn or in total (a choice). If so chosen, `sweep_deg`
+  /// is the radius at the end.
   Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
   /// CM: `mode` is 0, 1 or 2.
   Error set_continuous_path(int mode);

@@ -35,7 +35,7 @@ Error enqueue_move(ChainState& chain, int module, bool absolute, double units) {
   return mine.reaches(job.ends[0]) ? enqueue(chain, job) : Error::range;
 }
 
-/// Orders a jog in `direction`, or thrust if that is 0. By choice, it replaces a move.
+/// Orders a jog in `direction`, or thrust if that is 0. If so chosen, it replaces a move.
 Error replace_jog(ChainState& chain, int module, int direction, std::int32_t force) {
   if (const Error why = refusal_of_jog(chain, module); why != Error::none) return why;
   const bool gives_up = !chain.modules[at(module)].jogs_or_pushes();

@@ -89,7 +89,7 @@ void note_ends(ChainState& chain, const Job& job, std::size_t place, const motio
   }
 }
 
-/// Returns the path of a job from a place, or nothing if the path is impossible, too long, or (by choice)
+/// Returns the path of a job from a place, or nothing if the path is impossible, too long, or (if so chosen)
 /// empty.
 std::optional<motion::Path> path_from(const ChainState& chain, const Job& job, const motion::Point& begin) {
   try {

@@ -23,7 +23,7 @@ class ChainSettings {
   Error set_jog_speed(int module, double rpm_or_rps);
   Error set_acceleration(int module, double rpm_or_rps_per_s);
   Error set_path_speed(int module, double units_s);  // PR3 of one module, and of the path that it is on
-  Error set_line_speed(int module, double units_s);  // PR4; by choice, lines of two axes use it too
+  Error set_line_speed(int module, double units_s);  // PR4; if so chosen, lines of two axes use it too
   Error set_tvm(double units_s);                     // for all linked modules, at once
   Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: the running path keeps its own
   Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180

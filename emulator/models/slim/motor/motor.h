@@ -38,7 +38,7 @@ void carry_out(const Motor& motor, const OutputOrder& order, Tick begin_at);
 void place_triggers(const Motor& motor);
 /// Switches the outputs whose positions the axis has just reached.
 void pass_triggers(const Motor& motor, motion::Events events);
-/// By choice, ends what continues on its own at a stop: pulses, PWM and triggers. Levels stay.
+/// If so chosen, ends what continues on its own at a stop: pulses, PWM and triggers. Levels stay.
 void stop_outputs(const Motor& motor);
 
 }  // namespace understudy::emulator::models::slim

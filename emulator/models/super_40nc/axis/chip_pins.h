@@ -1,4 +1,4 @@
-// The chip's CLR, LTC and ERC, which are fitted only by choice.
+// The chip's CLR, LTC and ERC, which are fitted only if so chosen.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,7 @@ double Drives::override_percent() const {
   return chose(option("override_range", "0_to_100")) ? std::min(percent, kMax) : percent;
 }
 
-/// Returns the law of a line: by the axis's own times, or for C, by choice, by the times of C.
+/// Returns the law of a line: by the axis's own times, or, for C if so chosen, by the times of C.
 motion::SpeedLaw Drives::line_law(int axis, double rpm, Mover mover) const {
   const bool is_by_times_of_c = mover == Mover::c && chose(option("drv_of_c", "c11_to_c14"));
   const Settings settings = registers();

@@ -20,7 +20,7 @@ namespace understudy::emulator::models::super_40nc {
 
 using language::Area;
 
-/// Returns true if, by choice, no axis may start because one of them is in use.
+/// Returns true if, under the chosen option, no axis may start because one of them is in use.
 bool ProgramMachine::plc_takes_none(language::AxisSet axes, Request request) {
   if (!chose(option("plc_several_axes", "none"))) return false;
   for (int axis = 0; axis < kAxisCount; ++axis) {

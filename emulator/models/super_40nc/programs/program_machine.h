@@ -76,7 +76,7 @@ class ProgramMachine final : public language::Machine, protected Chips {
   language::Begun begin_on_path(const std::array<bool, kAxisCount>& takes,
                                 const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                 int mode, const Geometry& geometry);
-  /// Skips an impossible arc. With `reports`, also reports it, or begins a line instead, by choice.
+  /// Skips an impossible arc. With `reports`, also reports it, or begins a line instead, if so chosen.
   language::Begun begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
                             const Geometry& geometry);
   ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;

@@ -262,7 +262,7 @@ void StoredPrograms::show_capacities() {
   ground_.put(stored_d(d9::kFileCount), kAllSteps / lines);
 }
 
-/// Returns the capacity of C and of each file, in steps or, by choice, in lines.
+/// Returns the capacity of C and of each file, in steps or, if so chosen, in lines.
 std::int32_t StoredPrograms::room_of_c() const {
   constexpr std::int32_t kStepsOfC = 1500;
   if (chose(option("file_layout", "always_20_files"))) return kStepsOfC;

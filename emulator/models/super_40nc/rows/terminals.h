@@ -25,8 +25,8 @@ inline constexpr int kAnalogInCount = 3;
 inline constexpr int kFirstAnalogOut = kFirstAnalogIn + kAnalogInCount;  // Vout1, Vout2
 inline constexpr int kAnalogOutCount = 2;
 inline constexpr int kRunSwitch = kFirstAnalogOut + kAnalogOutCount;  // PLC_RUN
-// Terminals that exist only by choice: those from DOG_X on (dog_inputs), from Vin1 on (analog_counts), from
-// SVON_X on (servo_on) and from CLR_X on (pins_fitted).
+// Terminals that exist only if so chosen: those from DOG_X on (dog_inputs), from Vin1 on (analog_counts),
+// from SVON_X on (servo_on) and from CLR_X on (pins_fitted).
 inline constexpr int kFirstDogTerminal = kRunSwitch + 1;
 inline constexpr int kFirstVoltageIn = kFirstDogTerminal + kAxisCount;
 inline constexpr int kFirstServoTerminal = kFirstVoltageIn + kAnalogInCount;
