@@ -47,10 +47,10 @@ const Model& whole(const Model& model) {
   if (model.line.ports.empty()) throw std::logic_error(std::string(model.name) + ": has no port on its line");
   for (const PortRow& port : model.line.ports) {
     if (port.bauds.empty())
-      throw std::logic_error(std::string(model.name) + ": lacks a speed of its port " +
+      throw std::logic_error(std::string(model.name) + ": has no speed for its port " +
                              std::string(port.name));
   }
-  if (model.firmwares.empty()) throw std::logic_error(std::string(model.name) + ": lacks a firmware");
+  if (model.firmwares.empty()) throw std::logic_error(std::string(model.name) + ": has no firmware");
   return model;
 }
 

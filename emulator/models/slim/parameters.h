@@ -60,7 +60,7 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"PR3", "TVM", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 100, "unit/s", false,
      "resultant speed of coordinated motion"},
     {"PR4", "", ParameterDefinition::Type::real, kMinSpeed, kMaxSpeed, false, 100, "unit/s", false,
-     "PR3 by another name, or by choice the speed of 2MA and 2MR"},
+     "PR3 by another name, or, if so chosen, the speed of 2MA and 2MR"},
     {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
      "largest angle that CM 2 joins"},
     {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,

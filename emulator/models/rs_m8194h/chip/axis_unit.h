@@ -269,7 +269,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
   static void check(const Value& unit) {
     require_state(unit.speed.mode < 4, "a speed mode of an axis is not in the manual");
     for (const Tick since : unit.pins.since)
-      require_state(since >= -kFar && since <= kFar, "a time is too far in the future");
+      require_state(since >= -kFar && since <= kFar, "a time is out of range");
     require_state(unit.began_pulses >= -kFar && unit.began_pulses <= kFar, "a drive began too far away");
     require_state(unit.external_waiting >= -kFar && unit.external_waiting <= kFar,
                   "too many pulses are waiting");
