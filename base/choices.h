@@ -19,13 +19,13 @@ namespace understudy {
 
 enum class Confidence : std::uint8_t {
   follows,   // follows from the manual's text elsewhere
-  likely,    // the cited standard, or devices of this kind, do so
+  likely,    // the cited standard says so, or such devices do so
   proposal,  // the manual is silent; the decision is ours
 };
 
 struct ChoiceRow {
   std::string_view id;
-  std::string_view section;  // of the manual that raises the question
+  std::string_view section;  // the manual's section that raises the question
   std::string_view question;
   /// Options separated by '|', the default first. If there is only one, no alternative is modelled.
   std::string_view options;
@@ -41,7 +41,7 @@ struct ChoiceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns for each row the number of the option in effect (0 is the default). Throws ChoiceError for an
+/// Returns, for each row, the number of the option in effect (0 is the default). Throws ChoiceError for an
 /// unknown id or option, naming what was expected.
 std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);

@@ -1,5 +1,5 @@
 // A complete table holds exactly one handler for each key. As a constexpr variable it does not compile if a
-// key has no handler or two. Tables of an interpreter's opcodes or a device's commands are built like this:
+// key has no handler, or two. Tables of an interpreter's opcodes or a device's commands are built like this:
 //
 //   constexpr HandlerRow<Verb, Action> kOutputActions[] = {{Verb::set_port, set_port}, ...};
 //   constexpr CompleteTable<Verb, Action> kActions(kVerbs, kMotionActions, kOutputActions);
@@ -12,14 +12,14 @@
 
 namespace understudy {
 
-/// A row of the table. Any type with a `key` and a `handler` can take its place.
+/// A row of the table. Any type with a `key` and a `handler` can be used instead.
 template <typename Key, typename Handler>
 struct HandlerRow {
   Key key;
   Handler handler;
 };
 
-/// Keys are numbers or enumerations of one byte.
+/// Maps keys, which are one-byte numbers or enumerations, to handlers.
 template <typename Key, typename Handler>
 class CompleteTable {
  public:

@@ -1,5 +1,5 @@
-// Finds out which numbers of an enumeration have names, and what these are, for tables that must have a row
-// for each of them.
+// Finds out which values of an enumeration have names, and what the names are, for tables that need a row for
+// each value.
 #pragma once
 
 #include <cstddef>

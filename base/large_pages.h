@@ -1,5 +1,5 @@
-// Keeps memory in large pages. Many devices take some megabytes, and each tick reads a little of all of it:
-// with pages of 4 KiB the processor spends much of its time translating addresses.
+// Keeps memory in large pages. Many devices need some megabytes, and each tick reads a little from everywhere
+// in them. With 4 KiB pages the processor spends much of its time translating addresses.
 #pragma once
 
 #include <cstddef>

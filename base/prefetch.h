@@ -11,8 +11,8 @@ inline constexpr std::size_t kCacheLine = 64;  // bytes
 /// Prefetches the cache line of `address`. Only speed depends on it; any address is allowed.
 inline void prefetch_line(const void* address) {
   __builtin_prefetch(address, 1);
-  // Without this the compiler considers a function that only prefetches as one without effect, and drops its
-  // calls.
+  // Without this statement, the compiler considers a function that only prefetches to have no effect, and
+  // drops its calls.
   asm volatile("");
 }
 

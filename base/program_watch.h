@@ -1,4 +1,5 @@
-// An observer of the programs that interpreters run: it counts lines, or stops at one. It changes nothing.
+// An observer of the programs that interpreters run, which counts lines or stops at one. It never affects the
+// programs.
 #pragma once
 
 #include <cstdint>
@@ -6,21 +7,21 @@
 
 namespace understudy {
 
-/// Lines are counted from 0 within their part: an area, a macro, or the only one.
+/// Lines are counted from 0 within their part: an area, a macro, or the whole program.
 class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
   /// The following calls are about the device's present program. `mark` identifies the program.
   virtual void program_loaded(std::uint64_t mark) = 0;
-  /// The instruction begins. It begins once, however long it waits. `times` is more than 1 only for scans of
-  /// a PLC that are skipped in bulk.
+  /// The instruction begins. This is reported once, however long the instruction waits. `times` is more than
+  /// 1 only for scans of a PLC that are skipped in bulk.
   virtual void runs(int part, int line, std::int64_t times) = 0;
   /// The instruction has decided: a jump is taken, a condition or contact holds, a wait is over at once.
   virtual void decides(int part, int line, bool outcome, std::int64_t times) = 0;
 };
 
-/// Base class of whatever a watch can observe. The watch is not part of the state. It is null if there is no
-/// observer.
+/// Base class of everything that a watch can observe. The watch is not part of the state. It is null if there
+/// is no observer.
 class Watched {
  public:
   ProgramWatch* watch() const { return watch_; }

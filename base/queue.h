@@ -28,7 +28,7 @@ class Queue {
   const_iterator end() const { return values_.end(); }
   std::span<const T> values() const { return std::span(values_).subspan(first_); }
 
-  /// Includes the space of removed elements that has not been reused yet.
+  /// Includes the space of removed elements that is not reused yet.
   std::size_t capacity() const { return values_.capacity(); }
 
   void push_back(T value) {

@@ -15,10 +15,10 @@ using SimTime = std::chrono::nanoseconds;
 /// A tick is 1 ms of simulated time; tick k happens at k ms.
 using Tick = std::int64_t;
 inline constexpr SimTime kTickLength = std::chrono::milliseconds(1);
-/// A tick that never comes, for "no event to wait for".
+/// A tick that is never reached, meaning that there is no event to wait for.
 inline constexpr Tick kNever = INT64_MAX;
 inline constexpr SimTime kForever = SimTime::max();
-/// The end of simulated time: a century after power-up, far below what its count can hold.
+/// The end of simulated time: a century after power-up, far below the limit of the integer.
 inline constexpr SimTime kHorizon = std::chrono::hours(24 * 365 * 100);
 
 constexpr SimTime time_of(Tick tick) { return tick == kNever ? kForever : tick * kTickLength; }

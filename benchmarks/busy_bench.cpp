@@ -19,7 +19,8 @@ constexpr std::size_t kStationsALine = 15;
 constexpr std::uint16_t kFirstCell = 0x4000;
 constexpr std::size_t kWordsARequest = 120;
 
-// The work of a program besides motion: it counts, calculates, reads STATUS and inputs, switches an output.
+// The part of the program that does not move axes: it counts, calculates, reads STATUS and inputs, and
+// switches an output.
 constexpr std::string_view kWork =
     "work:   Counter_Increase 1\n"
     "        VAR_Add VAR32 Cord_A\n"
@@ -89,7 +90,7 @@ emulator::world::DeviceSetup device_setup(std::size_t number) {
       {"PROG_VAR2", 80'000 + 35 * own},
       {"PROG_VAR3", 90'000},      // mrpm
       {"PROG_MEM0", 300},         // rpm: 16 pulses per tick
-      {"PROG_MEM1", 50},          // of 10 ms each
+      {"PROG_MEM1", 50},          // units of 10 ms
       {"PROG_MEM2", 4000 + own},  // ms
       {"Axis_VelMode_ACC", 32'768},
       {"Baxis_VelMode_ACC", 32'768},
@@ -191,7 +192,7 @@ void begin_hour_long_move(emulator::world::World& world) {
 }
 
 void turn_encoders(emulator::world::World& world, Tick tick) {
-  // To and fro, so that the axes stay between their limits.
+  // The encoders turn back and forth, so that the axes stay between their limits.
   constexpr Tick kThere = 10'000;
   const Tick phase = tick % (2 * kThere);
   const std::int64_t counts = 16 * (phase < kThere ? phase : 2 * kThere - phase);

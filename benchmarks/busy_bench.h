@@ -1,4 +1,4 @@
-// Worlds of busy Simple2-R3: what their axes do, while a program executes a line every 2 ms.
+// Worlds of busy Simple2-R3: their axes move in various ways while a program executes a line every 2 ms.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace understudy::benchmarks {
 enum class Activity {
   positions,  // long position moves back and forth, started again by the program
   velocity,   // velocity mode, up and down a ramp
-  sync,       // following encoders; those must be turned: see turn_encoders()
-  homing,     // away from a home switch, and home again
-  waiting,    // standing, the program waits for an input
-  idle,       // standing, without a program
+  sync,       // following encoders, which turn_encoders() must turn
+  homing,     // away from a home switch, and homing again
+  waiting,    // at rest; the program waits for an input
+  idle,       // at rest, without a program
 };
 std::string_view name_of(Activity activity);
 
@@ -24,10 +24,10 @@ std::string_view name_of(Activity activity);
 /// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
 std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity);
 
-/// A world of one idle device: an hour at 267 pulses per second.
+/// Starts a move of an hour, at 267 pulses per second, in a world of one idle device.
 void begin_hour_long_move(emulator::world::World& world);
 
-/// Turns the encoders of Activity::sync to where they are at `tick`.
+/// Turns the encoders of Activity::sync to their positions at `tick`.
 void turn_encoders(emulator::world::World& world, Tick tick);
 
 }  // namespace understudy::benchmarks

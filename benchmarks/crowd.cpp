@@ -1,6 +1,7 @@
-// A thousand busy Simple2-R3 in one process: the work of a tick, compared with that of one of them in its own
-// world; and how late a 1 kHz loop that does this work wakes up, compared with a loop that does nothing. The
-// two of each pair take turns, so that other load on the machine affects both. Loops wait as the daemon does.
+// Measures a thousand busy Simple2-R3 in one process: the work of a tick, compared with that of a single
+// device in its own world, and how late a 1 kHz loop that does this work wakes up, compared with a loop that
+// does nothing. The two sides of each comparison take turns, so that other load on the machine affects both.
+// Loops wait as the daemon does.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -29,17 +30,17 @@ constexpr Tick kWarmUp = 3000;
 constexpr double kLatenessBar = 1.5;
 constexpr double kCrowdBar = 2.0;
 constexpr int kRounds = 41;
-constexpr Tick kTicksOfAll = 100;        // of a round
-constexpr Tick kTicksOfOne = 20 * 1000;  // take about as long as a fifth of it
+constexpr Tick kTicksOfAll = 100;        // in a round
+constexpr Tick kTicksOfOne = 20 * 1000;  // take about a fifth of that time
 
 double microseconds(Nanoseconds time) { return static_cast<double>(time.count()) / 1000; }
 
 struct Slice {
-  std::vector<double> lateness_us;  // from the moment that was due to the moment of waking
+  std::vector<double> lateness_us;  // from the due time to the wake-up
   std::vector<double> work_us;
 };
 
-/// Wakes at every millisecond of a second, sharp, and does `work` there.
+/// Wakes up at every millisecond for a second, and does `work` each time.
 template <typename Work>
 Slice run_slice(EventLoop& loop, Work work) {
   Slice slice;
@@ -56,7 +57,7 @@ Slice run_slice(EventLoop& loop, Work work) {
   return slice;
 }
 
-/// Returns the processor time of a device's tick, while its world advances by this many ticks, one at a time.
+/// Advances the world by this many ticks, one at a time. Returns the processor time per tick and device.
 double tick_ns(World& world, Tick& done, Tick ticks) {
   const Nanoseconds before = processor_time_here();
   for (const Tick end = done + ticks; done < end;) world.advance_to(time_of(++done));
@@ -64,7 +65,8 @@ double tick_ns(World& world, Tick& done, Tick ticks) {
   return took / static_cast<double>(ticks) / static_cast<double>(world.device_count());
 }
 
-/// Compares a device's tick among others and alone; it depends mostly on the processor's caches.
+/// Compares a device's tick among others with its tick alone. The ratio depends mostly on the processor's
+/// caches.
 void compare_with_one(World& all, Tick& done) {
   const std::unique_ptr<World> one = make_busy_world(1, Activity::positions);
   Tick done_by_one = kWarmUp;
@@ -111,7 +113,7 @@ void run(int seconds) {
   }
   Slice bare;
   Slice ours;
-  std::vector<double> ratios;  // of each pair of seconds
+  std::vector<double> ratios;  // one for each pair of seconds
   for (int second = 0; second < seconds; ++second) {
     const Slice nothing = run_slice(loop, [] {});
     const Slice crowd = run_slice(loop, run_tick);
@@ -137,7 +139,7 @@ void run(int seconds) {
 
 }  // namespace understudy::benchmarks
 
-/// crowd [SECONDS]
+/// Usage: crowd [SECONDS]
 int main(int count, char** arguments) {
   using namespace understudy::benchmarks;
   try {

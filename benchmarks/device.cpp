@@ -1,5 +1,5 @@
-// The cost of a Simple2-R3: a tick of a world with one device, in each of its modes, compared with the bare
-// arithmetic of one; and simulated seconds per second.
+// Measures the cost of a Simple2-R3: a tick of a world with one device, in each of its modes, compared with
+// the bare arithmetic of a tick; and simulated seconds per second.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -19,11 +19,11 @@ namespace {
 using emulator::world::World;
 
 constexpr int kRounds = 15;
-constexpr Tick kTicks = 100'000;  // of a round
-constexpr Tick kWarmUp = 20'000;  // ramps, first looks at tables
+constexpr Tick kTicks = 100'000;  // in a round
+constexpr Tick kWarmUp = 20'000;  // ramps, first reads of tables
 constexpr double kTickBar = 40;   // bare loops
 constexpr Tick kHour = 3'600'000;
-constexpr double kHourBar = 0.1;  // bare loops for each of its ticks
+constexpr double kHourBar = 0.1;  // bare loops per tick
 
 double nanoseconds_each(Tick count, const std::function<void()>& work) {
   const auto start = processor_time_here();
@@ -31,7 +31,7 @@ double nanoseconds_each(Tick count, const std::function<void()>& work) {
   return static_cast<double>((processor_time_here() - start).count()) / static_cast<double>(count);
 }
 
-/// The minimum work of a tick of two axes: two cubics, compared with limits, and stored.
+/// The minimum work of a tick of two axes (one "bare loop"): two cubics, compared with limits, and stored.
 struct BareAxis {
   double place, first, second, third, low, high;
   std::int64_t pulses;
@@ -46,7 +46,7 @@ double bare_tick() {
         const double place = axis.place + k * (axis.first + k * (axis.second + k * axis.third));
         if (place >= axis.low && place <= axis.high) axis.pulses = static_cast<std::int64_t>(place);
       }
-      asm volatile("" : : "g"(&axes) : "memory");  // tick after tick, and all of it stored
+      asm volatile("" : : "g"(&axes) : "memory");  // computes tick after tick, and stores all of it
     }
   });
 }
@@ -63,7 +63,7 @@ class Contestant {
 
   Activity activity() const { return activity_; }
   const std::vector<double>& samples() const { return samples_; }
-  /// The number of ticks that were run, not fast-forwarded.
+  /// Returns the share of ticks that were run, not fast-forwarded.
   double share_run() const {
     const auto run = static_cast<double>(world_->ticks_run());
     return run / (run + static_cast<double>(world_->ticks_skipped()));
@@ -87,7 +87,7 @@ class Contestant {
 
 /// A position move of an hour, from a command to its end, without any event.
 struct HourLongMove {
-  double each_ns = 0;  // for each of its ticks
+  double each_ns = 0;  // per tick
   std::uint64_t ticks_run = 0;
 };
 

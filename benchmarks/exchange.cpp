@@ -1,7 +1,7 @@
-// Request and reply over a pty: Understudy with `--timing instant` and an axis that moves, compared with a
-// bare echo responder and a libmodbus slave. A read of a Simple2-R3, and a command through the window of an
-// RS-M8194H. All three run on one processor, the host on the other; they are asked in turn, in blocks, and
-// while one is asked the others are stopped, so that none slows down another.
+// Measures request and reply over a pty: Understudy with `--timing instant` and a moving axis, compared with
+// a bare echo responder and a libmodbus slave. The requests are a read of a Simple2-R3, and a command through
+// the window of an RS-M8194H. All three servers run on one processor, the host on another. The servers take
+// turns, in blocks; during a block the others are stopped, so that none slows down another.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@ namespace understudy::benchmarks {
 namespace {
 
 constexpr std::uint8_t kStation = 1;
-constexpr int kWarmUp = 20;  // exchanges at the beginning of a block that do not count
+constexpr int kWarmUp = 20;  // exchanges at the beginning of a block, which do not count
 constexpr int kExchanges = 300;
 constexpr int kDefaultRounds = 60;
 
@@ -45,12 +45,12 @@ struct Question {
   const char* name;
   const char* model;
   Frame request;
-  Frame reply;  // as a bare responder gives it
+  Frame reply;  // as a bare responder sends it
   Responder::Range registers;
   void (UnderstudyServer::*start_moving)() const;
 };
 
-/// Cord_A of a Simple2-R3, its low word: it changes with every tick of a move.
+/// Reads the low word of Cord_A of a Simple2-R3, which changes with every tick of a move.
 Question read_of_a_register() {
   constexpr std::uint8_t kHigh = 0x0E;
   constexpr std::uint8_t kLow = 0x04;
@@ -62,8 +62,8 @@ Question read_of_a_register() {
           .start_moving = &UnderstudyServer::start_long_move};
 }
 
-/// RSM_CHANGE_VEL_ON_FLY Y 1000 of an RS-M8194H: it is executed on receipt, however many arrive in a tick;
-/// commands that go through the FIFO are soon refused as busy.
+/// Sends RSM_CHANGE_VEL_ON_FLY Y 1000 to an RS-M8194H. It is executed on receipt, however many arrive in a
+/// tick; commands that go through the FIFO would soon be refused as busy.
 Question command_through_the_window() {
   constexpr unsigned kWindow = 8000;
   return {.name = "a command",
@@ -108,7 +108,7 @@ class Contestant {
     all.insert(all.end(), times.begin(), times.end());
   }
 
-  // Microseconds: one figure a block, and every exchange.
+  // Microseconds: one figure per block, and every exchange.
   std::vector<double> p50;
   std::vector<double> p99;
   std::vector<double> processor;
@@ -121,14 +121,14 @@ class Contestant {
   Frame reply_;
 };
 
-/// The median of the ratios of blocks of the same round: levels drift, their ratio does not.
+/// Returns the median of the ratios between blocks of the same round: levels drift, but their ratio does not.
 double ratio(const std::vector<double>& ours, const std::vector<double>& theirs) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < ours.size(); ++i) ratios.push_back(ours[i] / theirs[i]);
   return median(ratios);
 }
 
-/// Lets alarm() end the wait for a reply that never comes: a caught signal breaks it off.
+/// Lets alarm() end the wait for a reply that never arrives: a caught signal interrupts the read.
 void let_alarms_interrupt() {
   struct sigaction action {};
   action.sa_handler = [](int) {};
@@ -189,7 +189,7 @@ void run(const std::string& executable, int rounds) {
 
 }  // namespace understudy::benchmarks
 
-/// exchange [ROUNDS [EXECUTABLE]]
+/// Usage: exchange [ROUNDS [EXECUTABLE]]
 int main(int count, char** arguments) {
   using namespace understudy::benchmarks;
   try {

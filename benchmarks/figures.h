@@ -8,7 +8,7 @@
 
 namespace understudy::benchmarks {
 
-/// The smallest sample that is not below `fraction` of them. Of no samples: 0.
+/// Returns the smallest sample that is not below `fraction` of the samples, or 0 if there are no samples.
 inline double percentile(std::span<const double> samples, double fraction) {
   if (samples.empty()) return 0;
   std::vector<double> sorted(samples.begin(), samples.end());
@@ -20,8 +20,8 @@ inline double percentile(std::span<const double> samples, double fraction) {
 
 inline double median(std::span<const double> samples) { return percentile(samples, 0.5); }
 
-/// "met      what: 1.050 (bar: at most 1.100)". Only ratios from one run are judged: a time depends on the
-/// machine as much as on us.
+/// Prints "met      what: 1.050 (bar: at most 1.100)". Only ratios within one run are judged, because times
+/// depend on the machine as much as on our code.
 inline void print_verdict(const char* what, double ratio, double bar) {
   std::printf("%-8s %s: %.3f (bar: at most %.3f)\n", ratio <= bar ? "met" : "NOT MET", what, ratio, bar);
 }

@@ -1,4 +1,4 @@
-// A bare Modbus host: a descriptor, a write, a read. It costs the same for every server.
+// A bare Modbus host: a descriptor, a write, a read. It has the same cost with every server.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ class Host {
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// Writes the request, reads until the reply is complete, and returns how long both took. Throws CannotRun,
-  /// also if a signal interrupts it.
+  /// Writes the request, reads until the reply is complete, and returns how long that took. Throws CannotRun
+  /// if it fails or a signal interrupts it.
   Nanoseconds exchange(std::span<const std::uint8_t> request, std::span<std::uint8_t> reply) const;
 
  private:

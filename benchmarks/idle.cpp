@@ -1,4 +1,4 @@
-// Measures what a device costs without a host: the share of a processor that `understudy serve` uses,
+// Measures the cost of a device without a host: the share of a processor that `understudy serve` uses,
 // compared with a bare 1 kHz timer loop over the same seconds.
 #include <sys/timerfd.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace understudy::benchmarks {
 
 namespace {
 
-constexpr double kBar = 0.5;  // of what the timer loop takes
+constexpr double kBar = 0.5;  // relative to the timer loop's share
 constexpr int kDefaultSeconds = 4;
 
 void run_timer_loop() {
@@ -35,7 +35,7 @@ struct Shares {
 };
 
 Shares measure(const char* what, const Process& understudy, const Process& timer_loop, int seconds) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // earlier work has ended
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // lets earlier work end
   const Nanoseconds start = now();
   const Nanoseconds understudy_before = understudy.processor_time();
   const Nanoseconds timer_before = timer_loop.processor_time();
@@ -67,7 +67,7 @@ void run(const std::string& executable, int seconds) {
 
 }  // namespace understudy::benchmarks
 
-/// idle [SECONDS [EXECUTABLE]]
+/// Usage: idle [SECONDS [EXECUTABLE]]
 int main(int count, char** arguments) {
   using namespace understudy::benchmarks;
   try {

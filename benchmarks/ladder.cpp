@@ -1,4 +1,4 @@
-// Measures a scan of SUPER-40NC's PLC: 1,000 mixed steps, compared with the minimum that a step can be.
+// Measures a scan of the SUPER-40NC's PLC: 1,000 mixed steps, compared with the simplest possible steps.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -46,7 +46,7 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(processor_time_here() - start).count();
 }
 
-/// A step that only loads a cell by its number and combines it.
+/// Measures the simplest possible steps, which only load a cell by its number and combine it.
 double bare_ns(const PlainMachine& machine, std::size_t steps) {
   std::vector<std::uint32_t> numbers(steps);
   for (std::size_t i = 0; i < steps; ++i)

@@ -1,5 +1,6 @@
-// How long the devices of a bench of fifteen stations wait for an observer at a time: each message that may
-// be long, as the control socket gets it, and the longest piece of its work, in processor time.
+// Measures how long an observer makes the devices of a bench with fifteen stations wait at a time. Sends each
+// message whose reply may be long, as the control socket receives it, and measures the longest piece of its
+// work in processor time.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -54,7 +55,7 @@ std::string bench_text(const std::string& folder) {
   return text;
 }
 
-/// The request that the live page sends thirty times per second.
+/// Returns the request that the live page sends thirty times per second.
 std::string names_of_a_page() {
   std::string names;
   for (int i = 1; i <= kStations; ++i) {
@@ -67,12 +68,13 @@ std::string names_of_a_page() {
 }
 
 struct Cost {
-  std::vector<double> longest_us;  // of each round
+  std::vector<double> longest_us;  // one for each round
   std::vector<double> all_us;
   std::size_t bytes = 0;
 };
 
-/// As in the daemon's loop: one slice after the other, with a look at what is due between them.
+/// Runs the work as the daemon's loop does: one slice after another, with a check between them for what is
+/// due.
 Cost cost_of(Daemon& daemon, const std::string& message) {
   Cost cost;
   for (int round = 0; round < kRounds; ++round) {

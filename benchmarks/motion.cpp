@@ -1,5 +1,5 @@
-// Measures motion: planning a move, an axis's tick compared with the bare arithmetic of one, a coordinated
-// path.
+// Measures motion: planning a move, an axis's tick, compared with the bare arithmetic of a tick, and a
+// coordinated path.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -20,7 +20,7 @@ using namespace understudy::motion;
 
 constexpr int kRounds = 15;
 
-/// Keeps a result from being computed away.
+/// Keeps the compiler from optimizing away the computation of a result.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
@@ -32,12 +32,12 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(processor_time_here() - start).count();
 }
 
-/// Nanoseconds for each of `count` repetitions that `work` does at once.
+/// Returns the nanoseconds per repetition, if `work` does `count` repetitions.
 double nanoseconds_each(double count, const std::function<void()>& work) {
   return seconds_of(work) * 1e9 / count;
 }
 
-// ---- The bare tick, in which the others are calculated
+// ---- The bare tick, which is the unit of the other results
 
 /// The minimum work of an axis's tick: a cubic, two comparisons with limits, one counter.
 struct Bare {
@@ -238,7 +238,7 @@ void coordinated() {
 // ---- All together
 
 void simulated_time() {
-  // Four axes that move back and forth without a rest, with limits and an index to look out for.
+  // Four axes that always move back and forth, with limits and an index to watch.
   std::vector<Axis> axes(4);
   Environment environment;
   environment.add(Signal::limit_plus, 1'000'000, 2'000'000);

@@ -1,6 +1,6 @@
-// The cost of 700 KB of files for a device that stores them: a snapshot after the change of one register
-// (compared with a device without files), the data given to the writer of its file, and reading images of 1,
-// 2 and 4 MB.
+// Measures the cost of 700 KB of files in a device's memory: a snapshot after a change of one register
+// (compared with a device without files), passing the data to the writer of the memory file, and reading
+// images of 1, 2 and 4 MB.
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -47,11 +47,11 @@ double snapshot(bool has_files) {
 }
 
 struct Handing {
-  double over_us = 0;   // what a world's thread gives a writer
-  double image_us = 0;  // and what the writer makes of it
+  double over_us = 0;   // the world's thread passes data to the writer
+  double image_us = 0;  // the writer makes an image of it
 };
 
-/// After a change of one register; and of a file as well.
+/// Measures both after a change of one register, and of a file too if `changes_a_file`.
 Handing handing(bool changes_a_file) {
   emulator::DeviceSettings settings;
   settings.name = "it";

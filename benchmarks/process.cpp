@@ -24,7 +24,7 @@ Nanoseconds duration(const timespec& time) {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-/// The child's first steps.
+/// Prepares the child after the fork.
 void settle(int processor) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (processor != Process::kAnyProcessor) pin_to(processor);

@@ -1,4 +1,4 @@
-// A process to measure: started on a chosen processor, and observed from outside.
+// A process to measure, which is started on a chosen processor and observed from outside.
 #pragma once
 
 #include <sys/types.h>
@@ -13,16 +13,16 @@ namespace understudy::benchmarks {
 
 using Nanoseconds = std::chrono::nanoseconds;
 
-/// The benchmark cannot be run here; says why.
+/// Thrown if the benchmark cannot run on this machine. The message has the reason.
 struct CannotRun : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 Nanoseconds now();
 
-/// Runs the calling process on this processor only.
+/// Restricts the calling process to this processor.
 void pin_to(int processor);
-/// Two processors this process may run on: the client's and the servers'. Throws CannotRun.
+/// Two processors that this process may use: one for the client, one for the servers. Throws CannotRun.
 struct Processors {
   int client = 0;
   int server = 0;
@@ -36,22 +36,23 @@ class Process {
 
   /// Forks; `body` runs in the child, which ends with it.
   static Process of_function(const std::function<void()>& body, int processor = kAnyProcessor);
-  /// Forks and executes; its standard output can be read from here.
+  /// Forks and executes a command, whose standard output this process can read.
   static Process of_command(const std::vector<std::string>& command, int processor = kAnyProcessor);
 
   ~Process();
   Process(Process&& other) noexcept;
   Process& operator=(Process&&) = delete;
 
-  /// Processor time of all its threads so far.
+  /// Returns the processor time of all its threads so far.
   Nanoseconds processor_time() const;
-  /// Returns one line of its standard output, without the line end. Throws CannotRun if it ends before.
+  /// Returns one line of its standard output, without the line end. Throws CannotRun if the process ends
+  /// first.
   std::string read_line();
 
-  void stop() const;       // it takes no processor time until
+  void stop() const;       // it uses no processor time until carry_on()
   void carry_on() const;   // it continues
   void terminate() const;  // SIGTERM
-  /// Waits for its end: the exit code, or 128 and the signal.
+  /// Waits for the process to end. Returns the exit code, or 128 + the signal.
   int wait();
 
  private:

@@ -1,4 +1,4 @@
-// Work is measured in processor time of the calling thread, so that others on the same processor do not
+// Measures work in processor time of the calling thread, so that other threads on the same processor do not
 // count.
 #pragma once
 

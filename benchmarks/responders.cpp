@@ -12,7 +12,8 @@ namespace understudy::benchmarks {
 
 namespace {
 
-/// Both ends: with a slave of our own the master never hangs up, whatever the host does.
+/// Both ends of a pty. Because this process has the slave open, the master never hangs up, whatever the host
+/// does.
 struct Pty {
   Pty() : master(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     std::array<char, 64> name{};

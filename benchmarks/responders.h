@@ -1,4 +1,4 @@
-// The programs that Understudy is compared with: the simplest responder on a pty, and libmodbus as a slave.
+// The programs with which Understudy is compared: the simplest responder on a pty, and a libmodbus slave.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace understudy::benchmarks {
 /// A process that owns the master of a pty and answers there.
 class Responder {
  public:
-  /// Reads as many bytes as `request` has, whatever they are, and writes `reply`.
+  /// Reads `request_size` bytes, whatever they are, and writes `reply`.
   static Responder echo(std::size_t request_size, const std::vector<std::uint8_t>& reply, int processor);
 
   struct Range {

@@ -1,7 +1,7 @@
-// The cost of an RS-M8194H: a tick with four moving axes and a running macro, alone and among 1,000, and one
-// with a stream of three axes and two synchronous actions, compared with the bare arithmetic of four axes; a
-// device at rest, which is fast-forwarded; its memory, and a snapshot with its restore, also with every macro
-// full.
+// Measures the cost of an RS-M8194H: a tick with four moving axes and a running macro, alone and among 1,000
+// devices, and a tick with a stream of three axes and two synchronous actions, both compared with the bare
+// arithmetic of four axes; a device at rest, which is fast-forwarded; its memory; and a snapshot with its
+// restore, with empty and with full macros.
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -23,7 +23,7 @@ namespace {
 using emulator::world::World;
 
 constexpr int kRounds = 21;
-constexpr Tick kTicks = 20'000;  // of a round
+constexpr Tick kTicks = 20'000;  // in a round
 constexpr Tick kWarmUp = 5000;
 constexpr Tick kHour = 3'600'000;
 constexpr std::size_t kCrowd = 1000;
@@ -31,8 +31,8 @@ constexpr Tick kTicksOfCrowd = 100;
 
 constexpr double kMovesBar = 40;    // bare loops
 constexpr double kStreamBar = 70;   // bare loops
-constexpr double kRestBar = 0.1;    // bare loops for each of its ticks
-constexpr double kBusyBar = 3'000;  // simulated seconds a second
+constexpr double kRestBar = 0.1;    // bare loops per tick
+constexpr double kBusyBar = 3'000;  // simulated seconds per second
 constexpr double kCrowdBar = 2.5;
 constexpr double kBytesBar = 256 * 1024;
 constexpr double kSnapshotBar_us = 150;
@@ -49,7 +49,7 @@ constexpr const char* kMoves =
     "RSM_MACRO_FOR 2000\nRSM_MACRO_VAR_CALCULATE VAR1 + 1 VAR1\nRSM_MACRO_TIMER 1\nRSM_MACRO_NEXT\n"
     "RSM_MACRO_GOTO 0\nEND\n";
 
-/// A stream that never ends, round a triangle in space; at each round X latches and gives a pulse, and Y too.
+/// An endless stream around a triangle in space. In each round, X and Y latch and send a pulse.
 constexpr const char* kStream =
     "MP 91\n"
     "RSM_MACRO_SYNC_ACTION X X 1 0 1 0 1 0 0 0 0 0\nRSM_MACRO_SYNC_ACTION Y Y 4 0 2 0 1 0 0 0 0 0\n"
@@ -63,7 +63,8 @@ constexpr const char* kStream =
 
 constexpr int kMacro = 91;
 
-/// The minimum work of a tick of four axes: a cubic, two comparisons with limits and a count for each.
+/// The minimum work of a tick of four axes (one "bare loop"): for each, a cubic, two comparisons with limits,
+/// and a count.
 struct BareAxis {
   double place, first, second, third, low, high;
   std::int64_t pulses;
@@ -82,7 +83,7 @@ double bare_ns() {
       const double place = axis.place + k * (axis.first + k * (axis.second + k * axis.third));
       if (place >= axis.low && place <= axis.high) axis.pulses = static_cast<std::int64_t>(place);
     }
-    asm volatile("" : : "g"(&axes) : "memory");  // tick after tick, and all of it stored
+    asm volatile("" : : "g"(&axes) : "memory");  // computes tick after tick, and stores all of it
   }
   return static_cast<double>((processor_time_here() - before).count()) / kLoops;
 }
@@ -93,7 +94,7 @@ std::unique_ptr<World> make_world(std::size_t devices, const std::string& progra
   });
 }
 
-/// Throws if it does not do what is to be measured.
+/// Throws if the world does not do the work that should be measured.
 void expect_busy(World& world, emulator::Value driving) {
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     if (get(world.device(d), "DRIVING_AXIS") != driving) throw CannotRun("axes stand that should move");
@@ -153,7 +154,7 @@ void measure_rest() {
   print_verdict("an hour at rest in bare loops for each tick", median(ratios), kRestBar);
 }
 
-/// Every macro, with as many lines as it has room for.
+/// Returns all macros, each with as many lines as fit.
 std::string full_macros() {
   namespace lang = interpreter::rs_m8194h;
   std::string text;
@@ -173,7 +174,7 @@ std::string full_macros() {
 
 void measure_memory() {
   constexpr std::size_t kMany = 100;
-  const auto first = make_busy(1, kMoves, 15);  // what all devices share exists
+  const auto first = make_busy(1, kMoves, 15);  // now the data that all devices share exists
   const double before = heap_bytes();
   const auto many = make_busy(kMany, kMoves, 15);
   const double each = (heap_bytes() - before) / kMany;

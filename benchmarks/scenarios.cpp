@@ -28,9 +28,9 @@ using emulator::world::World;
 
 constexpr int kRounds = 21;
 constexpr double kSuiteBar = 1.0 / 2000;  // processor time per simulated time
-constexpr double kStartBar = 1;           // of a scenario of the suite
+constexpr double kStartBar = 1;           // relative to the time of a suite's scenario
 constexpr double kRecordingBar = 1.05;
-constexpr double kSnapshotBar = 1;  // of making the world
+constexpr double kSnapshotBar = 1;  // relative to the time to make the world
 
 double seconds_of(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
@@ -74,7 +74,7 @@ Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
   return played;
 }
 
-/// Writes down everything, into a string.
+/// Records everything into a string.
 class RecordingObserver final : public emulator::play::Observer {
  public:
   RecordingObserver(World& world, const emulator::world::RecordingHeader& header)
@@ -100,7 +100,7 @@ emulator::play::RunOptions recorded(const Scenario& scenario) {
   return options;
 }
 
-/// Gives the milliseconds that one of its scenarios takes.
+/// Returns the milliseconds per scenario.
 double measure_suite(const std::string& folder) {
   const std::vector<std::string> files = files_in(folder);
   Played played;

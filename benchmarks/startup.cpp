@@ -1,4 +1,5 @@
-// Short runs of the program, and from exec to the `ready` line, compared with the start and end of /bin/true.
+// Measures short runs of the program, and the time from exec to the `ready` line, compared with a run of
+// /bin/true.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -31,7 +32,7 @@ Nanoseconds run_until_ready(const std::string& executable, const std::string& mo
 struct Start {
   std::string name;
   std::function<Nanoseconds()> time;
-  double bar;  // starts and ends of /bin/true
+  double bar;  // runs of /bin/true
 };
 
 void measure(const Start& start, int starts) {
@@ -71,7 +72,7 @@ void run(const std::string& executable, int starts) {
 
 }  // namespace understudy::benchmarks
 
-/// startup [STARTS [EXECUTABLE]]
+/// Usage: startup [STARTS [EXECUTABLE]]
 int main(int count, char** arguments) {
   using namespace understudy::benchmarks;
   try {

@@ -1,6 +1,6 @@
-// The cost of a SUPER-40NC: a tick with a PLC of 200 steps that changes something in every scan, C on a path
-// of three axes and U in a DRV, alone and among 200; a settled device at rest, which is fast-forwarded; its
-// memory, and a snapshot with its restore, also with every file and every recipe full.
+// Measures the cost of a SUPER-40NC: a tick with a PLC of 200 steps that changes something in every scan, C
+// on a path of three axes and U in a DRV, alone and among 200 devices; a settled device at rest, which is
+// fast-forwarded; its memory; and a snapshot with its restore, with empty and with full files and recipes.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -19,14 +19,14 @@ namespace {
 using emulator::world::World;
 
 constexpr int kRounds = 21;
-constexpr Tick kTicks = 20'000;  // of a round
+constexpr Tick kTicks = 20'000;  // in a round
 constexpr Tick kWarmUp = 3000;
 constexpr Tick kHour = 3'600'000;
 constexpr std::size_t kCrowd = 200;
 constexpr Tick kTicksOfCrowd = 200;
 
 constexpr double kTickBar_us = 1;
-constexpr double kSettledBar = 20'000;  // simulated seconds a second
+constexpr double kSettledBar = 20'000;  // simulated seconds per second
 constexpr double kCrowdBar = 2.5;
 constexpr double kBytesBar = 512 * 1024;
 constexpr double kFullBytesBar = 2 * 1024 * 1024;
@@ -130,7 +130,7 @@ void fill(World& world) {
 
 void measure_memory() {
   constexpr std::size_t kMany = 30;
-  const auto first = make_busy(1);  // what all devices share exists
+  const auto first = make_busy(1);  // now the data that all devices share exists
   const double before = heap_bytes();
   const auto many = make_busy(kMany);
   const double each = (heap_bytes() - before) / kMany;

@@ -1,7 +1,7 @@
-// The largest reads over a pty: as many coils with function 01 as there are (2,000 at most) and 125 registers
-// with function 03, of the tests' controller with four tables and of a SUPER-40NC (--timing instant),
-// compared with a libmodbus slave. Both run on one processor, the host on the other; while one is asked the
-// other is stopped.
+// Measures the largest reads over a pty: all coils with function 01 (at most 2,000) and 125 registers with
+// function 03, from the tests' controller with four tables and from a SUPER-40NC (--timing instant), compared
+// with a libmodbus slave. Both servers run on one processor, the host on another. While one server is
+// measured, the other is stopped.
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -43,7 +43,7 @@ using Frame = std::vector<std::uint8_t>;
 struct Read {
   std::string what;
   Frame request;
-  std::size_t bytes;  // of its data
+  std::size_t bytes;  // the size of its data
 };
 
 Read read_of(const std::string& what, std::uint8_t function, const Responder::Range& range,
@@ -55,7 +55,7 @@ Read read_of(const std::string& what, std::uint8_t function, const Responder::Ra
   return {what, request, bytes};
 }
 
-/// Serves it until it is killed.
+/// Serves the controller until the process is killed.
 void serve(const Controller& controller, const std::string& folder) {
   const emulator::ListedModel models[] = {&controller.model};
   const emulator::world::Bench bench = emulator::world::parse_bench(
@@ -69,7 +69,7 @@ void serve(const Controller& controller, const std::string& folder) {
   daemon.run();
 }
 
-/// The link once it is there.
+/// Waits for the link, and returns its path.
 std::string port_in(const std::string& folder) {
   const std::string link = folder + "/port";
   for (int tries = 0; tries < 5000; ++tries) {
@@ -89,7 +89,7 @@ struct Folder {
   std::string path = "/tmp/understudy-tables-XXXXXX";
 };
 
-/// Microseconds of processor time for a request.
+/// Returns the processor time per request in microseconds.
 double block(const Process& process, const Host& host, const Read& read) {
   process.carry_on();
   Frame reply(3 + read.bytes + 2);
@@ -105,7 +105,7 @@ double block(const Process& process, const Host& host, const Read& read) {
   return static_cast<double>(used.count()) / 1000 / kExchanges;
 }
 
-/// Lets alarm() end the wait for a reply that never comes.
+/// Lets alarm() end the wait for a reply that never arrives.
 void let_alarms_interrupt() {
   struct sigaction action {};
   action.sa_handler = [](int) {};
@@ -157,7 +157,7 @@ void run(int rounds) {
 
 }  // namespace understudy::benchmarks
 
-/// tables [ROUNDS]
+/// Usage: tables [ROUNDS]
 int main(int count, char** arguments) {
   using namespace understudy::benchmarks;
   try {

@@ -62,7 +62,7 @@ double nanoseconds_each(World& world) {
   return static_cast<double>((processor_time_here() - start).count()) / static_cast<double>(kTicks);
 }
 
-/// The median of the pairs' ratios.
+/// Returns the median of the pairs' ratios.
 double compare(const char* what, World& with, World& without) {
   std::vector<double> ratios;
   std::vector<double> times;

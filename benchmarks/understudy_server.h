@@ -1,4 +1,4 @@
-// `understudy serve` with one device, most often a Simple2-R3, at 19200 8E1, as the benchmarks start it.
+// Runs `understudy serve` for benchmarks, with one device (by default a Simple2-R3) at 19200 8E1.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace understudy::benchmarks {
 
 class UnderstudyServer {
  public:
-  /// Returns when it is ready. Throws CannotRun.
+  /// Returns when the server is ready. Throws CannotRun.
   UnderstudyServer(std::string executable, const std::string& timing, int processor = Process::kAnyProcessor,
                    const std::string& model = "simple2-r3");
   ~UnderstudyServer();
@@ -22,7 +22,7 @@ class UnderstudyServer {
 
   /// Starts axis A on a move that lasts for days, so that every tick has something to do.
   void start_long_move() const;
-  /// The same for axis Y of an RS-M8194H, without end.
+  /// Starts an endless move of axis Y of an RS-M8194H.
   void start_endless_move() const;
 
  private:

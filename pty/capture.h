@@ -16,10 +16,10 @@ namespace understudy::pty {
 enum class Direction : std::uint8_t {
   from_host,
   to_host,
-  // Of a line that somebody only listens to, who does not know which side is the host:
-  from_one,    // what the first adapter hears
-  from_other,  // the second
-  unknown,     // one adapter hears both sides
+  // On a line that is only tapped, it is unknown which side is the host:
+  from_one,    // received by the first adapter
+  from_other,  // received by the second
+  unknown,     // one adapter receives both sides
 };
 
 enum class Remark : std::uint8_t {
@@ -58,7 +58,7 @@ struct CapturedPacket {
   std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
 };
 
-/// Returns "fault 1 drop: not sent; fault 2 delay: sent late".
+/// Returns a text such as "fault 1 drop: not sent; fault 2 delay: sent late".
 std::string text_of(std::span<const Strike> strikes);
 /// Returns the remark, faults and command of a packet as one text. It may be empty.
 std::string comment_of(const CapturedPacket& packet);
@@ -70,7 +70,7 @@ constexpr bool has_comment(const CapturedPacket& packet) {
 struct CapturedLine {
   std::string name;
   int baud = 0;
-  bool is_tapped = false;  // packets are bytes as they were heard, with real times since 1970
+  bool is_tapped = false;  // packets are bytes as received, with real times since 1970
 };
 
 }  // namespace understudy::pty

@@ -48,13 +48,13 @@ class CaptureFile {
   std::vector<CapturedLine> lines_;
   std::function<void(const std::string&)> log_;
   OutputFile file_;
-  std::vector<std::uint64_t> lost_before_;  // of each line, since its last packet in the file
+  std::vector<std::uint64_t> lost_before_;  // the lost packets of each line since its last packet in the file
   std::uint64_t lost_ = 0;
   bool has_reported_slow_ = false;
   std::string failure_;
   bool is_finished_ = false;
   std::string piece_;
-  std::unique_ptr<BackgroundWriter> writer_;  // declared last: its thread uses the others
+  std::unique_ptr<BackgroundWriter> writer_;  // declared last, because its thread uses the other members
 };
 
 }  // namespace understudy::pty

@@ -19,8 +19,8 @@ namespace {
 
 // Dropped characters in a row become one packet of at most this many bytes.
 constexpr std::size_t kLongestNoise = kRtuMaxFrame;
-// More bytes than a framer can hold, so all of them are dropped: strict framing keeps this many open in a
-// lump that is too long for a frame.
+// More bytes than a framer can hold. With strict framing, a lump that is too long for a frame keeps this many
+// undecided; they are then all dropped.
 constexpr std::size_t kMaxBytesWaiting = 5 * kRtuMaxFrame;
 
 Remark why_dropped(std::span<const std::uint8_t> bytes) {
@@ -73,7 +73,7 @@ void CaptureFrames::on_transmission(const Transmission& transmission) {
   faults_.clear();
 }
 
-/// A text station sends its reply later and in pieces, so the strikes are a packet of their own.
+/// A text station sends its reply later and in pieces, so the strikes become a separate packet.
 void CaptureFrames::on_strike(const StruckMessage& message) {
   give_strikes();
   faults_ = text_of(message.strikes);
@@ -101,7 +101,7 @@ void CaptureFrames::run(SimTime now) {
     const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const TimedByte& character) {
       return character.number == frame->last_character;
     });
-    if (last == waiting_.end()) continue;  // given up earlier
+    if (last == waiting_.end()) continue;  // dropped earlier
     const auto end = static_cast<std::size_t>(last - waiting_.begin()) + 1;
     if (end < frame->size) continue;
     give_dropped(end - frame->size);

@@ -17,8 +17,8 @@ class CaptureFrames final : public LineObserver {
  public:
   using Sink = std::function<void(const CapturedPacket&)>;
 
-  /// `framing` is that of the line's stations, with the shortest silence if they differ. On a line of text
-  /// each text line is a packet (an LF after its CR begins the next one); ESC also ends a packet.
+  /// `framing` is that of the line's stations, with the shortest silence if they differ. On a text line, each
+  /// line of text is a packet (an LF after its CR begins the next one); ESC also ends a packet.
   CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 
   void on_start_bit(SimTime at) override;
@@ -26,11 +26,11 @@ class CaptureFrames final : public LineObserver {
   void on_nothing_more() override;
   void on_transmission(const Transmission& transmission) override;
   void on_strike(const StruckMessage& message) override;
-  std::optional<SimTime> due() const override { return framer_.due(); }  // none on a line of text
+  std::optional<SimTime> due() const override { return framer_.due(); }  // none on a text line
   void run(SimTime now) override;
   std::size_t quiet_characters() const override { return is_text_ ? 0 : framer_.quiet_characters(); }
 
-  /// Ends the capture: characters that wait for the rest of a packet become a packet now.
+  /// Ends the capture: characters of an incomplete packet become a packet now.
   void finish();
 
  private:
@@ -45,8 +45,8 @@ class CaptureFrames final : public LineObserver {
   RtuFramer framer_;
   bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
-  bool is_received_ = true;         // true of all of them
-  std::string faults_;              // of the next reply
+  bool is_received_ = true;         // whether they were received: the same for all of them
+  std::string faults_;              // those of the next reply
   SimTime struck_at_{0};            // when the faults acted on that reply
 };
 

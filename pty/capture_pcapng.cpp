@@ -19,11 +19,11 @@ constexpr std::uint32_t kByteOrderMagic = 0x1A2B3C4D;
 
 constexpr std::uint16_t kEndOfOptions = 0;
 constexpr std::uint16_t kComment = 1;
-constexpr std::uint16_t kApplication = 4;  // of a section
-constexpr std::uint16_t kName = 2;         // of an interface
+constexpr std::uint16_t kApplication = 4;  // a section's option
+constexpr std::uint16_t kName = 2;         // an interface's option
 constexpr std::uint16_t kSpeed = 8;        // bits per second
 constexpr std::uint16_t kTimeResolution = 9;
-constexpr std::uint16_t kFlags = 2;  // of a packet
+constexpr std::uint16_t kFlags = 2;  // a packet's option
 constexpr std::uint16_t kDropCount = 4;
 
 constexpr std::uint32_t kInbound = 1;
@@ -32,7 +32,7 @@ constexpr std::uint32_t kChecksumError = 1U << 24;
 constexpr std::uint32_t kTooShort = 1U << 26;
 
 // "Wireshark upper PDU": big-endian tags, then the bytes for the dissector that they name.
-constexpr std::uint16_t kUser0 = 147;  // of a line that is tapped: bare bytes
+constexpr std::uint16_t kUser0 = 147;  // the bare bytes of a tapped line
 constexpr std::uint16_t kUpperPdu = 252;
 constexpr std::uint16_t kEndOfTags = 0;
 constexpr std::uint16_t kDissector = 12;

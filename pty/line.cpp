@@ -109,8 +109,8 @@ void Line::host_purged() {
 
 void Line::discard_unsent() {
   if (state_.input.empty()) return;
-  // The first character is on the wire, and characters of the previous host are not this host's to take
-  // back.
+  // The first character is already on the wire, and this host cannot take back characters of the previous
+  // one.
   const std::uint64_t first = std::max(state_.input.front().number, state_.last_departed);
   state_.input.remove_if([&](const TimedByte& character) { return character.number > first; });
   const SimTime end = state_.input.back().end;
@@ -285,7 +285,7 @@ void Line::deliver_characters() {
   for (std::size_t left = quiet_characters(); left > 0; --left) {
     report_character();
     if (left > 1 && is_of_lump() && is_departed() == begun_departed) {
-      if (!state_.is_received) ++state_.edge.counters.bytes_unheard;  // as the character before
+      if (!state_.is_received) ++state_.edge.counters.bytes_unheard;  // like the character before it
       continue;
     }
     if (!state_.input.empty()) begin_character(state_.input.front().start);
@@ -301,7 +301,7 @@ std::size_t Line::quiet_characters() const {
   return min;
 }
 
-/// Delivers a character that has wholly arrived. If another one waits, it begins at that moment.
+/// Delivers a character that has completely arrived. If another one is waiting, it begins at that moment.
 void Line::deliver_character() {
   report_character();
   if (!state_.input.empty()) begin_character(state_.input.front().start);

@@ -1,12 +1,12 @@
 // Models one serial line. Bytes from the host reach every station after their time on the wire; bytes from
-// the stations reach the host the same way. Pure: it knows simulated time, never a descriptor.
+// the stations reach the host the same way. Pure: it uses simulated time, and no descriptors.
 //
 //   host bytes --receive()--> [wire, one character at a time] --> every Station
 //   Station::run() --transmit()--> [wire] --> output() --> host
 //
 // The two directions do not disturb each other. A station never receives another station's reply as bytes,
-// only the notice that one is being sent: a reply to "write single register" is the same frame as its
-// request, and slaves that answer every address would take each other's replies for requests without end.
+// only a notice that one is being sent: a reply to "write single register" is the same frame as its request,
+// and slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
 #include <cstddef>
@@ -26,21 +26,21 @@
 namespace understudy::pty {
 
 enum class Timing : std::uint8_t {
-  wire,     // every character takes its time at the line's baud
-  instant,  // characters arrive and leave the moment they are given
+  wire,     // every character takes as long as the line's baud rate requires
+  instant,  // characters arrive and leave immediately
 };
 
 struct LineOptions {
   LineSettings settings;
   Timing timing = Timing::wire;
-  bool echoes = false;           // the host hears its own bytes
+  bool echoes = false;           // the host receives its own bytes
   bool enforce_settings = true;  // a station is deaf to a host with other settings
   std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // a speed that differs by less counts as equal
 };
 
 /// An adapter between the wire and the host. The default one passes everything on at once.
 struct Adapter {
-  bool echoes = false;  // the host receives its own bytes, even if the line's options do not say so
+  bool echoes = false;  // the host receives its own bytes, even without the line's option
   // The host receives bytes at multiples of this time, or when the buffer is full; 0: at once.
   SimTime latency{0};
   bool is_unplugged = false;  // no byte passes in either direction
@@ -59,12 +59,12 @@ struct LineCounters {
 class Line {
  public:
   static constexpr std::size_t kInputCapacity = 1024;   // bytes by which the host may be ahead of the wire
-  static constexpr std::size_t kOutputCapacity = 4096;  // bytes that wait for the host
+  static constexpr std::size_t kOutputCapacity = 4096;  // bytes waiting for the host
   static constexpr std::size_t kLump = 62;  // bytes that an adapter holds back, as USB adapters do
 
-  /// `warn` receives one clear sentence for each problem that the user should know (a deaf station, a host
-  /// that set no speed, a collision), once each time a host opens the line. Throws std::invalid_argument if
-  /// the baud rate is not positive.
+  /// `warn` receives one clear sentence for each problem that the user should know about (a deaf station, a
+  /// host that has set no speed, a collision), once each time a host opens the line. Throws
+  /// std::invalid_argument if the baud rate is not positive.
   Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn);
 
   /// Adds a station, which must outlive the line. Stations receive and transmit in the order of attaching.
@@ -88,7 +88,7 @@ class Line {
   /// bounded.
   std::size_t room() const;
   /// Takes bytes that the host has written, seen at `now`. The first begins at `now`, or when the character
-  /// before it is over. Bytes beyond room() are ignored.
+  /// before it has ended. Bytes beyond room() are ignored.
   void receive(std::span<const std::uint8_t> bytes, SimTime now);
   /// Like receive(), for bytes of a host that has since closed the line.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
@@ -110,7 +110,7 @@ class Line {
   /// received before the next host opens; replies to them are dropped and never reach the next host.
   void host_closed();
 
-  /// Returns the bytes that have wholly left the wire towards the host and were not taken yet: at most
+  /// Returns the bytes that have completely left the wire towards the host and were not taken yet: at most
   /// kOutputCapacity. Further ones are discarded and counted.
   std::span<const std::uint8_t> output() const;
   void take_output(std::size_t count);
@@ -134,16 +134,16 @@ class Line {
   /// The settings last reported for the host that has the line open, if there are any.
   const std::optional<HostSettings>& settings_of_host() const { return state_.host_settings; }
 
-  // --- its state: its stations and observers have states of their own -------------------------
-  // Characters sent back to back, timed from the first one, so that rounding does not add up.
+  // --- its state: its stations and observers have their own states ----------------------------
+  // Characters sent back to back. They are timed from the first one, so that rounding errors do not add up.
   struct Burst {
     SimTime start{0};
     std::int64_t count = 0;
     SimTime end{0};
   };
-  /// What the line knows about a station.
+  /// The line's data about a station.
   struct Member {
-    bool is_deaf = false;                 // to the character on the wire
+    bool is_deaf = false;                 // the station does not receive the character on the wire
     Burst transmission;                   // its last transmission
     std::optional<SimTime> noticed_at{};  // when the other stations notice that it transmits
   };
@@ -154,18 +154,18 @@ class Line {
   };
   /// The part of the state that depends on the reader of the line; it never affects the stations.
   struct Edge {
-    Queue<std::uint8_t> output;  // waits to be taken
+    Queue<std::uint8_t> output;  // waiting to be taken
     LineCounters counters;
-    SimTime clock{0};  // of the last event
+    SimTime clock{0};  // the time of the last event
   };
   struct State {
     LineSettings settings;
     std::vector<Member> members;  // in the order of attaching
     bool is_host_open = true;
     std::optional<HostSettings> host_settings;
-    std::optional<HostSettings> departed_settings;  // of the previous host
-    std::uint64_t last_departed = 0;                // number of its last character
-    std::uint64_t last_received = 0;                // number of the last character of all
+    std::optional<HostSettings> departed_settings;  // the settings of the previous host
+    std::uint64_t last_departed = 0;                // the number of that host's last character
+    std::uint64_t last_received = 0;                // the number of the last character of any host
     Warned warned;
     Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
@@ -227,7 +227,7 @@ class Line {
   std::vector<Station*> stations_;
   std::vector<LineObserver*> observers_;
   State state_;
-  // A cache of the next event. Most stations wait for nothing, but are asked in every tick.
+  // A cache of the next event. Most stations wait for nothing, but would be asked in every tick.
   mutable std::optional<Event> next_{};
   std::size_t notices_ = 0;  // members whose noticed_at is set
 };

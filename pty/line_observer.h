@@ -15,7 +15,7 @@ namespace understudy::pty {
 /// One transmission of a station.
 struct Transmission {
   std::span<const std::uint8_t> bytes;  // as the station sent them
-  SimTime start{0};                     // of the first character
+  SimTime start{0};                     // the start of the first character
   bool has_collided = false;            // overlapped another station's transmission
   bool is_for_host = true;              // false: no host has the line open
 };
@@ -46,7 +46,7 @@ class LineObserver {
   /// The clock is stopped, and no more characters have arrived for a while (Station::on_idle).
   virtual void on_nothing_more() = 0;
 
-  // These report the host's actions when they happen. `bytes` are those that the line takes.
+  // These functions report the host's actions when they happen. `bytes` are those that the line takes.
   virtual void on_receive(std::span<const std::uint8_t> /*bytes*/, bool /*is_departed*/) {}
   virtual void on_host_opened() {}
   virtual void on_host_closed() {}

@@ -21,7 +21,7 @@ constexpr bool is_within(int host_baud, int baud, std::int64_t tolerance_ppm) {
   return off * 1'000'000 <= tolerance_ppm * baud;
 }
 
-/// Hosts may set mark and space; no device has them.
+/// Hosts may set mark and space, but no device supports them.
 enum class Parity : std::uint8_t { none, odd, even, mark, space };
 
 struct LineSettings {
@@ -45,8 +45,8 @@ struct LineSettings {
 /// Returns text such as "19200 8E1".
 std::string to_string(const LineSettings& settings);
 
-/// The known settings of a host. A Linux pty drops parity and forces 8 data bits; these two are then unknown
-/// and assumed to match. RFC 2217 transmits them.
+/// The settings of a host, as far as they are known. A Linux pty drops parity and forces 8 data bits; these
+/// two are then unknown and assumed to match. RFC 2217 transmits them.
 struct HostSettings {
   int baud = 0;
   int stop_bits = 1;

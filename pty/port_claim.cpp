@@ -42,7 +42,7 @@ Descriptor open_lock(const std::string& path) {
   }
 }
 
-/// The previous owner may have removed the file since it was opened.
+/// Returns true if the file still exists: the previous owner may have removed it since it was opened.
 bool is_still_there(const Descriptor& lock, const std::string& path) {
   struct stat ours = {};
   struct stat there = {};

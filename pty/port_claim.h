@@ -1,7 +1,7 @@
-// Marks a port's link as served while this process serves it, so that another run does not consider it
-// stale. (It also marks a memory's file.) It is a lock on an empty file next to the link, `.NAME.lock`: only
-// users who may create the link may claim it. The kernel releases the lock with the process; the next
-// process takes over a file that a killed one left.
+// Marks a port's link as served while this process serves it, so that another run does not consider it stale.
+// (It also marks a memory's file.) It is a lock on an empty file next to the link, `.NAME.lock`: only users
+// who may create the link may claim it. The kernel releases the lock when the process ends; the next process
+// takes over a file that a killed one left.
 #pragma once
 
 #include <string>

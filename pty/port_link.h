@@ -14,7 +14,7 @@ struct PortError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the meaning of an error of the kernel, and how many files this program may open if that is the
+/// Returns the text of a kernel error, with the number of files that this program may open if that is the
 /// cause.
 std::string port_trouble(int error);
 

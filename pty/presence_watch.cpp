@@ -39,13 +39,13 @@ void PresenceWatch::collect() {
         for (auto& [number, events] : events_) add(events, event.mask);
         continue;
       }
-      const auto found = events_.find(event.wd);  // the terminal may have gone
+      const auto found = events_.find(event.wd);  // the terminal may have been closed
       if (found != events_.end()) add(found->second, event.mask);
     }
   }
 }
 
-/// Equal neighbours count once, as in the kernel's own queue.
+/// Equal neighbours are merged, as in the kernel's own queue.
 void PresenceWatch::add(std::vector<std::uint32_t>& events, std::uint32_t mask) {
   if (!events.empty() && events.back() == mask) return;
   if (events.size() >= kMaxEvents) {

@@ -18,7 +18,7 @@ class PresenceWatch {
   PresenceWatch(const PresenceWatch&) = delete;
   PresenceWatch& operator=(const PresenceWatch&) = delete;
 
-  /// Readable when collect() has something to do; -1 if there is no instance.
+  /// Returns a descriptor that is readable when collect() has something to do; -1: there is no instance.
   int descriptor() const { return instance_.get(); }
   /// Puts the kernel's events into the queues of the terminals that they are about.
   void collect();

@@ -50,7 +50,8 @@ bool is_hung_up(int master) {
   return (entry.revents & POLLHUP) != 0;
 }
 
-/// Returns true if bytes wait to be read. The check also makes the kernel deliver bytes that it still holds.
+/// Returns true if bytes are waiting to be read. The check also makes the kernel deliver bytes that it still
+/// holds.
 bool is_readable(int descriptor) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
   while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
@@ -82,7 +83,7 @@ bool is_claimed(int slave) {
 struct Pair {
   Descriptor master;
   Descriptor slave;
-  std::string path;  // of the slave
+  std::string path;  // the slave's path
 };
 
 /// Opens a pair that is raw and at the resting speed.
@@ -140,7 +141,7 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
   // Closes and opens up to now are processed before these bytes are answered. Otherwise the answer to a new
   // host could be dropped as one that the old host did not read.
   follow_presence(false);
-  if (!is_present_) follow_presence(true);  // its opening was missed, or it has closed already
+  if (!is_present_) follow_presence(true);  // its opening was missed, or it has already closed
   // A host that writes has done its tcsetattr, so the line can be prepared for its next one without
   // disturbing it.
   if (const auto taken = take_host_settings(master_.get())) settings_ = taken;
@@ -193,7 +194,7 @@ void PseudoTerminal::follow_presence(bool must_poll) {
   bool is_second_poll = was_in_doubt && !has_closed && is_in_doubt();
   const bool is_abandoned = !slave_ && is_hung_up(master_.get());
   must_poll = must_poll || has_closed || is_second_poll || is_abandoned;
-  // Hosts may open and close while we look. If they keep doing so, the watch stays readable for the next
+  // Hosts may open and close during this check. If they keep doing so, the watch stays readable for the next
   // call.
   constexpr int kMaxPolls = 8;
   for (int poll = 0; must_poll && poll < kMaxPolls; ++poll) {
@@ -268,8 +269,8 @@ void PseudoTerminal::count_departure() {
 // A claim (TIOCEXCL) would lock us out as well, unless we are root; and on a pseudo-terminal, unlike on a
 // real port, it outlives the host that made it. So it is removed before we close, and restored if a host is
 // still there. One case is left: a host that opens and claims the line at exactly that moment. Then we have
-// no slave until it closes; this works, because the host's own keeps the master from hanging up. If that
-// host goes without releasing its claim, the kernel never lets anyone in again: recover().
+// no slave until it closes; this works, because the host's own keeps the master from hanging up. If that host
+// closes without releasing its claim, the kernel never lets anyone in again: recover().
 
 /// Returns true if a host has the line open. If not, the line is then at rest and unclaimed.
 bool PseudoTerminal::is_somebody_there() {

@@ -1,5 +1,5 @@
-// A pseudo-terminal that stands for a serial port. It has a stable link, loses no bytes when hosts come and
-// go, and lets a host ask for even parity again and again (docs/wire.md, "What a Linux pty does").
+// A pseudo-terminal that acts as a serial port. It has a stable link, loses no bytes when hosts come and go,
+// and lets a host ask for even parity again and again (docs/wire.md, "What a Linux pty does").
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace understudy::pty {
 
-/// To serve it: when data_descriptor() is readable, call read(); before using the bytes, call
+/// To serve the terminal: when data_descriptor() is readable, call read(); before using the bytes, call
 /// poll_presence() if has_presence_news(), and poll_host_settings(). When the watch has collected something,
 /// call poll_presence() if has_presence_news().
 class PseudoTerminal {
@@ -46,7 +46,7 @@ class PseudoTerminal {
   /// thread of its own, and a host in simulated time must not wake up before it has them.
   void settle_writes() { settles_writes_ = true; }
 
-  /// The changes since the last call. Both may be true; host_present() tells which came last.
+  /// The changes since the last call. Both may be true; host_present() shows which came last.
   struct Presence {
     bool opened = false;  // a host came (the line was free before)
     // The last host closed it: bytes that it had not read are dropped, bytes that it wrote are not.
@@ -60,16 +60,17 @@ class PseudoTerminal {
   /// watch left). Then call poll_presence() from time to time. It finds out who is there at that moment.
   bool is_watched() const { return static_cast<bool>(place_); }
   bool host_present() const { return is_present_; }
-  /// A host seems to have gone, but the kernel has not released the line yet: call poll_presence() again in
-  /// a few milliseconds. This is rare. Without that call the doubt lasts until the next host.
+  /// Returns true if a host seems to have left, but the kernel has not released the line yet. Call
+  /// poll_presence() again in a few milliseconds. This is rare. Without that call, the doubt lasts until the
+  /// next host comes.
   bool is_in_doubt() const { return is_present_ && opens_ == 0; }
 
-  /// Neither a host nor this process has the line open, because the kernel refused to let us reopen it.
-  /// data_descriptor() then reports a hang-up without end: do not watch it, but call recover() from time to
-  /// time.
+  /// Returns true if neither a host nor this process has the line open, because the kernel did not let us
+  /// reopen it. data_descriptor() then reports a hang-up without end: do not watch it, but call recover()
+  /// from time to time.
   bool is_lost() const { return !slave_ && !is_present_; }
-  /// This process has the slave open. If it does not, a host's descriptor keeps the line up: then call
-  /// poll_presence() when data_descriptor() is readable, because the line may have hung up.
+  /// Returns true if this process has the slave open. If not, a host's descriptor keeps the line up: then
+  /// call poll_presence() when data_descriptor() is readable, because the line may have hung up.
   bool holds_slave() const { return static_cast<bool>(slave_); }
   /// Tries to reopen a lost line. Returns true if it can be used again. If a host's claim (TIOCEXCL) outlives
   /// the host, the link leads to a new pseudo-terminal, and path() and both descriptors have changed. If it
@@ -97,7 +98,7 @@ class PseudoTerminal {
   Descriptor slave_;  // our own descriptor, so that the master never hangs up; rarely none (is_lost(),
                       // holds_slave())
   std::shared_ptr<PresenceWatch> watch_;
-  PresenceWatch::Place place_;  // of the slave
+  PresenceWatch::Place place_;  // the events of the slave
   PortLink link_;
 
   bool settles_writes_ = false;

@@ -6,7 +6,7 @@
 namespace understudy::pty {
 
 enum class ReceiveError : std::uint8_t {
-  bad_checksum,  // as long as a frame, but its checksum is not right
+  bad_checksum,  // as long as a frame, but with a wrong checksum
   overlong,      // longer than any frame
   cut_off,       // ends before its frame is complete
 };

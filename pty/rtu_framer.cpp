@@ -17,9 +17,9 @@ namespace {
 
 // A function's rule for the length of a request.
 struct LengthRule {
-  std::uint8_t fixed = 0;          // all bytes or, with a byte count, the bytes that it does not count
+  std::uint8_t fixed = 0;          // the number of bytes; with a byte count, of those it does not count
   std::uint8_t byte_count_at = 0;  // index of the byte count, 0 if there is none
-  bool may_be_longer = false;      // another length is legal too, and only silence shows it
+  bool may_be_longer = false;      // other lengths are legal too, and only silence shows them
 };
 
 constexpr LengthRule rule_of(std::uint8_t function) {
@@ -47,8 +47,8 @@ constexpr LengthRule rule_of(std::uint8_t function) {
 
 enum class Fit {
   waiting,     // may still become a frame
-  good,        // is one, checksum and all
-  impossible,  // cannot be one
+  good,        // is a frame with a right checksum
+  impossible,  // cannot become a frame
 };
 
 struct Verdict {
@@ -159,15 +159,15 @@ void RtuFramer::give_up_waiting() {
   if (!framing_.strict && state_.undecided < used() && !state_.character_under_way) end_of_silence();
 }
 
-/// Advances the candidate while the received characters decide about it.
+/// Advances the candidate as far as the received characters allow a decision.
 void RtuFramer::search() {
   Index& candidate = state_.candidate;
   while (candidate < used()) {
     const Verdict verdict = judge(bytes(candidate, used()), candidate > state_.undecided);
     if (verdict.fit == Fit::waiting) {
       state_.search_again_at = verdict.size;
-      // Characters before a candidate are kept in case all of them are one frame of unknown length. Once
-      // they are too long for one, they are given up; this bounds the undecided part.
+      // Characters before a candidate are kept because all of them may be one frame of unknown length. When
+      // they are too long for that, they are given up, which bounds the undecided part.
       if (undecided().size > kRtuMaxFrame) give_up_as_overlong(candidate);
       return;
     }
@@ -195,7 +195,8 @@ void RtuFramer::give_up_as_overlong(Index index) {
   forget_served();
 }
 
-/// The characters since the last pause may be a frame, if the host has given up the one before.
+/// Checks whether the characters since the last pause are a frame, in case the host has given up the one
+/// before.
 void RtuFramer::check_after_pause() {
   if (state_.resumed <= state_.undecided) return;  // decided in the meantime
   const Verdict verdict = judge(bytes(state_.resumed, used()), true);
@@ -205,11 +206,12 @@ void RtuFramer::check_after_pause() {
   decide_up_to(end);
 }
 
-/// Acts when patience is over: takes the good frames out of the undecided part and drops the rest, except the
-/// beginning of a frame, which may wait longer.
+/// Called when patience is over: takes the good frames out of the undecided part and drops the rest, except
+/// the beginning of a frame, which may wait longer.
 void RtuFramer::end_of_silence() {
   const bool is_pause = !framing_.strict && !state_.is_paused && framing_.rest_patience > usual_patience();
-  // The whole is tried first: a shorter frame inside a good one of unknown length is its data.
+  // The whole part is tried first: a shorter frame inside a good frame of unknown length is data of that
+  // frame.
   const bool is_whole =
       take_whole(state_.undecided) || (state_.resumed > state_.undecided && take_whole(state_.resumed));
   const bool has_good_ones = !is_whole && !framing_.strict && take_good_ones();
@@ -306,8 +308,8 @@ void RtuFramer::forget_served() {
   state_.resumed = state_.resumed > served ? static_cast<Index>(state_.resumed - served) : Index{0};
 }
 
-/// Makes room by dropping the oldest ready frame, of a station that does not take its frames. (There is one:
-/// the undecided part alone always fits.)
+/// Makes room by dropping the oldest ready frame, because the station does not take its frames. (There is
+/// one, since the undecided part alone always fits.)
 void RtuFramer::drop_oldest() {
   state_.dropped += state_.ready.front().size;
   state_.ready.pop_front();
@@ -331,7 +333,7 @@ std::size_t RtuFramer::quiet_characters() const {
   const bool may_be_due =
       framing_.strict || patience() == SimTime{0} || !state_.ready.empty() || state_.resumed != 0;
   if (may_be_due || used() == kCapacity) return 0;
-  // Only frames that search() finds are due at once.
+  // Only frames that search() finds are due immediately.
   const auto received = static_cast<std::size_t>(used() - state_.candidate);
   const std::size_t undecided_still =
       state_.search_again_at > received ? state_.search_again_at - received : 1;

@@ -8,7 +8,7 @@
 //    that follows noise, even without a gap, is found. A frame inside another good one is data, never a
 //    request: a candidate that may still become complete covers the frames in it.
 //    That silence is a pause. An incomplete frame whose first bytes determine its length waits for its rest
-//    after a pause, for `rest_patience` in all. If a good frame begins after the pause in the meantime, it
+//    after a pause, for `rest_patience` in total. If a good frame begins after the pause in the meantime, it
 //    replaces the incomplete one.
 #pragma once
 
@@ -51,8 +51,9 @@ class RtuFramer {
  public:
   explicit RtuFramer(RtuFraming framing = {});
 
-  /// A character has begun (Station::on_start_bit): the silence is over before the character is. Optional:
-  /// without it only the times of push() count, and take() may end a frame in the middle of a character.
+  /// Reports that a character has begun (Station::on_start_bit), which ends a silence before the character
+  /// has arrived. Optional: without it only the times of push() count, and take() may end a frame in the
+  /// middle the index of a character.
   void start_bit(SimTime at);
   /// Adds a character. Characters must be added in chronological order.
   void push(const TimedByte& byte);
@@ -95,8 +96,8 @@ class RtuFramer {
   std::optional<ReceiveError> take_error();
   bool has_errors() const { return error_count_ != 0; }
 
-  /// Counts noise, wrong checksums, cut frames, and characters that did not fit, but not those that reset()
-  /// forgot.
+  /// Returns the number of dropped bytes: noise, wrong checksums, cut frames, and characters that did not
+  /// fit, but not those that reset() forgot.
   std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state: the framing is not in it ---------------------------------------------------
@@ -112,7 +113,7 @@ class RtuFramer {
   /// Received characters. Their values are contiguous, as the checksum needs them.
   struct Characters {
     Queue<std::uint8_t> values;
-    Queue<Mark> marks;  // of the same characters
+    Queue<Mark> marks;  // the marks of the same characters
 
     std::size_t size() const { return values.size(); }
     Character operator[](std::size_t number) const {

@@ -113,7 +113,7 @@ struct StateOf<pty::RtuFramer::Character> {
       FieldList{field<&Value::value>(), field<&Value::end>(), field<&Value::number>()};
 };
 
-/// Saves the characters one after another, each as a whole.
+/// Saves the characters one after another, each with all its fields.
 template <>
 struct StateOf<pty::RtuFramer::Characters> {
   using Value = pty::RtuFramer::Characters;

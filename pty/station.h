@@ -1,4 +1,5 @@
-// The interface of a station on a line: it receives bytes, is woken when it asked to be, and may transmit.
+// The interface of a station on a line: it receives bytes, is woken when it has asked for it, and may
+// transmit.
 #pragma once
 
 #include <cstddef>
@@ -45,15 +46,15 @@ class Station {
   /// that ends the gap is received a whole character time after its start bit.
   virtual void on_start_bit(SimTime /*at*/) {}
 
-  /// A character from the host has wholly arrived.
+  /// A character from the host has completely arrived.
   virtual void receive(const TimedByte& byte) = 0;
 
   /// Returns how many more characters may arrive at one moment before due() has to be asked again: the
   /// station may be due at that moment only after the last of them. 0: it may be due already.
   virtual std::size_t quiet_characters() const { return 0; }
 
-  /// Another station has begun to transmit: its first character is over. Called once for a transmission; its
-  /// bytes are not delivered (see Line).
+  /// Another station has begun to transmit: its first character has ended. Called once for a transmission;
+  /// its bytes are not delivered (see Line).
   virtual void on_other_station() = 0;
 
   /// The clock is stopped, and no more characters have arrived for a while: the station abandons an

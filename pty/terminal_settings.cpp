@@ -1,6 +1,6 @@
 #include "pty/terminal_settings.h"
 
-// This is a file of its own because the kernel's structure, which holds any speed as a number, cannot be
+// This is a separate file because the kernel's structure, which holds any speed as a number, cannot be
 // included together with libc's <termios.h>.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>

@@ -1,5 +1,5 @@
-// Reads and writes the terminal settings on the host's side of a pseudo-terminal. Every call works through
-// either descriptor of the pair: the master speaks for the slave.
+// Reads and writes the terminal settings on the host's side of a pseudo-terminal. Every call accepts either
+// descriptor of the pair: the master represents the slave.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ inline constexpr int kRestingBaud = 50;
 /// Returns the settings of the host, or nothing while the line is at the resting speed.
 std::optional<HostSettings> host_settings_of(int descriptor);
 
-/// Like host_settings_of(), and restores the resting speed. It also turns echo off, which would send every
+/// Like host_settings_of(), and restores the resting speed. It also turns off echo, which would send every
 /// reply back as a request. Other settings are up to the host (a text host may want whole lines).
 std::optional<HostSettings> take_host_settings(int descriptor);
 

@@ -29,8 +29,8 @@ struct TextLineRules {
 /// The effect of one character.
 struct ReceivedText {
   enum class What : std::uint8_t { line, overlong, escape, hold, release } what = What::line;
-  std::string text{};                // of a line, without its end
-  SimTime end{0};                    // when its last character was over
+  std::string text{};                // the text of a line, without its end
+  SimTime end{0};                    // when its last character ended
   std::uint64_t last_character = 0;  // its number
 };
 
@@ -53,7 +53,7 @@ class TextLines {
   /// The limit for the length of a line, whatever the rules allow.
   static constexpr std::size_t kLongest = 4096;
   struct State {
-    std::string text;          // of the line that has begun
+    std::string text;          // the text of the line that has begun
     bool is_overlong = false;  // it is longer than allowed; its text is dropped
     bool was_return = false;   // the last character was a CR
     std::uint64_t dropped = 0;

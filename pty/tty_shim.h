@@ -3,8 +3,8 @@
 
 namespace understudy::shim {
 
-/// Returns the number of the pseudo-terminal whose slave `descriptor` is, or -1 if it is not one. The number
-/// does not say whether the emulator owns it.
+/// Returns the number of the pseudo-terminal that has `descriptor` as its slave, or -1 if there is none. The
+/// number does not show whether the emulator owns the terminal.
 int pseudo_terminal_number(int descriptor);
 
 }  // namespace understudy::shim

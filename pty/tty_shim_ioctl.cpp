@@ -24,7 +24,7 @@ constexpr int kTheirLines = TIOCM_CTS | TIOCM_DSR | TIOCM_CD;
 
 /// The state of one pseudo-terminal. It is all zero at first, so that unused ones cost no memory.
 struct Remembered {
-  int lowered;  // of kOwnLines
+  int lowered;  // the lines among kOwnLines that are off
   int serial_flags;
   serial_rs485 rs485;
 };
@@ -99,7 +99,7 @@ extern "C" __attribute__((visibility("default"))) int ioctl(int fd, unsigned lon
   va_end(arguments);
   const int error = errno;
   const int result = call_real(fd, request, argument);
-  // The kernel is asked first: a real port, or a feature of a later kernel, answers for itself.
+  // The kernel is asked first: a real port, or a feature of a later kernel, gives its own answer.
   if (result != -1 || (errno != ENOTTY && errno != EINVAL) || !is_offered(request)) return result;
   const int number = understudy::shim::pseudo_terminal_number(fd);
   if (number < 0 || number >= kMaxPseudoTerminals) return result;

@@ -1,4 +1,4 @@
-// Some operations are forbidden only to ordinary users, so they cannot be tested as root.
+// Makes root an ordinary user for a while, because some operations are forbidden only to ordinary users.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-// Reports whether a sanitizer checks the product under test. Tests ask at run time, because they may have
-// been compiled without one.
+// Reports whether a sanitizer checks the product under test. Tests check at run time, because they may have
+// been compiled without a sanitizer.
 #pragma once
 
 extern "C" {
-__attribute__((weak)) void __asan_init();  // NOLINT: their own names
+__attribute__((weak)) void __asan_init();  // NOLINT: the sanitizer's names
 __attribute__((weak)) void __tsan_init();
 }
 
@@ -12,8 +12,8 @@ namespace understudy {
 inline bool is_address_sanitized() { return &__asan_init != nullptr; }
 inline bool is_sanitized() { return is_address_sanitized() || &__tsan_init != nullptr; }
 
-/// Returns how much of something a test does: a fraction of `all` under a sanitizer, which makes each case a
-/// dozen times as slow.
+/// Returns how many cases a test runs: a fraction of `all` under a sanitizer, because each case is then a
+/// dozen times slower.
 template <class Count>
 Count fewer_if_sanitized(Count all, Count divisor) {
   return is_sanitized() ? all / divisor : all;

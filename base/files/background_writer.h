@@ -27,15 +27,15 @@ class BackgroundWriter {
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
   enum class Outcome { taken, full, failed };
-  /// Takes a whole piece, or none of it. Never waits for the disk.
+  /// Takes the whole piece, or none of it. Never waits for the disk.
   Outcome append(std::string_view piece);
 
   /// Waits until every piece taken is written, then ends the thread. Nothing may be appended afterwards.
   void finish();
 
   struct Failure {
-    int error = 0;           // of the write that failed; 0 if none has
-    std::uint64_t lost = 0;  // pieces that were taken but, because of it, not written
+    int error = 0;           // the error of the write that failed; 0: none has
+    std::uint64_t lost = 0;  // pieces that were taken, but not written because of the error
   };
   Failure failure() const;
 
@@ -56,7 +56,7 @@ class BackgroundWriter {
   Pieces waiting_;
   Failure failure_;
   bool is_finishing_ = false;
-  std::thread thread_;  // declared last: it uses all the others
+  std::thread thread_;  // declared last, because it uses all other members
 };
 
 }  // namespace understudy

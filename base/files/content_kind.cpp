@@ -13,7 +13,7 @@ namespace understudy {
 namespace {
 
 /// A file is of a kind if it begins with one of the marks and contains `within` in its head. White space in
-/// JSON is ignored, so a tool may have reformatted it.
+/// JSON is ignored, because a tool may have reformatted the file.
 struct KindRow {
   ContentKind kind;
   std::string_view name;
@@ -52,13 +52,13 @@ struct NamedKind {
   ContentKind kind;
   std::string_view name;
 };
-/// Kinds that people write. play::kind_of_file() tells the YAML ones apart more carefully.
+/// Kinds that people write. play::kind_of_file() distinguishes the YAML ones more carefully.
 constexpr std::array kYamlKinds{
     NamedKind{ContentKind::bench, "a bench"},
     NamedKind{ContentKind::scenario, "a scenario"},
     NamedKind{ContentKind::steps, "a file of steps"},
     NamedKind{ContentKind::model, "a model file"},
-    // These two kinds cannot be recognised by how they begin.
+    // These two kinds cannot be recognized from their beginning.
     NamedKind{ContentKind::registers, "a list of registers"},
     NamedKind{ContentKind::program, "a program"},
 };
@@ -90,7 +90,7 @@ bool is_torn(const KindRow& row, std::string_view head) {
   return written_first.starts_with(text) || (!row.marks[1].empty() && row.marks[1].starts_with(text));
 }
 
-/// Decides by the keys at the left margin.
+/// Decides by the top-level keys.
 ContentKind yaml_kind_of(std::string_view head) {
   bool is_ours = false;
   bool has_lines = false;

@@ -14,23 +14,23 @@ enum class ContentKind : std::uint8_t {
   recording,
   snapshot,
   nv_image,
-  results,   // as lines of JSON
+  results,   // JSON lines
   database,  // SQLite
   capture,
   trace,
   page,
   junit,
-  coverage,  // of programs, in the format of lcov or Cobertura
+  coverage,  // program coverage, in the format of lcov or Cobertura
   picture,
-  photograph,  // of a real controller
-  evidence,    // what real controllers have shown
+  photograph,  // the state of a real controller
+  evidence,    // measurements on real controllers
   certificate,
   // Kinds from here on are files that people write.
   bench,
   scenario,
   steps,
   model,
-  registers,  // a list of them, for `import`
+  registers,  // a list of registers, for `import`
   program,
   other,  // none of the kinds above
 };
@@ -45,15 +45,15 @@ std::string the(ContentKind kind);
 
 /// Returns the kind of a file. `head` is the whole file, or at least its first kSniffedBytes.
 ContentKind content_of(std::string_view head);
-/// Returns true if `head` begins a file of `kind`, or could once more is written: it is empty, or was cut off
-/// within its first words.
+/// Returns true if `head` begins a file of `kind`, or could do so after more is written: it is empty, or was
+/// cut off within its first words.
 bool is_of_kind(ContentKind kind, std::string_view head);
 
 /// Returns why a file of `kind` may not replace a file that begins with `head`: "it is a bench; expected a
 /// recording to replace, or a free path". Empty if it may.
 std::string why_not_replaceable_by(ContentKind kind, std::string_view head);
 
-/// Returns why a reader that wants `expected` refuses a file that begins with `head`: "is a scenario;
+/// Returns why a reader that expects `expected` refuses a file that begins with `head`: "is a scenario;
 /// expected a recording". Empty if the file is of that kind or of an unknown one.
 std::string is_another_kind(std::string_view head, ContentKind expected);
 

@@ -18,12 +18,12 @@ struct FileClaim {
   std::string what;
 };
 
-/// Two paths name the same file however they are spelled, through symbolic and hard links, and even before
-/// the file exists. Special files are ignored: they have no content to lose. For a link or a socket that the
-/// program creates, the path itself is claimed, because replacing it would cut off its users.
+/// Recognizes paths of the same file however they are spelled, through symbolic and hard links, and even
+/// before the file exists. Special files are ignored: they have no content to lose. For a link or a socket
+/// that the program creates, the path itself is claimed, because replacing it would cut off its users.
 class FileClaims {
  public:
-  /// Claims a file. If it is claimed already, the first claim stays.
+  /// Claims a file. If it is already claimed, the first claim stays.
   void add(const FileClaim& claim);
   void add(const std::vector<FileClaim>& claims);
   void add_place(const FileClaim& claim);

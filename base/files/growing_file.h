@@ -45,7 +45,7 @@ class GrowingFile {
   OutputFile file_;
   bool has_begun_ = false;
   std::string failure_;
-  std::unique_ptr<BackgroundWriter> writer_;  // declared last: its thread uses the others
+  std::unique_ptr<BackgroundWriter> writer_;  // declared last, because its thread uses the other members
 };
 
 }  // namespace understudy

@@ -29,7 +29,7 @@ constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// Decides as Linux does with fs.protected_symlinks and fs.protected_regular switched on.
+/// Decides as Linux does if fs.protected_symlinks and fs.protected_regular are set.
 bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   struct stat folder = {};
   if (::stat(place.parent_path().c_str(), &folder) != 0) return true;
@@ -43,7 +43,7 @@ void require_own_path(const fs::path& absolute) {
   for (const fs::path& step : absolute.parent_path()) {
     so_far /= step;
     struct stat status = {};
-    if (::lstat(so_far.c_str(), &status) != 0) return;  // opening it reports the error
+    if (::lstat(so_far.c_str(), &status) != 0) return;  // opening the file reports the error
     if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(so_far, status)) {
       throw OutputError(
           so_far.string() +
@@ -85,7 +85,7 @@ std::string output_target(const std::string& path) {
     require_own_path(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
-      if (errno == ENOENT) return target.string();  // free; if a folder is missing, opening it says so
+      if (errno == ENOENT) return target.string();  // free; if a folder is missing, open() fails
       throw OutputError(error_text(errno));
     }
     if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {
@@ -101,7 +101,7 @@ std::string output_target(const std::string& path) {
       throw OutputError(
           "it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces all
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces it all
     if (error) throw OutputError(error.message());
   }
   throw OutputError(error_text(ELOOP));

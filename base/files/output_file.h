@@ -40,8 +40,8 @@ std::string output_target(const std::string& path);
 /// Throws OutputError if the file at `target` is of another kind or cannot be read.
 void require_replaceable(const std::string& target, ContentKind kind);
 
-/// Returns why contents of that kind cannot be written to `path`. Empty if they can be, or if that shows only
-/// when the file is opened.
+/// Returns why contents of that kind cannot be written to `path`. Empty if they can, or if only opening the
+/// file shows that.
 std::string why_not_writable(const std::string& path, ContentKind kind);
 
 /// The owner, group and permissions of a file.
@@ -52,8 +52,8 @@ struct FileAccess {
 };
 /// Returns nothing if the file does not exist.
 std::optional<FileAccess> access_of(const std::string& path);
-/// Gives the file these permissions as far as this process is allowed to: an ordinary user cannot change the
-/// owner.
+/// Gives the file this owner, group and mode as far as this process is allowed to: an ordinary user cannot
+/// change the owner.
 void give_access(int file, const FileAccess& access);
 void give_access(const std::string& path, const FileAccess& access);
 /// Creates an empty file with these permissions. Errors are ignored: opening the file later reports them.
@@ -66,7 +66,7 @@ class OutputFile {
 
   /// Returns the path with links resolved.
   const std::string& target() const { return target_; }
-  /// Replaces the old content by these first bytes. Throws OutputError if they cannot be written, so that a
+  /// Replaces the old content with these first bytes. Throws OutputError if they cannot be written, so that a
   /// run does not start with an output that fails.
   void begin(std::string_view head);
   /// Keeps the first `size` bytes of the old content and continues after them. Throws OutputError.

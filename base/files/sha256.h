@@ -1,4 +1,4 @@
-// The digest SHA-256 (FIPS 180-4) of bytes. It identifies a file beyond doubt.
+// The digest SHA-256 (FIPS 180-4) of bytes. It identifies the contents of a file.
 #pragma once
 
 #include <array>

@@ -59,7 +59,8 @@ std::string name_beside(const std::string& path, int number) {
   return path + std::string(kBeside) + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
-/// Returns true if `rest`, the part of a name after that of the file, is one of name_beside()'s.
+/// Returns true if `rest`, the part of a name after the file's own name, is an ending that name_beside()
+/// makes.
 bool is_beside(std::string_view rest) {
   if (!rest.starts_with(kBeside)) return false;
   rest.remove_prefix(kBeside.size());
@@ -73,14 +74,14 @@ bool is_still_there(int file, const std::string& name) {
          opened.st_dev == named.st_dev;
 }
 
-/// Creates a new file next to `path`, locked while it is written: an unlocked one was left by a writer that
-/// was killed.
+/// Creates a new file next to `path`, which is locked while it is written. An unlocked one was left by a
+/// writer that was killed.
 Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) {
   for (int number = 1;; ++number) {
     name = name_beside(path, number);
     Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
     if (!file && errno != EEXIST) return file;
-    // Another process that cleans up may have removed it before it was locked.
+    // Another process may have cleaned up the file before it was locked.
     if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && is_still_there(file.get(), name)) return file;
   }
 }
@@ -156,7 +157,7 @@ std::string replace_text_file(const std::string& path, const std::string& conten
   }
   const std::optional<FileAccess> access = access_of(target);
   std::string beside;
-  // Until it has the mode of the file it replaces, no other user may read it.
+  // No other user may read the new file until it has the mode of the file that it replaces.
   const Descriptor file = make_beside(target, access ? 0600 : 0644, beside);
   if (!file) return std::strerror(errno);
   int error = write_whole(file.get(), contents);

@@ -25,13 +25,13 @@ FileText read_text_of(int descriptor);
 /// Returns why a file of any length cannot be read piece by piece. Empty if it is a readable regular file.
 std::string why_not_readable(const std::string& path);
 
-/// Returns the first bytes of a file, enough to tell its kind (content_kind.h), or an empty string if it
+/// Returns the first bytes of a file, enough to recognize its kind (content_kind.h), or an empty string if it
 /// cannot be read.
 std::string head_of_file(const std::string& path);
 
-/// Replaces a file as a whole: writes a new file next to it, and renames that once its bytes are on the disk.
-/// base/files/output_file.h has the rules about what may be replaced. The new file gets the owner and mode
-/// of the old one. Returns an empty string, or the reason of a failure; the old file then stays.
+/// Replaces a file as a whole: writes a new file next to it, and renames the new file when its bytes are on
+/// the disk. base/files/output_file.h has the rules about what may be replaced. The new file gets the owner
+/// and mode of the old one. Returns an empty string, or the reason for a failure; the old file then stays.
 std::string replace_text_file(const std::string& path, const std::string& contents, ContentKind kind);
 
 /// Removes temporary files of replace_text_file() that killed processes left next to `path`: files of that

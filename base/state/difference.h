@@ -54,8 +54,8 @@ concept Row = requires(const T& value) {
   value[0];
 };
 
-/// Compares the elements of two rows by their numbers. `name` gives an element's name; if it is null, the
-/// number is used.
+/// Compares the elements of two sequences by their numbers. `name` gives an element's name; if it is null,
+/// the number is used.
 template <class T>
 std::string difference_in_row(const T& a, const T& b, const std::string& path, ElementName name) {
   const auto size_a = static_cast<std::size_t>(a.size());

@@ -14,7 +14,8 @@
 // The list is used to save, restore and hash a value (state_bytes.h) and to compare two (difference.h). Its
 // order is the order of the bytes. It does not compile if a member is missing from the list. A class with
 // private fields makes its StateOf a friend. That StateOf names them in a structured binding (they cannot be
-// counted otherwise) and has two counts: `members` of all members, and `apart` of those that are not state.
+// counted otherwise) and has two counts: `members`, the number of all members, and `apart`, the number of
+// those that are not state.
 //
 // A type whose saved form differs from its form in memory (a ring, a program kept as its lines) has a pair of
 // functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have `fields`,
@@ -53,7 +54,7 @@ constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, Elemen
 }
 
 /// Returns the name of a member, without the underscore of a private one. Both compilers print it at the end
-/// of what they call this function: "[with auto member = &Timer::since; ...]", "[member = &Timer::since]".
+/// of this function's name: "[with auto member = &Timer::since; ...]", "[member = &Timer::since]".
 template <auto member>
 constexpr std::string_view member_name() {
   constexpr std::string_view text = __PRETTY_FUNCTION__;
@@ -93,8 +94,8 @@ inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
 
-/// Stands for a member of any type when members are counted. An optional member is initialised from its
-/// content type.
+/// Can initialize a member of any type, to count members. An optional member is initialised from its content
+/// type.
 struct AnyMember {
   template <class T>
   requires(!kIsOptional<T>) operator T&() const {  // NOLINT(google-explicit-constructor)

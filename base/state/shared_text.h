@@ -1,6 +1,6 @@
-// An immutable text that its copies share; it can only be replaced by another. It suits large texts that are
-// rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for a
-// number.
+// An immutable text that is shared by its copies and can only be replaced as a whole. It suits large texts
+// that are rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for
+// a number.
 #pragma once
 
 #include <cstdint>

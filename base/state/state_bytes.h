@@ -56,7 +56,7 @@ inline constexpr bool kIsTime = false;
 template <class Count, class Period>
 inline constexpr bool kIsTime<std::chrono::duration<Count, Period>> = true;
 
-/// True for types that have write and read functions of their own.
+/// True for types that have their own write and read functions.
 template <class T>
 concept SavesItself = requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
   StateOf<T>::write(value, writer);
@@ -94,7 +94,7 @@ inline constexpr bool kIsAsInMemory =
 
 class StateWriter {
  public:
-  /// If `shared` is given, shared texts are put there, and the bytes hold only their digests.
+  /// If `shared` is given, shared texts are stored in it, and the bytes hold only their digests.
   explicit StateWriter(std::size_t expected_bytes = 0, SharedTexts* shared = nullptr) : shared_(shared) {
     bytes_.resize(expected_bytes);
   }
@@ -152,7 +152,7 @@ class StateWriter {
     }
   }
 
-  // Has spare room at its end, because thousands of numbers are appended one by one.
+  // This has spare room at its end, because thousands of numbers are appended one by one.
   std::vector<std::byte> bytes_;
   std::size_t size_ = 0;
   SharedTexts* shared_ = nullptr;
@@ -255,7 +255,7 @@ struct StateHeldBy {
   static const auto& reported(const T& value) { return value.save(); }
 };
 
-// These functions are outside their classes so that a library can instantiate those of its big types once
+// These functions are outside their classes so that a library can instantiate them once for its big types
 // (motion/state_fields.h).
 
 template <class T>

@@ -13,7 +13,7 @@ struct TextLine {
   int number = 1;
 };
 
-/// A text to loop over line by line. A line ending at the end of the text does not begin another line.
+/// A text to loop over line by line. A final line ending does not begin another line.
 class TextLines {
  public:
   explicit constexpr TextLines(std::string_view text) : text_(text) {}

@@ -1,5 +1,5 @@
-// Limits how many mistakes of one text are reported. A text full of mistakes, such as a log given as a
-// program, reports only the first.
+// Limits how many mistakes of one text are reported. For a text full of mistakes, such as a log that is
+// loaded as a program, only the first ones are reported.
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@ namespace understudy {
 /// frame can neither break a message in two nor control the terminal.
 std::string one_line(std::string_view text);
 
-/// Like one_line(), in quotes, and cut if it is long.
+/// Like one_line(), but in quotes, and cut short if it is long.
 std::string quoted(std::string_view text);
 // An overload for std::string is needed: if <iomanip> is included, std::quoted would match better.
 inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }

@@ -16,7 +16,7 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   std::int64_t value = 0;
   const char* const end = text.data() + text.size();
   const auto [parsed, error] = std::from_chars(text.data(), end, value, hexadecimal ? 16 : 10);
-  // from_chars would take a second sign.
+  // from_chars would accept a second sign.
   if (text.starts_with("-") || error != std::errc{} || parsed != end) return std::nullopt;
   return negative ? -value : value;
 }

@@ -36,8 +36,8 @@ bool begins_with(std::string_view text, std::string_view small_beginning) {
                     [](char a, char b) { return a == small(b); });
 }
 
-/// Returns a bit for each letter of the word. Several letters share a bit, so words may look more alike than
-/// they are, never less.
+/// Returns a bit for each letter of the word. Several letters share a bit, so words may look more similar
+/// than they are, but never less.
 std::uint64_t letters_of(std::string_view word) {
   std::uint64_t letters = 0;
   for (const char letter : word) letters |= std::uint64_t{1} << (small(letter) & 63);
@@ -52,8 +52,9 @@ std::size_t min_distance(std::string_view a, std::uint64_t letters_of_a, std::st
                    static_cast<std::size_t>(std::popcount(letters_of_b & ~letters_of_a))});
 }
 
-/// Returns Levenshtein's distance, with a swap of two neighbours as one change, or `limit` if it is at least
-/// that. Each row is for a prefix of `b`, each cell of a row for a prefix of `a`, which is in lower case.
+/// Returns the Levenshtein distance, with a swap of two neighbours as one change, or `limit` if the distance
+/// is at least that. Each row is for a prefix of `b`, each cell of a row for a prefix of `a`, which is in
+/// lower case.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
   // A common prefix or suffix does not change the distance, and related names often share one.
   const auto is_same = [](char x, char y) { return x == small(y); };

@@ -1,4 +1,4 @@
-// Writes the suggestion in a message about an unknown word.
+// Makes the suggestion in a message about an unknown word.
 #pragma once
 
 #include <optional>

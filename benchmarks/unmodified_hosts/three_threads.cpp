@@ -1,4 +1,4 @@
-// A host of three threads: one polls, one waits for its results, one gives the time.
+// A host with three threads: one polls, one waits for the results, one prints the time.
 #include <fcntl.h>
 #include <poll.h>
 #include <termios.h>

@@ -62,8 +62,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 
 /// The commands and flags on a command line, read in order.
 struct Walk {
-  const CLI::App* command;  // the last command that was named
-  std::string diagnostic;   // describes the first word that is not known
+  const CLI::App* command;  // the last command named so far
+  std::string diagnostic;   // describes the first unknown word
 };
 
 Walk walk(const CLI::App& app, int argc, char** argv) {
@@ -119,7 +119,7 @@ std::string first_left(const CLI::App& app, int argc, char** argv) {
   return left.empty() ? "" : left.front();
 }
 
-/// Returns the expected value as its help describes it, for use within a sentence.
+/// Returns the option's expected value as its help describes it, for use within a sentence.
 std::string expected_of(const CLI::App& command, const std::string& option) {
   const CLI::Option* const found = command.get_option_no_throw(option);
   std::string help = found == nullptr ? "" : found->get_description();
@@ -146,7 +146,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     if (what == "A subcommand") return where + "expected a command" + std::string(kListed);
     return where + what + " is missing; expected " + expected_of(*found.command, what);
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // its name is that of the command
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)  // its name is the command's
     return where + quoted(first_left(app, argc, argv)) + " is one argument too many; expected nothing more";
   if (kind == "ExcludesError") {
     const std::string first = before(message, " excludes ");

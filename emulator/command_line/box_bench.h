@@ -1,4 +1,4 @@
-// The input of `compare` and `calibrate`: captures, and a bench that stands for the controller.
+// The input of `compare` and `calibrate`: captures, and a bench that represents the controller.
 #pragma once
 
 #include <cstddef>
@@ -30,13 +30,13 @@ struct BoxBench {
 /// Throws UsageError and FileError.
 BoxBench read_box_bench(ModelList models, const std::string& command, const CompareArguments& arguments);
 
-/// Takes out requests to stations that the bench does not have. Masters of Modbus TCP call a device that is
-/// alone at its address 0 or 255.
+/// Drops requests to stations that the bench does not have. Modbus TCP masters use station 0 or 255 for a
+/// device that is alone at its address.
 class StationFilter {
  public:
   explicit StationFilter(const BoxBench& box);
 
-  /// Returns true if the exchange is to be judged. It may change the number of its station.
+  /// Returns true if the exchange should be judged. It may change the exchange's station number.
   bool keeps(box::Exchange& exchange, box::CaptureNotes& notes);
   /// Throws FileError if nothing was kept.
   void require_some(const std::string& path) const;
@@ -49,25 +49,25 @@ class StationFilter {
   bool has_kept_ = false;
 };
 
-/// Reads a capture, or takes a recording as one, and hands on its exchanges with stations of the bench. It
-/// holds no more than one of them, unless it is a recording. Throws FileError.
+/// Reads a capture, or a recording as one, and passes on its exchanges with stations of the bench. Holds only
+/// one exchange at a time, except for recordings. Throws FileError.
 using ExchangeTaker = std::function<void(box::Exchange exchange, const box::CaptureNotes& notes,
                                          const std::vector<box::InputChange>& inputs)>;
 box::CaptureNotes take_exchanges(ModelList models, const BoxBench& box, const std::string& path,
                                  const ExchangeTaker& take);
-/// Like take_exchanges(), with a capture that another program writes, until it is interrupted.
+/// Like take_exchanges(), for a capture that another program is writing. Ends when the user interrupts it.
 box::CaptureNotes follow_exchanges(const BoxBench& box, const std::string& path, const ExchangeTaker& take);
 std::vector<box::Capture> read_captures(ModelList models, const BoxBench& box,
                                         const std::vector<std::string>& paths);
 
-/// Returns what the reader of a capture has noticed, in sentences: "3 bytes belong to no frame".
+/// Returns the remarks of a capture's reader as sentences: "3 bytes belong to no frame".
 std::vector<std::string> notes_text(const box::CaptureNotes& notes);
 
-/// Returns why a command that wants another kind of file refuses one that begins with `head`, like
-/// is_another_kind(). It knows captures of other programs, too, and says which command takes them.
+/// Returns why a command that expects another kind of file refuses one that begins with `head`, like
+/// is_another_kind(). Also recognizes captures of other programs, and names the command that accepts them.
 std::string why_no_capture_is_expected(std::string_view head, ContentKind expected);
 
-/// Returns "feeder" and the id of a choice: "feeder.exceptions".
+/// Returns the name of a device and the id of a choice: "feeder.exceptions".
 std::string choice_text(const world::Bench& bench, std::size_t device, const std::string& id);
 
 }  // namespace understudy::emulator::command_line

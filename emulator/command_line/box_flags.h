@@ -1,4 +1,5 @@
-// The flags of commands for real controllers. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of commands for real controllers. Only flags.cpp includes this file, because CLI11 is slow to
+// compile.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,7 +9,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// The flags of a stage with real controllers, but for its ports.
+/// Adds the flags of a stage with real controllers, except its ports.
 inline void add_stage_flags(CLI::App& command, OnArguments& on) {
   command.add_flag("--allow-writes", on.allow_writes,
                    "Also send what only changes values [nothing but reads is sent]");
@@ -56,7 +57,7 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
   command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
 }
 
-/// The name of the controller in evidence.
+/// Adds the flag for the controller's name in evidence.
 inline void add_box_name(CLI::App& command, std::string& box) {
   command.add_option("--box", box, "A name for the controller, such as its serial number, for the evidence")
       ->check(kNotEmpty);

@@ -1,4 +1,4 @@
-// Implements `calibrate`: finds the options of choices with which a bench replies as in captures.
+// Implements `calibrate`: finds the options of choices with which a bench replies as the captures show.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -27,7 +27,7 @@ namespace {
 
 using RowState = box::RowFinding::State;
 
-/// Returns the word of box::kEvidenceStates.
+/// Returns the state's word from box::kEvidenceStates.
 std::string name_of_state(RowState state) {
   switch (state) {
     case RowState::measured: return "measured";
@@ -48,7 +48,7 @@ std::string choice_name(const world::Bench& bench, box::ChoiceKey key) {
   return choice_text(bench, key.device, box::choice_id(bench, key));
 }
 
-/// Returns "feeder.exceptions: no_answer, feeder.move_begins: one_tick_in".
+/// Returns a text such as "feeder.exceptions: no_answer, feeder.move_begins: one_tick_in".
 std::string hypothesis_text(const world::Bench& bench, const box::Hypothesis& hypothesis) {
   std::string text;
   for (const auto& [key, option] : hypothesis)
@@ -114,7 +114,7 @@ void print_unexplained_calibration(const BoxBench& box, const std::vector<box::C
   std::printf("next: run understudy compare with these options to see the difference\n");
 }
 
-/// Prints what the devices of a bench need, as parts of a bench file.
+/// Prints the choices that the devices of a bench need, as parts of a bench file.
 void print_measured_choices(const BoxBench& box, const box::Calibration& found) {
   std::size_t device = box.bench.devices.size();
   for (const bool is_firmware : {true, false}) {

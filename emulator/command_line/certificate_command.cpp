@@ -1,5 +1,5 @@
-// Implements `certificate`: says what was measured on a real controller, in a form that can be signed, and
-// verifies that.
+// Implements `certificate`: states in a form that can be signed what was measured on a real controller, and
+// verifies such statements.
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -30,11 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".json";
-// Exit codes of the shell below.
+// Exit codes of the shell script below.
 constexpr int kUnknownKey = 10;
 constexpr int kNoProgram = 127;
-/// The words are the file of signers, the signature and the signed file. A signature names no signer, so that
-/// is looked up by its key.
+/// The arguments are the file of signers, the signature and the signed file. A signature does not name its
+/// signer, so the signer is looked up by the key.
 constexpr const char* kVerify =
     "verify() { command -v ssh-keygen >/dev/null || exit 127; "
     R"(who=$(ssh-keygen -Y find-principals -s "$2" -f "$1" 2>&1) || { echo "$who"; exit 10; }; )"
@@ -77,7 +77,7 @@ int make_certificate(ModelList models, const CertificateArguments& arguments) {
   return kExitWell;
 }
 
-/// Returns the file beside the certificate, or where it was when the evidence was made.
+/// Returns the path of the file: next to the certificate, or where it was when the evidence was made.
 std::string find_certified(const std::string& certificate, const std::string& file) {
   const fs::path folder = fs::path(certificate).parent_path();
   std::error_code error;
@@ -86,7 +86,8 @@ std::string find_certified(const std::string& certificate, const std::string& fi
   return file;
 }
 
-/// Prints what became of the files whose digests are in the certificate. Returns false if one has changed.
+/// Checks the files whose digests are in the certificate, and prints the results. Returns false if one has
+/// changed.
 bool verify_files(const std::vector<box::CertifiedFile>& files, const std::string& certificate) {
   bool is_good = true;
   for (const box::CertifiedFile& file : files) {

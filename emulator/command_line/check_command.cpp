@@ -161,7 +161,7 @@ CheckedFile checked_program(const Model& model, const std::string& file, const D
   return checked;
 }
 
-/// Checks one file after the other. In the text format it prints the findings of each at once.
+/// Checks one file after another. In the text format, prints the findings of each file immediately.
 int check_all(const CheckArguments& arguments, std::span<const std::string_view> endings,
               const std::function<CheckedFile(const std::string&)>& check) {
   const auto format = finding_format_called(arguments.format);

@@ -8,12 +8,12 @@
 namespace understudy::emulator::command_line {
 
 /// Returns the control socket of the daemon: the given one, that of the bench or port, the one in
-/// UNDERSTUDY_CONTROL, or the only one. If there are several, it does not guess but throws UsageError, which
-/// names them all. Throws ControlError if there is none.
+/// UNDERSTUDY_CONTROL, or the only one. If there are several, throws UsageError, which names them all,
+/// instead of guessing. Throws ControlError if there is none.
 std::string choose_daemon(const WhichDaemon& which);
 
-/// Prints a line for each running daemon of this user: its socket, bench and ports. As JSON it is one
-/// object.
+/// Prints a line for each running daemon of this user: its socket, bench and ports. With `as_json`, prints
+/// one object.
 int list_daemons(bool as_json);
 
 }  // namespace understudy::emulator::command_line

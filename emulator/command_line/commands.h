@@ -1,4 +1,4 @@
-// Declares the commands of `understudy`, independent of flag parsing. Each returns the exit code. Commands
+// Declares the commands of `understudy`, independently of flag parsing. Each returns the exit code. Commands
 // that need models receive their list.
 #pragma once
 
@@ -32,7 +32,7 @@ struct DescribeArguments {
   std::string model;
   std::string what;
   std::string format = "table";
-  std::vector<std::string> evidence;  // files of `calibrate`: what was measured
+  std::vector<std::string> evidence;  // files written by `calibrate`, with what was measured
 };
 int describe_model(ModelList models, const DescribeArguments& arguments);
 
@@ -86,7 +86,7 @@ struct OnArguments {
   std::string rig;       // a command
   bool ask = false;
   bool plan = false;
-  std::string timeout = "300ms";  // of a reply
+  std::string timeout = "300ms";  // the longest wait for a reply
 };
 
 struct RunArguments {
@@ -94,7 +94,7 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;  // folders for one file of each scenario
+  std::string record;  // folders that receive one file for each scenario
   std::string trace;
   std::vector<std::string> trace_also;
   std::string capture;
@@ -105,16 +105,16 @@ struct RunArguments {
   std::string shard;        // "1/4"
   std::optional<std::uint64_t> seed;
   std::string filter;                // a pattern for names, or a case's identity
-  std::vector<std::string> results;  // files of rows
+  std::vector<std::string> results;  // files with a row for each case
   bool resume = false;
-  std::string failures;                // the folder for recordings of failures; empty: below /tmp
+  std::string failures;                // the folder for failures' recordings; empty: below /tmp
   std::string coverage;                // a file
   std::optional<double> coverage_min;  // per cent of the lines
   std::string device_coverage;         // a file
   HostArguments host{};                // a command that runs beside each scenario, if it has words
   OnArguments on{};
-  bool dialogue = false;  // take further steps from standard input
-  std::string timeout;    // a duration: for the command
+  bool dialogue = false;  // takes further steps from standard input
+  std::string timeout;    // a duration: the limit for the command
   std::string version;    // the version of this program
 };
 int run_scenarios(ModelList models, const RunArguments& arguments);
@@ -128,7 +128,7 @@ struct ProbeArguments {
   std::optional<int> station{};
   OnArguments on{};  // its `on` is not used
 };
-/// Plays the proofs of choices with a real controller.
+/// Plays the proofs of choices on a real controller.
 int probe_box(ModelList models, const ProbeArguments& arguments);
 
 struct HuntArguments {
@@ -138,14 +138,14 @@ struct HuntArguments {
   std::uint64_t seed = 0;
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
-  bool unguided = false;    // draws every course without regard to earlier ones
-  bool plan = false;        // prints what may happen, and plays nothing
+  bool unguided = false;    // draws every course independently of earlier ones
+  bool plan = false;        // prints the disturbances, and plays nothing
   std::string corpus;       // a file of courses to start from
-  std::string coverage;     // files, as for `run`
+  std::string coverage;     // a file, as for `run`
   std::string device_coverage;
-  std::string found = "found";  // the folder for what is found
+  std::string found = "found";  // the folder for findings
   HostArguments host;           // the command beside which courses are played; none if it has no words
-  std::string timeout = "10s";  // of real time, for the command in a course
+  std::string timeout = "10s";  // real time, the limit for the command in a course
   std::string version;          // the version of this program
 };
 /// Searches for disturbances that break a scenario.
@@ -158,7 +158,7 @@ struct ExecArguments {
   std::string with;                      // the file of a scenario that runs beside the command
   std::string save_below;                // the folder in which the scenario may save; empty: its own
   bool has_speed = false;                // --speed was given
-  std::optional<int> repeat;             // how often it runs; its recordings are compared
+  std::optional<int> repeat;             // how often the command runs; recordings are compared
   std::string timeout;                   // a duration
   RunArguments cases;                    // the flags for a scenario whose cases run beside the command
 };
@@ -178,14 +178,14 @@ int add_coverage(const CoverageArguments& arguments);
 
 struct ReplayArguments {
   std::string recording;
-  std::string until;  // a duration; `control` serves from there
+  std::string until;  // a duration; `control` serves from that moment
   std::string control;
   std::string trace;  // files, like those of `serve` and `run`
   std::vector<std::string> trace_also;
   std::string capture;
   std::string report;
   std::optional<int> page;  // the port of the recording's live page; 0: any
-  bool serve = false;       // serve the whole recording, without a page
+  bool serve = false;       // serves the whole recording, without a page
   std::string story;        // an HTML file that holds the recording's page
   std::string picture;      // an SVG or PNG file that shows a panel of that page
   std::string panel;        // which one; empty: the timeline
@@ -201,7 +201,7 @@ struct PlotArguments {
 };
 int plot_trace(const PlotArguments& arguments);
 
-/// Selects one of the running daemons. If all fields are empty, it is the only one.
+/// Selects one of the running daemons. If all fields are empty, selects the only one.
 struct WhichDaemon {
   std::string socket;  // its control socket
   std::string bench;   // the bench file that it serves
@@ -296,14 +296,14 @@ int take_photograph(ModelList models, const PhotographArguments& arguments);
 struct CompareArguments {
   std::vector<std::string> captures;  // files
   std::string bench;
-  std::string line;  // of the bench and of the captures; empty: the only one
-  std::string from;  // an NV image: what the controller held at the beginning
+  std::string line;  // the line in the bench and the captures; empty: the only one
+  std::string from;  // an NV image with the controller's memory at the beginning
   std::string tolerance = "1ms";
   bool power_up = false;        // the captures begin at power-up
-  std::string pattern;          // of a log's lines; empty: one of those that are known
+  std::string pattern;          // the format of a log's lines; empty: a built-in one
   std::string every;            // the time between requests, for a log without times
-  std::string inputs;           // a file: what the inputs did
-  double sample_rate = 0;       // for a log that counts samples; 0: not given
+  std::string inputs;           // a file with the inputs' levels
+  double sample_rate = 0;       // samples per second, for a log that counts samples; 0: not given
   std::string format = "text";  // text, json, sarif or github
   std::string report;           // the file for the page; empty: no page
   bool follow = false;          // a capture that grows
@@ -316,20 +316,20 @@ struct CalibrateArguments {
   CompareArguments compare;
   std::string output;    // a file; empty: none
   std::string box;       // a name for the controller, for the evidence
-  bool choices = false;  // print the choices for a bench file
+  bool choices = false;  // prints the choices for a bench file
 };
-/// Finds the options of choices with which a bench replies as in captures.
+/// Finds the options of choices with which a bench replies as the captures show.
 int calibrate_bench(ModelList models, const CalibrateArguments& arguments);
 
 struct CertificateArguments {
-  std::vector<std::string> evidence;  // files; with `verify`, one certificate
+  std::vector<std::string> evidence;  // files; with `verify`: one certificate
   std::string output;                 // FILE.json; the page is FILE.html next to it
   std::string box;                    // a name for the controller, if the evidence has none
   bool verify = false;
   std::string signers;  // a file of keys that are trusted, as ssh-keygen takes it
   std::string version;  // the version of this program
 };
-/// Makes a certificate of evidence, or verifies one.
+/// Makes a certificate for evidence, or verifies one.
 int certify_evidence(ModelList models, const CertificateArguments& arguments);
 
 struct TapArguments {
@@ -352,7 +352,7 @@ int assemble_program(ModelList models, const ProgramTextArguments& arguments);
 int disassemble_program(ModelList models, const ProgramTextArguments& arguments);
 
 struct CheckArguments {
-  std::vector<std::string> files;  // files, and folders with files
+  std::vector<std::string> files;  // files and folders
   std::string save_below;          // the folder in which scenarios may save; empty: their own
   ProgramTextArguments programs;   // if it names a model, the files are programs for that model
   std::string format = "text";     // text, json, sarif or github
@@ -368,7 +368,7 @@ int write_first_files(ModelList models, const InitArguments& arguments);
 struct ImportArguments {
   std::string list;    // a file
   std::string output;  // the model file; empty: next to the list
-  std::string name;    // the model's name; empty: as the list
+  std::string name;    // the model's name; empty: that of the list
   // Settings for reading the list; empty: guessed.
   std::string columns;
   std::string addresses;

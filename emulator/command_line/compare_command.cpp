@@ -33,12 +33,13 @@ namespace {
 
 using Report = nlohmann::ordered_json;
 
-/// The exchanges that are held to look for drift and for options, from the beginning of a capture.
+/// The number of exchanges from the beginning of a capture that are held, to search for drift and options.
 constexpr std::size_t kHeld = 100'000;
-/// Judges of a capture that grows tell soon what is late.
+/// With few samples, late replies in a growing capture are found soon.
 constexpr std::size_t kFollowedSamples = 20;
 
-/// Judges exchanges as they are read. It holds one of them, since a reply is awaited until the next request.
+/// Judges exchanges as they are read. It holds one exchange, because a reply may arrive until the next
+/// request.
 class StreamedComparison {
  public:
   StreamedComparison(const BoxBench& box, const box::CompareSettings& settings, std::size_t delay_samples,
@@ -70,7 +71,7 @@ class StreamedComparison {
   std::optional<box::Exchange> waiting_;
 };
 
-/// Returns the section of the manual for the first register that a request asks for.
+/// Returns the manual's section on the first register of a request.
 std::string section_of(const BoxBench& box, const box::Exchange& exchange) {
   const auto asked = box::addressed_by(exchange.request);
   const box::ReplayBench replay(box.bench, box.settings.line);
@@ -133,7 +134,7 @@ CaptureComparison compare_one(ModelList models, const BoxBench& box, const std::
   return compared;
 }
 
-/// Reports each reply that is neither the same nor undecidable, as soon as the next request comes.
+/// Reports each reply that is neither the same nor undecidable, as soon as the next request arrives.
 int follow_capture(const BoxBench& box, const CompareArguments& arguments) {
   if (arguments.captures.size() != 1)
     throw UsageError("compare: --follow follows one capture; expected one CAPTURE");

@@ -31,9 +31,9 @@ namespace {
 using box::Verdict;
 using Json = nlohmann::ordered_json;
 
-/// More replies that differ tell nothing new, and a large capture may have any number.
+/// More differing replies would add nothing new, and a large capture may have any number of them.
 constexpr std::size_t kMaxListedReplies = 10'000;
-/// Kinds of requests. Lines of text can all be different.
+/// The number of kinds of requests is limited, because lines of text can all be different.
 constexpr std::size_t kMaxRequestKinds = 4096;
 
 std::size_t index_of(Verdict verdict) { return static_cast<std::size_t>(verdict); }
@@ -50,7 +50,7 @@ std::string spaced_name(std::string_view name) {
   return words;
 }
 
-/// Returns "118 same, 1 different".
+/// Returns a text such as "118 same, 1 different".
 std::string verdicts_text(const VerdictCounts& counts) {
   std::string text;
   for (const auto& [verdict, name] : box::kVerdictNames) {
@@ -60,7 +60,8 @@ std::string verdicts_text(const VerdictCounts& counts) {
   return text;
 }
 
-/// Returns a request in words without the values that it writes: the same for all similar requests.
+/// Returns the text of a request without the values that it writes, which is the same for all similar
+/// requests.
 std::string kind_of(const std::string& request) { return request.substr(0, request.find(" = ")); }
 
 std::string clock_text(double drift_ppm) {

@@ -1,4 +1,4 @@
-// What `compare` has found in one capture, for people, programs and CI services.
+// Reports what `compare` has found in one capture, for people, programs and CI services.
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@ namespace understudy::emulator::command_line {
 
 using VerdictCounts = std::array<std::size_t, box::kVerdictNames.size()>;
 
-/// A reply that is not the same.
+/// A reply that differs from the controller's.
 struct JudgedReply {
   std::size_t place = 0;
   SimTime at{0};
   box::Judgement judgement{};
 };
 
-/// An option with which the first difference disappears.
+/// An option that removes the first difference.
 struct Remedy {
   std::string text;      // "feeder.exceptions: no_answer"
-  std::string section;   // of the manual; empty: it is a version of the firmware
-  std::string question;  // that the manual leaves open
+  std::string section;   // the manual's section; empty: it is a version of the firmware
+  std::string question;  // the manual leaves it open
 };
 
 class CaptureComparison {
@@ -42,7 +42,7 @@ class CaptureComparison {
   void add(const box::Exchange& exchange, const box::Judgement& judgement);
 
   bool is_different() const { return first_.has_value(); }
-  /// The number of the exchange of the first difference.
+  /// Returns the number of the exchange with the first difference.
   std::size_t first_number() const { return first_number_; }
   const std::optional<JudgedReply>& first() const { return first_; }
 
@@ -51,13 +51,13 @@ class CaptureComparison {
   static std::string line_of(const std::string& path, const JudgedReply& reply);
   nlohmann::ordered_json json() const;
   CheckedFile findings() const;
-  /// Returns the capture's sections of a page.
+  /// Returns the sections of the page about this capture.
   std::string page_sections() const;
 
   box::CaptureNotes notes{};
-  std::string first_section{};  // of the manual, for the register that differs first
+  std::string first_section{};  // the manual's section on the register that differs first
   std::vector<Remedy> remedies{};
-  bool has_searched = true;  // remedies were looked for
+  bool has_searched = true;  // remedies were searched for
   double drift_ppm = 0;
   SimTime usual_delay{0};
 
@@ -65,8 +65,8 @@ class CaptureComparison {
   std::string path_;
   std::size_t exchanges_ = 0;
   VerdictCounts counts_{};
-  std::map<std::string, VerdictCounts> by_kind_;  // of requests
-  std::vector<JudgedReply> not_same_;             // the first ones
+  std::map<std::string, VerdictCounts> by_kind_;  // counts for each kind of request
+  std::vector<JudgedReply> not_same_;             // only the first ones
   std::size_t left_out_ = 0;
   std::optional<JudgedReply> first_;
   std::size_t first_number_ = 0;

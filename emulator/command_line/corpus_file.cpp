@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Locks the folder of a file, so that hunts with the same corpus write it one after another. The file itself
-/// is replaced each time, so a lock on it would not last. Some network folders have no locks; there the last
-/// writer wins.
+/// is replaced each time, so a lock on it would not last. Some network folders do not support locks; there
+/// the last writer wins.
 Descriptor locked_folder_of(const std::string& path) {
   const fs::path folder = fs::absolute(path).parent_path();
   Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

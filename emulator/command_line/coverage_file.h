@@ -21,17 +21,17 @@
 
 namespace understudy::emulator::command_line {
 
-/// The options of a command. An empty path: no file; no minimum: any coverage is enough.
+/// The options of a command. An empty path: no file; no minimum: any coverage passes.
 struct CoverageWish {
   std::string path;
   std::optional<double> min_percent;
-  std::string version{};  // of this program, for a page
+  std::string version{};  // the version of this program, for a page
 
   bool is_wanted() const { return !path.empty() || min_percent; }
 };
 
-/// Claims the file. Throws UsageError for a path that is not a kind of coverage, and for a minimum that is
-/// not a percentage. `flag` is for messages.
+/// Claims the file. Throws UsageError if the path's ending is not that of a coverage format, or if the
+/// minimum is not a percentage. `flag` is for messages.
 void require_coverage(FileClaims& claims, const CoverageWish& wish, const std::string& flag = "--coverage");
 
 class CoverageFile {
@@ -46,10 +46,10 @@ class CoverageFile {
   void add(const world::CoverageReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer(const play::Scenario& scenario);
-  /// Writes the file, and next to it the listings of programs that have no file of their own. Prints what has
-  /// run. Returns false if that is less than the minimum.
+  /// Writes the file, and next to it the listings of programs that have no file of their own. Prints the
+  /// coverage. Returns false if it is below the minimum.
   bool write(std::FILE* out);
-  /// Returns what was written.
+  /// Returns the content of the written file.
   const world::CoverageReport& report() const { return report_; }
 
  private:
@@ -84,8 +84,8 @@ CoverageWish coverage_of(const RunArguments& arguments);
 /// Both kinds of coverage of a served world.
 class ServedCoverage {
  public:
-  /// Counts from now on, unless the path is empty. So does the control socket, whose clients may restart
-  /// their count. Throws GrowingFileError.
+  /// Counts from now on, unless the path is empty. The control socket counts separately, because its clients
+  /// may restart their count. Throws GrowingFileError.
   ServedCoverage(const ServeArguments& arguments, serve::Daemon& daemon);
 
   /// Writes the requested files.

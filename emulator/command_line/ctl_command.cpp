@@ -28,8 +28,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns "NAME=VALUE" operands as an object. A word that is not a number is passed unchanged, because its
-/// receiver knows what it expects.
+/// Returns "NAME=VALUE" operands as an object. A word that is not a number is passed on unchanged: the daemon
+/// decides what it accepts.
 Json assignments(const ControlArguments& arguments) {
   Json values = Json::object();
   for (const std::string& operand : arguments.operands) {
@@ -113,8 +113,8 @@ std::string listing_of(const std::string& path) {
   if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
   if (const std::string why = is_another_kind(*text, ContentKind::program); !why.empty())
     throw UsageError("ctl program: " + path + ": " + why);
-  // An empty text comes from a failed command before the pipe, or an unsaved file. It must not remove the
-  // program.
+  // An empty text comes from a failed command in front of the pipe, or from an unsaved file. It must not
+  // remove the program.
   if (text->find_first_not_of(" \t\r\n") == std::string::npos)
     throw UsageError("ctl program: " + (path == "-" ? std::string("standard input is") : path + ": is") +
                      " empty; expected a listing");
@@ -265,7 +265,7 @@ void print_status(const Json& status) {
     for (const Json& station : line.at("stations")) {
       const std::string port =
           station.contains("port") ? " (" + station.at("port").get<std::string>() + ")" : "";
-      if (!station.contains("address")) {  // it speaks text: alone on its line, without exceptions
+      if (!station.contains("address")) {  // a text device: alone on its line, without exceptions
         std::printf("  %s%s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
                     port.c_str(), station.at("requests").get<unsigned long long>(),
                     station.at("replies").get<unsigned long long>());
@@ -310,8 +310,8 @@ ProgramMistake mistake_of(const Json& reported, const std::string& before = "") 
           before + one_line(reported.at("what").get<std::string>())};
 }
 
-/// Returns why a request failed. For a refused program it begins with the file's name, where editors look for
-/// it.
+/// Returns why a request failed. For a refused program, the text begins with the file's name, where editors
+/// look for it.
 std::string why_refused(const ControlArguments& arguments, const Json& reply) {
   if (!reply.contains("mistakes") || arguments.operands.size() != 2) return reply.at("error");
   std::vector<ProgramMistake> mistakes;

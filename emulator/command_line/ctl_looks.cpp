@@ -203,7 +203,7 @@ std::string event_text(const Json& event) {
     break;
   }
   if (event.contains("value")) {
-    const Json& value = event.at("value");  // in spans it is a text
+    const Json& value = event.at("value");  // in spans, it is a text
     text += " = " + (value.is_string() ? value.get<std::string>() : value.dump());
   }
   if (event.contains("text")) text += ": " + event.at("text").get<std::string>();

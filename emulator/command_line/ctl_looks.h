@@ -9,7 +9,7 @@
 namespace understudy::emulator::command_line {
 
 /// Adds the words of a command line to the message, which already has its "do". Returns false if the message
-/// is not one of these. Throws UsageError.
+/// is not one of these commands. Throws UsageError.
 bool add_look_words(const ControlArguments& arguments, nlohmann::ordered_json& message);
 
 /// Prints the reply, or returns false if it belongs to another message.

@@ -8,7 +8,7 @@ namespace understudy::emulator::command_line {
 struct ControlWord {
   const char* verb;
   const char* help;
-  const char* operand = nullptr;  // null: the command takes none
+  const char* operand = nullptr;  // null: the command has none
   const char* operand_help = nullptr;
 };
 

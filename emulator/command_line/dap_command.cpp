@@ -35,7 +35,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kMaxRefused = 8;  // at a time; others are closed without a word
+constexpr std::size_t kMaxRefused = 8;  // at a time; further ones are closed without a reply
 constexpr int kLookMs = 500;            // between checks for signals and ended sessions
 
 std::string text_in(const dap::Json& arguments, const char* key) {
@@ -52,7 +52,8 @@ dap::Launched attach(const dap::Json& arguments) {
   return {.link = std::make_unique<dap::SocketLink>(choose_daemon(which))};
 }
 
-/// Returns the command line that serves the bench or recording to debug. A scenario has been recorded before.
+/// Returns the command line that serves the bench or recording to debug. A scenario has already been
+/// recorded.
 std::vector<std::string> words_to_serve(const dap::Json& arguments, std::string recording) {
   const std::string bench = text_in(arguments, "bench");
   const std::string model = text_in(arguments, "model");
@@ -107,7 +108,7 @@ void forget_ended(std::vector<pid_t>& processes) {
   std::erase_if(processes, [](pid_t one) { return waitpid(one, nullptr, WNOHANG) == one; });
 }
 
-/// Serves one client after another. Clients that come meanwhile are refused with a reason.
+/// Serves one client after another. Clients that connect meanwhile are refused with a reason.
 void serve_clients(const std::vector<Descriptor>& listeners) {
   std::vector<pid_t> serving;
   std::vector<pid_t> refusing;

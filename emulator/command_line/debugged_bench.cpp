@@ -60,7 +60,7 @@ QuietProgram::QuietProgram(std::vector<std::string> words)
   pointers.push_back(nullptr);
   pid_ = fork();
   if (pid_ != 0) return;
-  // It ends with this process, however that ends, and its output does not reach the client.
+  // The program ends with this process, however this process ends. Its output must not reach the client.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kExitWell);
   const int nothing = open("/dev/null", O_RDWR);

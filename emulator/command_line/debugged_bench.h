@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Another process of this program. It ends with this process, and its log goes to a file in memory.
+/// Runs this program in another process, which ends with this one and logs to a file in memory.
 class QuietProgram {
  public:
   explicit QuietProgram(std::vector<std::string> words);
@@ -20,9 +20,9 @@ class QuietProgram {
   QuietProgram& operator=(const QuietProgram&) = delete;
 
   void end();
-  /// Returns its exit code, or nothing while it runs.
+  /// Returns the exit code, or nothing while the program runs.
   std::optional<int> ended();
-  /// Returns the complete lines that it has logged since the last call.
+  /// Returns the complete lines that the program has logged since the last call.
   std::string news();
 
  private:
@@ -34,7 +34,7 @@ class QuietProgram {
 /// Runs a scenario to its end or its failure, and keeps the recording.
 class RecordedScenario {
  public:
-  /// Throws dap::RequestError if it cannot be run, or has several cases.
+  /// Throws dap::RequestError if the scenario cannot be run, or has several cases.
   explicit RecordedScenario(const std::string& scenario);
   ~RecordedScenario();
   RecordedScenario(const RecordedScenario&) = delete;
@@ -51,8 +51,8 @@ class RecordedScenario {
 
 class DebuggedBench {
  public:
-  /// Runs `understudy WORDS --control SOCKET`, and returns when it answers there. If it ends before, throws
-  /// dap::RequestError with its message.
+  /// Runs `understudy WORDS --control SOCKET`, and returns when it answers on that socket. If it ends before,
+  /// throws dap::RequestError with its message.
   DebuggedBench(std::vector<std::string> words, const std::string& socket);
 
   void end() { program_.end(); }

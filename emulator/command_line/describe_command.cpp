@@ -52,7 +52,7 @@ int list_models(ModelList models) {
 
 namespace {
 
-/// "bench 3 (1.52), line.txt:12"
+/// Returns a text such as "bench 3 (1.52), line.txt:12".
 std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row) {
   std::string text = (file.box.empty() ? file.path : file.box) + " (" + row.firmware + ")";
   if (!row.capture.empty()) text += ", " + row.capture + ":" + std::to_string(row.place);
@@ -60,8 +60,8 @@ std::string source_of(const box::EvidenceFile& file, const box::EvidenceRow& row
   return text;
 }
 
-/// Adds what was measured to a sheet of choices: the option, and on which controller. If controllers differ,
-/// all are named.
+/// Adds measurements to a sheet of choices: the option, and the controller that has it. If controllers
+/// differ, names all of them.
 void add_evidence(Sheet& sheet, const Model& model, const std::vector<box::EvidenceFile>& files) {
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::ranges::find(sheet.columns, name) - sheet.columns.begin());

@@ -1,5 +1,5 @@
-// The file of `--device-coverage`: the parts of the devices that hosts, programs and faults of all runs have
-// exercised.
+// The file of `--device-coverage`: the parts of the devices that hosts, programs and faults have exercised in
+// all runs.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// Claims the file. Throws UsageError for a path that is not a kind of coverage.
+/// Claims the file. Throws UsageError if the path's ending is not that of a coverage format.
 void require_device_coverage(FileClaims& claims, const std::string& path);
 
 class DeviceCoverageFile {
@@ -28,7 +28,7 @@ class DeviceCoverageFile {
   void add(const world::TouchedReport& report);
   /// Returns an observer that adds the counts of a scenario's run.
   play::ObserverMaker observer();
-  /// Writes the file, if one is wanted, and prints the largest gaps.
+  /// Writes the file, if one was requested, and prints the largest gaps.
   void write(std::FILE* out);
 
  private:

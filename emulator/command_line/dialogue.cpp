@@ -41,7 +41,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kLongestMessage = std::size_t{4} << 20;
 constexpr const char* kMessagePlace = "standard input";
 
-/// Lines of standard input. Waiting for one ends at Ctrl-C.
+/// Reads lines from standard input. Ctrl-C ends the wait for a line.
 class MessageReader {
  public:
   std::optional<std::string> next() {
@@ -94,7 +94,7 @@ class Dialogue {
 
  private:
   Json play(const Json& step) {
-    reading_.steps = 0;  // any number of them may come
+    reading_.steps = 0;  // there is no limit on their number
     reading_.bytes = 0;
     play::Steps steps;
     try {

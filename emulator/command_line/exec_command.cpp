@@ -40,9 +40,9 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr int kExitTimedOut = 124;  // as of timeout(1)
+constexpr int kExitTimedOut = 124;  // as with timeout(1)
 
-/// Puts everything without a given path into a folder that no other process uses.
+/// Puts every file whose path was not given into a folder that no other process uses.
 void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
     for (world::LineSetup& line : serving.bench.lines) {
@@ -75,7 +75,7 @@ int report(const CourseEnd& end, const play::Scenario& scenario) {
   return code;
 }
 
-/// Returns the exit code. If it is not the command's own, reports why.
+/// Returns the exit code. If it is not the command's own, reports the reason.
 int exit_code_of(const ExecArguments& arguments, const CourseEnd& end) {
   const std::string command = one_line(arguments.host.command[0]);
   if (end.has_timed_out) {
@@ -205,7 +205,7 @@ bool is_scenario(const std::string& path) {
   try {
     return play::kind_of_file(path) == play::FileKind::scenario;
   } catch (const FileError&) {
-    return false;  // reading it as a bench says what is wrong
+    return false;  // reading it as a bench reports what is wrong
   }
 }
 

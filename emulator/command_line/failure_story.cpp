@@ -21,7 +21,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-constexpr std::size_t kFramesKept = 1024;  // between two events of the recording
+constexpr std::size_t kFramesKept = 1024;  // the most frames kept between two events of the recording
 
 class FailureWatcher final : public world::ReplayWatcher {
  public:

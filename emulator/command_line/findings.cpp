@@ -41,7 +41,7 @@ std::string place_text(const FilePlace& place) {
   return text + " ";
 }
 
-/// Replaces each letter that is not plain by a code such as %0A.
+/// Replaces each character that is not plain with a code such as %0A.
 template <class IsPlain>
 std::string in_codes(std::string_view text, IsPlain is_plain) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -57,7 +57,7 @@ std::string in_codes(std::string_view text, IsPlain is_plain) {
   return made;
 }
 
-/// Escapes the text of a GitHub `::error`, or one of its properties, so that no letter ends it early.
+/// Escapes the text of a GitHub `::error`, or one of its properties, so that no character ends it early.
 std::string github_text(std::string_view text, bool is_property) {
   const std::string_view special = is_property ? "%\r\n:," : "%\r\n";
   return in_codes(text, [special](char letter) { return special.find(letter) == std::string_view::npos; });

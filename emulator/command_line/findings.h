@@ -1,4 +1,4 @@
-// Formats the findings of `check` in each file for people, editors and CI services.
+// Formats the findings of `check` for people, editors and CI services.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Finding {
 
 struct CheckedFile {
   std::string file;
-  std::string kind;  // "bench", "scenario", "steps", "program" or "file": the kind it was checked as
+  std::string kind;  // "bench", "scenario", "steps", "program" or "file": what it was checked as
   std::string is{};  // "a bench with 1 line and 2 devices"; empty if there are errors
   std::vector<Finding> findings{};
   bool is_wrong() const { return is.empty(); }

@@ -69,7 +69,7 @@ struct CommandLine {
   std::function<int()> chosen;
 
   using Words = std::span<char* const>;
-  /// `among` leaves out all commands whose names are not among these words.
+  /// Leaves out all commands whose names are not in `among`, if it is given.
   CommandLine(ModelList known, std::optional<Words> among) : models(known), among_(among) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
@@ -396,7 +396,7 @@ const std::array<CommandLine::Command, 3> CommandLine::kCommandsOfControl{{
 }  // namespace
 
 std::function<int()> parse_command_line(int argc, char** argv, ModelList models) {
-  // The words of a command that is run are never parsed as our flags.
+  // The words of a command that `exec` runs are never parsed as our flags.
   char** const end = argv + argc;
   char** own_end = end;
   std::vector<std::string> of_others;
@@ -423,7 +423,7 @@ std::function<int()> parse_command_line(int argc, char** argv, ModelList models)
     few->app.exit(version);
     return [] { return int{kExitWell}; };
   } catch (const CLI::ParseError&) {
-    // The complete parser below reports it.
+    // The complete parser below reports the error.
   }
   const auto whole = make_line(std::nullopt);
   int code = kExitBadInput;

@@ -39,13 +39,13 @@ namespace {
 
 constexpr serve::WallTime kUsualTimeout = std::chrono::seconds(60);
 constexpr std::size_t kReportedLines = 5;     // the last lines of the command's output
-constexpr std::size_t kReportedBytes = 2000;  // their bytes, at most
+constexpr std::size_t kReportedBytes = 2000;  // the most bytes of these lines
 
 bool is_command_end(const play::Step& step) {
   return std::holds_alternative<play::CommandEndStep>(step.what);
 }
 
-/// Makes a file for output, and removes its name at once.
+/// Creates a file for output, and removes its name immediately.
 Descriptor make_output(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0600));
   if (!file) throw std::system_error(errno, std::generic_category(), path);
@@ -193,7 +193,7 @@ std::vector<play::ScenarioResult> run_host_case(const play::Scenario& scenario, 
   result.rerun = rerun_of(scenario, arguments);
   const std::string why = why_failed(end, scenario, arguments.timeout);
   if (!why.empty() && (!result.failure || end.has_timed_out)) {
-    // A command that takes too long is not one that fails in the same way as others.
+    // A command that takes too long is a different kind of failure from one that fails by itself.
     result.verdict = play::ScenarioResult::Verdict::failed;
     if (!result.failure) result.failure = play::Failure{.at = result.simulated};
     result.failure->what = why;

@@ -158,7 +158,7 @@ class Course final : public play::HostCommand {
   void on_command_over() {
     is_command_over_ = true;
     const bool is_of_scenario = (setup_.output >= 0 || end_.was_stopped) && !end_.has_timed_out;
-    // No client is left that could advance the time. In host time the scenario itself does.
+    // No client is left that could advance the time. In host time, the scenario itself advances it.
     if ((child_->was_ended() && !is_of_scenario) || (daemon_.pacer().standing() && !host_time_))
       give_up_scenario();
     if (host_time_) host_time_->host_ended();

@@ -21,28 +21,28 @@ namespace understudy::emulator::command_line {
 struct CourseSetup {
   Serving serving;
   HostArguments host;
-  std::string folder;  // a private one
+  std::string folder;  // a private folder
   std::optional<serve::WallTime> timeout{};
   const play::Scenario* scenario = nullptr;  // null: none
-  play::RunOptions run{};                    // of the scenario; its executor is replaced
-  /// A descriptor for the command's output. If it is not ours (-1), the command has no terminal either, and
-  /// it is ended when the scenario has failed or no longer needs it.
+  play::RunOptions run{};                    // the scenario's options; its executor is replaced
+  /// A descriptor for the command's output. -1: it uses ours. Otherwise the command has no terminal either,
+  /// and it is ended when the scenario has failed or no longer needs it.
   int output = -1;
 };
 
 struct CourseEnd {
-  int exit_code = 0;  // of the command
+  int exit_code = 0;  // the command's exit code
   bool has_timed_out = false;
-  bool was_reached = true;       // it has loaded the library that --host-time needs
-  bool was_stopped = false;      // by the scenario's step `host: stop`, so its exit code does not count
+  bool was_reached = true;       // it loaded the library that --host-time needs
+  bool was_stopped = false;      // the scenario's step `host: stop` ended it; its exit code does not count
   bool was_interrupted = false;  // exec itself was told to end
   bool was_given_up = false;
   std::vector<play::ScenarioResult> results{};
 };
 
-/// Throws UsageError if it is not a time.
+/// Throws UsageError if the text is not a duration.
 std::optional<serve::WallTime> parse_timeout(const std::string& text);
-/// Throws UsageError if two lines would have the same variable.
+/// Throws UsageError if two lines would have the same environment variable.
 void require_variables(const world::Bench& bench);
 
 /// Runs a course. Environment variables tell the command its ports. Throws ChildError and the errors of

@@ -47,7 +47,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxGaps = 10;  // in programs, that are printed
+constexpr std::size_t kMaxGaps = 10;  // the most gaps in programs that are printed
 
 /// Returns the end of the hunt, or nothing if only the number of courses ends it.
 std::optional<Clock::time_point> end_of(const HuntArguments& arguments) {
@@ -76,7 +76,7 @@ play::Shard shard_of_hunt(const HuntArguments& arguments) {
                    " is not a part; expected I/N such as 1/4, I up to N");
 }
 
-/// Throws FileError if the file, or one of its plays, has no plan.
+/// Throws FileError if the file, or one of its plays, has no hunt plan.
 void require_plans(const std::string& file, const std::vector<std::string>& without, bool has_any) {
   if (without.empty()) return;
   if (has_any) {
@@ -120,7 +120,7 @@ std::string rate_text(double rate) {
   return figures;
 }
 
-/// Makes the line of progress for a terminal.
+/// Makes the progress line for a terminal.
 class HuntProgress {
  public:
   explicit HuntProgress(const hunt::Hunt& hunt) : hunt_(hunt) {}
@@ -148,7 +148,7 @@ class HuntProgress {
   double last_ = 0;
 };
 
-/// Prints how much had been reached after 16 courses, 48, 112, and so on.
+/// Prints how much had been reached after 16, 48, 112 courses, and so on.
 void print_curve(const hunt::Hunt& hunt) {
   const auto& curve = hunt.curve();
   if (curve.size() < 2 || curve.back().reached == hunt::Counts{}) return;
@@ -167,7 +167,7 @@ void print_curve(const hunt::Hunt& hunt) {
   }
 }
 
-/// Prints gaps, and below those with the same nearest course that course.
+/// Prints gaps. Below each group of gaps with the same nearest course, prints that course.
 void print_gaps(const std::vector<Gap>& gaps) {
   const std::size_t shown = std::min(gaps.size(), kMaxGaps);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -179,7 +179,7 @@ void print_gaps(const std::vector<Gap>& gaps) {
 }
 
 /// Plays the courses that reached something new again, and prints the lines and parts that none of them
-/// reached, with the courses that came nearest.
+/// reached, each with the nearest course.
 void print_unreached(hunt::Hunt& hunt, RunCoverage& coverage) {
   std::optional<CoverageFile> of_course;
   NearestCourses nearest;

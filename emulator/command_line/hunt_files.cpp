@@ -59,7 +59,7 @@ void write_found(const std::string& path, const std::string& text, ContentKind k
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
 }
 
-/// Returns the words of the command as a file has them: nothing in them is a parameter.
+/// Returns the words of the command as they are written to a file, where nothing in them is a parameter.
 std::vector<std::string> without_parameters(std::vector<std::string> words) {
   for (std::string& word : words) {
     for (std::size_t at = 0; (at = word.find("${", at)) != std::string::npos; at += 3) word.insert(at, "$");
@@ -98,7 +98,7 @@ FoundFiles::~FoundFiles() {
   for (const std::string& folder : made_) fs::remove(folder, ignored);
 }
 
-/// Returns the path for a finding, without an ending: the first that no edited file has.
+/// Returns the path for a finding, without an ending: the first one that does not belong to an edited file.
 std::string FoundFiles::path_of(const hunt::Finding& finding) const {
   const std::string name = hunt::name_of_finding(*finding.course_player, finding.shrunk);
   const std::string first = (fs::path(arguments_.found) / name).generic_string();
@@ -137,7 +137,7 @@ void FoundFiles::require_writable(const std::string& path) const {
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
 }
 
-/// Returns the command that runs the scenario of a finding in a command.
+/// Returns the shell command that runs the scenario of a finding together with the host's command.
 std::string FoundFiles::again_with(const hunt::Finding& finding, const std::string& path) const {
   const std::vector<std::string> words = without_parameters(finding.course_player->scenario().command);
   std::string text = "understudy exec " + shell_text({path + kScenarioEnding}) + " --host-time";

@@ -14,25 +14,25 @@ namespace understudy::emulator::command_line {
 
 class HuntHosts;  // hunt_hosts.h
 
-/// Plays a scenario that was written about a finding, as `run` or `exec` does, and writes its recording and
-/// its page beside it. `path` has no ending. Throws GrowingFileError.
+/// Plays the scenario of a finding as `run` or `exec` does, and writes its recording and its page next to it.
+/// `path` has no ending. Throws GrowingFileError.
 std::vector<play::ScenarioResult> show_finding(ModelList models, const HuntArguments& arguments,
                                                const std::string& path,
                                                const std::vector<std::string>& command);
 
-/// Keeps what is found in a folder, and tells people about it.
+/// Stores findings in a folder, and reports them to the user.
 class FoundFiles {
  public:
-  /// Makes the folder, to learn whether it can be written. Throws UsageError and GrowingFileError.
+  /// Creates the folder, to find out whether it can be written. Throws UsageError and GrowingFileError.
   FoundFiles(ModelList models, const HuntArguments& arguments, FileClaims claims);
-  /// Removes the folder if it was made for nothing.
+  /// Removes the folder if it was created but not used.
   ~FoundFiles();
   FoundFiles(const FoundFiles&) = delete;
   FoundFiles& operator=(const FoundFiles&) = delete;
 
-  /// Courses are played beside a command by these processes, which must outlive this object.
+  /// From now on, `hosts` plays courses beside a command. It must outlive this object.
   void show_with(HuntHosts& hosts) { hosts_ = &hosts; }
-  /// Writes and prints a finding. A file that somebody has edited stays. Throws GrowingFileError.
+  /// Writes and prints a finding. Keeps a file that somebody has edited. Throws GrowingFileError.
   void add(const hunt::Finding& finding);
 
  private:
@@ -46,7 +46,7 @@ class FoundFiles {
   const HuntArguments& arguments_;
   FileClaims claims_;
   HuntHosts* hosts_ = nullptr;       // null: no command runs beside courses
-  std::vector<std::string> made_{};  // the folders that did not exist, the innermost first
+  std::vector<std::string> made_{};  // the folders that were created, the innermost first
 };
 
 }  // namespace understudy::emulator::command_line

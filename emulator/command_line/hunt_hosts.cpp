@@ -56,9 +56,9 @@ std::vector<play::ScenarioResult> HuntHosts::play_here(const play::Scenario& sce
   return run_beside(scenario, options, arguments_, "");
 }
 
-/// Makes what a process does. A question is a course, or the path of a scenario that is to be shown.
+/// Makes the work of a process. A question is a course, or the path of a scenario that should be shown.
 Work HuntHosts::make_work() const {
-  setpgid(0, 0);  // Ctrl-C ends the hunt, which ends this process; it must not break a course
+  setpgid(0, 0);  // Ctrl-C must not break a course: it ends the hunt, and that ends this process
   auto stages = std::make_shared<hunt::CoursePlayers>(
       cases_, models_,
       hunt::Player{.here = [this](const play::Scenario& scenario,

@@ -19,22 +19,23 @@
 
 namespace understudy::emulator::command_line {
 
-/// Throws FileError at a step of the scenario, or of what may happen to it, that cannot be played: with a
-/// command, one that uses a line; without one, a `host` step.
+/// Throws FileError at a step of the scenario, or of its possible disturbances, that cannot be played: with a
+/// command, a step that uses a line; without one, a `host` step.
 void require_hunted_steps(const play::Scenario& scenario, ModelList models, bool has_command);
 
-/// Runs a scenario beside its command, in simulated time. An empty `recording`: there is none.
+/// Runs a scenario beside its command, in simulated time. If `recording` is empty, none is made.
 std::vector<play::ScenarioResult> run_beside(const play::Scenario& scenario, play::RunOptions options,
                                              const HuntArguments& arguments, const std::string& recording);
 
 class HuntHosts {
  public:
-  /// Starts the processes. Must be made while this process has one thread. All must outlive it.
+  /// Starts the processes. Must be called while this process has only one thread. All arguments must outlive
+  /// this object.
   HuntHosts(const play::CaseList& cases, ModelList models, const HuntArguments& arguments, int jobs);
 
-  /// Returns a player for one more thread: for as many as there are jobs, and for one more.
+  /// Returns a player for one more thread. There is one for each job, and one more.
   hunt::Player player();
-  /// Plays a scenario that was written about a finding, with its recording and its page.
+  /// Plays the scenario of a finding, with its recording and its page.
   std::vector<play::ScenarioResult> show(const std::string& path, const std::vector<std::string>& command);
 
  private:

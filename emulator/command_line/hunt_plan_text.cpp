@@ -21,9 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using When = play::Disturbance::When;
 
-constexpr std::uint64_t kMaxValues = 1000;  // of a range
+constexpr std::uint64_t kMaxValues = 1000;  // the most values of a range that are listed
 
-/// Converts a step, and counts its drawn values.
+/// Converts a step to JSON, and counts its drawn values.
 Json json_of(const world::YamlFields& node, std::size_t& drawn) {
   if (node.is_map() && (node.has("between") || node.has("one_of"))) return {{"drawn", drawn++}};
   if (node.is_map()) {
@@ -44,14 +44,14 @@ Json values_of(const play::Variation& variation) {
   const std::uint64_t last = variation.places() - 1;
   const std::uint64_t count = variation.has_list() ? last + 1 : std::min(kMaxValues, last + 1);
   for (std::uint64_t i = 0; i < count; ++i) {
-    // The product may not fit; the quotient and the remainder do.
+    // The product may overflow; the quotient and the remainder do not.
     const std::uint64_t gaps = std::max<std::uint64_t>(count - 1, 1);
     values.push_back(variation.value_at(last / gaps * i + last % gaps * i / gaps));
   }
   return values;
 }
 
-/// Returns the word for a moment: the key of a fault that has it, or "here" for a step.
+/// Returns the word for a moment: the key of a fault's trigger, or "here" for a step.
 std::string_view word_of(When when, bool has_end) {
   switch (when) {
     case When::at: return has_end ? "at" : "from";
@@ -69,7 +69,7 @@ std::string plan_text(const play::HuntPlan& plan, const hunt::Undisturbed& undis
     Json one{{"step", json_of(entry.step, drawn)}, {"values", Json::array()}, {"times", entry.max}};
     for (const play::Variation& variation : entry.values) one["values"].push_back(values_of(variation));
     one["moments"] = Json::array();
-    const bool is_gathered = entry.within.count() >= 0;  // such faults wait for a time
+    const bool is_gathered = entry.within.count() >= 0;  // such a fault has a time
     for (const When when : is_gathered ? std::vector{When::at} : entry.ways)
       one["moments"].push_back(word_of(when, entry.has_end));
     const hunt::Window window = hunt::window_of(entry, undisturbed);

@@ -1,4 +1,4 @@
-// Writes what `hunt` of a scenario says as JSON, for programs that draw disturbances themselves.
+// Writes the `hunt` section of a scenario as JSON, for programs that draw disturbances themselves.
 #pragma once
 
 #include <string>

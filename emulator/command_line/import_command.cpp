@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
 
-/// Returns the file's name without its ending, in the letters that a model's name may have.
+/// Returns the file's name without its ending, reduced to the characters that a model's name may have.
 std::string name_of_list(const std::string& path) {
   std::string name;
   for (const char c : fs::path(path).stem().string()) name += is_of_name(c) ? c : '-';

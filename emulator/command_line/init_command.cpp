@@ -1,4 +1,4 @@
-// Implements `init`: writes the files that a new user starts with.
+// Implements `init`: writes files for a new user to start with.
 #include <cstdio>
 #include <filesystem>
 #include <string>

@@ -11,8 +11,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Prints a line without waiting for standard error. If its reader stops, lines are lost, but the devices do
-/// not lose time.
+/// Prints a line without waiting for standard error. If the reader of standard error stops, lines are lost,
+/// but the devices are not delayed.
 void log_line(const std::string& text) {
   std::string line = "understudy: " + one_line(text) + "\n";
   // A writable pipe has room for at least PIPE_BUF bytes. A longer line could block.

@@ -1,5 +1,5 @@
-// The flags of commands that show models, and check files and programs. Included by flags.cpp only: CLI11 is
-// slow to compile.
+// The flags of commands that show models, and check files and programs. Only flags.cpp includes this file,
+// because CLI11 is slow to compile.
 #pragma once
 
 #include <CLI/CLI.hpp>

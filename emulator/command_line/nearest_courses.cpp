@@ -15,7 +15,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Returns the lines of a program: of its listing, or of its file.
+/// Returns the lines of a program, from its listing or its file.
 std::vector<std::string> lines_of(const std::string& path, const world::CoveredFile& file) {
   std::istringstream text(file.listing.empty() ? read_text_file(path).value_or("") : file.listing);
   std::vector<std::string> lines;
@@ -28,7 +28,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
 }
 
-/// Returns what of a line was not reached, in words; empty if all of it was.
+/// Describes the part of a line that was not reached; empty if all of it was reached.
 std::string gap_of(const world::CoveredLine& line) {
   if (line.runs == 0) return "never ran";
   if (!line.decides || (line.yes > 0 && line.no > 0)) return "";
@@ -50,7 +50,7 @@ void NearestCourses::add(const world::CoverageReport& report, std::size_t size, 
   }
 }
 
-/// Returns the nearest course to a line in words.
+/// Describes the course nearest to a line.
 std::string NearestCourses::nearest_to(const std::string& path, int line) const {
   const auto file = by_line_.find(path);
   if (file == by_line_.end()) return "";

@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// A line that never ran, or a decision that never came out one way, in words.
+/// Describes a line that never ran, or a decision that never had one of its outcomes.
 struct Gap {
   std::string text;  // "feeder.lst:3: Counter_Increase 1: never ran"
   std::string
@@ -22,20 +22,20 @@ struct Gap {
 /// that ran the closest line before it. If there are several, it is the one with the fewest disturbances.
 class NearestCourses {
  public:
-  /// Notes what a course has run. `size` is the number of its disturbances; `text` has them in words.
+  /// Records which lines a course has run. `size` is the number of its disturbances; `text` describes them.
   void add(const world::CoverageReport& report, std::size_t size, const std::string& text);
-  /// Returns what was not reached of `all`, in the order of files and lines.
+  /// Returns the gaps in `all`, in the order of files and lines.
   std::vector<Gap> gaps(const world::CoverageReport& all) const;
 
  private:
   struct Nearest {
     std::size_t size = 0;
-    std::size_t number = 0;  // of the course, in courses_
+    std::size_t number = 0;  // the course's index in courses_
   };
   std::string nearest_to(const std::string& path, int line) const;
 
   std::vector<std::string> courses_;
-  std::map<std::string, std::map<int, Nearest>> by_line_;  // that it ran, by path
+  std::map<std::string, std::map<int, Nearest>> by_line_;  // the lines of a course's files, by path
 };
 
 }  // namespace understudy::emulator::command_line

@@ -13,8 +13,8 @@ struct NewFile {
 
 /// Throws FileError if any of the names exists already.
 void require_new(const std::vector<NewFile>& files);
-/// Writes all of them, or none. Nothing is ever overwritten. Throws FileError if one exists already, and
-/// GrowingFileError if it cannot be written.
+/// Writes all files, or none. Never overwrites a file. Throws FileError if one exists already, and
+/// GrowingFileError if one cannot be written.
 void write_all(const std::vector<NewFile>& files);
 
 }  // namespace understudy::emulator::command_line

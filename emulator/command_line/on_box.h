@@ -14,7 +14,8 @@
 namespace understudy::emulator::command_line {
 
 bool is_on_box(const RunArguments& arguments);
-/// A real controller shows no truths: what is recorded of them cannot be made. Throws UsageError.
+/// Throws UsageError for flags that need the inner state of a simulated controller, which a real one does not
+/// show.
 void require_flags_of_boxes(const RunArguments& arguments);
 
 class OnBox {
@@ -24,7 +25,8 @@ class OnBox {
 
   /// Opens the ports of the scenario's lines. Throws UsageError if nothing answers, and WireError.
   std::unique_ptr<play::Executor> make(const play::Scenario& scenario);
-  /// The bench's own devices answer as over the line of a controller. Nothing is sent.
+  /// Returns an executor in which the bench's own devices answer as a controller would over its line. Nothing
+  /// is sent.
   std::unique_ptr<play::Executor> rehearse(const play::Scenario& scenario);
 
  private:

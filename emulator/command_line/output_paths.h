@@ -29,7 +29,7 @@ inline std::string require_capture(FileClaims& claims, const std::string& path) 
   return require_output(claims, "--capture", path);
 }
 
-/// Like require_output(), and checks that `also` is empty if there is no trace.
+/// Like require_output(), but also checks that `also` is empty if there is no trace.
 inline std::string require_trace(FileClaims& claims, const std::string& path,
                                  const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
@@ -46,7 +46,7 @@ inline std::string older_part_of(const std::string& recording) {
   try {
     return output_target(recording) + world::kOlderPart;
   } catch (const OutputError&) {
-    return recording + world::kOlderPart;  // opening it reports the error
+    return recording + world::kOlderPart;  // opening the file reports the error
   }
 }
 

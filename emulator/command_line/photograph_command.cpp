@@ -74,14 +74,14 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
           .has_arrays = arguments.arrays};
 }
 
-/// Checks a path before the controller is asked, which takes seconds. It creates nothing.
+/// Checks a path before the controller is read, which takes seconds. Creates no file.
 void require_writable(FileClaims& claims, const std::string& path, ContentKind kind) {
   require_output(claims, "--output", path);
   if (const std::string why = why_not_writable(path, kind); !why.empty())
     throw UsageError("--output: " + path + " cannot be written: " + why);
 }
 
-/// Shows the progress on a terminal.
+/// Shows progress on a terminal.
 class AskedLine {
  public:
   ~AskedLine() {

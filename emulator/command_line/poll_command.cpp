@@ -1,4 +1,4 @@
-// Implements `understudy poll`, a small Modbus master for quick checks. libmodbus is the host side.
+// Implements `understudy poll`, a small Modbus master for quick checks. It uses libmodbus.
 #include <errno.h>
 #include <modbus/modbus-rtu.h>
 #include <modbus/modbus.h>
@@ -44,8 +44,8 @@ struct Item {
   int bit = -1;
   int bits = 1;  // number of bits from `bit` on
   bool low_word_first = true;
-  RegisterRow order{};     // of a register that has an order of its own
-  bool is_a_half = false;  // half of a 32-bit register
+  RegisterRow order{};     // a register with its own word order
+  bool is_a_half = false;  // the item is half of a 32-bit register
   bool write = false;
   std::int64_t value = 0;
   std::string range{};                   // the register's range, if the table gives one
@@ -75,7 +75,7 @@ Table table_of_function(int function) {
   return kTables[static_cast<std::size_t>(function - 1)];
 }
 
-/// Returns the largest count of one read.
+/// Returns the largest count that one request can read.
 int most_at_once(const Item& item) {
   if (item.type == Type::bit) return MODBUS_MAX_READ_BITS;
   return is_32_bit(item.type) ? MODBUS_MAX_READ_REGISTERS / 2 : MODBUS_MAX_READ_REGISTERS;
@@ -239,7 +239,7 @@ Context connect(const PollArguments& arguments) {
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: " + quoted(arguments.timeout) +
                      " is not a duration; expected one like 500ms");
-  // Checked here, because libmodbus prints diagnostics of its own.
+  // This is checked here, because libmodbus would print its own diagnostics.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
                      " is not a speed of a serial port; expected one like 9600, 19200 or 115200");
@@ -357,7 +357,7 @@ std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
   return items;
 }
 
-/// Returns the given word order, or nothing if none is given.
+/// Returns the word order that a flag gives, or nothing if none does.
 std::optional<bool> given_word_order(const PollArguments& arguments) {
   if (arguments.word_order.empty()) return std::nullopt;
   if (arguments.word_order == "low") return true;

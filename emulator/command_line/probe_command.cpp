@@ -1,4 +1,4 @@
-// Implements `probe`: plays the proofs of choices with a real controller, and tells which options it has.
+// Implements `probe`: plays the proofs of choices on a real controller, and reports which options it has.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -41,12 +41,12 @@ namespace {
 namespace fs = std::filesystem;
 using Verdict = play::ScenarioResult::Verdict;
 
-/// The case of a proof for one option of a choice, and what a real controller made of it.
+/// The case of a proof for one option of a choice, and its result on a real controller.
 struct OptionCase {
   std::string option;
   std::shared_ptr<const play::Scenario> scenario;
   std::optional<Verdict> verdict{};  // nothing: it was not played
-  std::string why{};                 // it failed or was not tellable
+  std::string why{};                 // the case failed, or could not tell the options apart
 };
 
 struct Probed {
@@ -54,7 +54,8 @@ struct Probed {
   std::vector<OptionCase> cases{};
   bool is_unsteady = false;  // a case ended differently the second time, so nothing is excluded
 
-  /// A case in which a step was skipped has not judged everything, so it speaks for no option.
+  /// Returns the options whose cases passed. A case in which a step was skipped has not checked everything,
+  /// so it supports no option.
   std::vector<std::string> agreeing() const {
     std::vector<std::string> options;
     for (const OptionCase& one : cases)
@@ -71,11 +72,11 @@ struct Probed {
     const std::size_t count = agreeing().size();
     return count == 1 ? "measured" : count == 0 ? "contradicted" : "undecided";
   }
-  /// Proofs of many options tell most.
+  /// Proofs with many options are the most informative.
   std::size_t weight() const { return cases.size(); }
 };
 
-/// Returns the folder of the model's proofs: of the source tree, or as they are installed.
+/// Returns the folder of the model's proofs: in the source tree, or the installed one.
 std::string folder_of_proofs(const Model& model, const std::string& given) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -91,7 +92,7 @@ std::string folder_of_proofs(const Model& model, const std::string& given) {
                    places.front().string() + "; expected --proofs with the folder docs/fidelity/proofs");
 }
 
-/// Returns true if the proof needs nothing but a controller with factory settings at its usual number.
+/// Returns true if the proof needs only a controller with factory settings at its usual station number.
 bool is_of_bare_controller(const play::Scenario& scenario) {
   const world::Bench& bench = scenario.bench;
   if (bench.devices.size() != 1 || bench.lines.size() != 1) return false;
@@ -158,8 +159,8 @@ void play_case(OptionCase& one, OnBox& stage) {
 }
 
 /// Returns true if the cases tell the options apart over a line: each passes with its own option, and fails
-/// with every other. Moments that only simulated time can hit do not, and neither do those that an adapter's
-/// delay would move.
+/// with every other. Cases with moments that only simulated time can hit do not, and neither do cases with
+/// moments that an adapter's delay would move.
 bool are_telling(const Probed& probed, OnBox& stage) {
   constexpr SimTime kDelayOfAdapter = std::chrono::milliseconds(16);
   play::RunOptions options;
@@ -182,7 +183,8 @@ bool are_telling(const Probed& probed, OnBox& stage) {
 }
 
 /// Plays each case, and then each once more, because a late reply or what an earlier case has left behind can
-/// change a verdict. If the result of a case is unknown, the others of its choice would not decide either.
+/// change a verdict. If the result of a case is unknown, the other cases of its choice would not decide
+/// either.
 void play_all(Probed& probed, OnBox& stage, int times) {
   if (!are_telling(probed, stage)) return;
   for (int time = 0; time < times; ++time) {
@@ -195,7 +197,7 @@ void play_all(Probed& probed, OnBox& stage, int times) {
   }
 }
 
-/// The proofs are of the newest firmware.
+/// The proofs describe the newest firmware.
 box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& arguments,
                               const std::vector<Probed>& proofs) {
   const std::string device = "box";

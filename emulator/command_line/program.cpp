@@ -33,7 +33,7 @@ int report(const std::exception& error, int code) {
 }
 
 /// Opens closed standard descriptors. Otherwise a port could get such a number, and printed text would go to
-/// it. Standard output is opened for reading, so that what is printed there fails as on a closed one.
+/// that port. Standard output is opened for reading, so that printing fails as it would on a closed one.
 void open_standard_descriptors() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (fcntl(descriptor, F_GETFD) >= 0) continue;
@@ -41,8 +41,8 @@ void open_standard_descriptors() {
   }
 }
 
-/// Makes a write beyond the file size limit fail with an error, instead of a signal that ends the program.
-/// Started programs do not inherit a handler, but would inherit "ignore".
+/// Makes a write beyond the file size limit fail with an error, instead of a signal that ends the program. A
+/// handler is used because started programs do not inherit it; they would inherit "ignore".
 void survive_file_size_limits() {
   struct sigaction before = {};
   if (sigaction(SIGXFSZ, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;

@@ -1,4 +1,4 @@
-// Runs the command of the whole program, and reports errors in one line.
+// Runs the program's command line, and reports errors in one line.
 #pragma once
 
 #include "emulator/device/model.h"

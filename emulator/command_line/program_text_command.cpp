@@ -17,19 +17,20 @@
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 
-// Converts programs between text and numbers. Every model with a language has text, and some have numbers.
+// Converts programs between text and numbers. Every model with a language supports text, and some support
+// numbers.
 namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Holds the input of both directions.
+/// The input of a conversion in either direction.
 struct ProgramFile {
   const ProgramCells& cells;
   DeviceSettings settings;
   std::string text;
 };
 
-/// Reads the program. If it cannot, it prints one line to standard error and returns nothing.
+/// Reads the program. If that fails, prints one line to standard error and returns nothing.
 std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArguments& arguments,
                                         const char* command) {
   const Model& model = require_model(models, arguments.model);

@@ -11,11 +11,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// Returns the model's language. Throws UsageError if its devices take no programs.
+/// Returns the model's language. Throws UsageError if the model's devices do not run programs.
 const ProgramLanguage& require_language(const Model& model);
 /// Returns the settings. Throws UsageError, or SettingError for settings that the model does not have.
 DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
-/// Prints the mistakes to standard error, a line each.
+/// Prints the mistakes to standard error, one per line.
 void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file);
 
 }  // namespace understudy::emulator::command_line

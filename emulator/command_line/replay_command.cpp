@@ -66,7 +66,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   return kExitWell;
 }
 
-/// Stores the events of a replay for travel in both directions.
+/// Stores the events of a replay, so that users can move through it in both directions.
 class EventCollector final : public world::ReplayWatcher {
  public:
   EventCollector(const world::World& world, std::optional<world::WorldState>& begin,
@@ -90,7 +90,7 @@ struct Travelled {
   serve::TimelineSetup setup;
 };
 
-/// Replays the whole recording. The timeline shows `at` first, or else the failure or the beginning. A
+/// Replays the whole recording. The timeline first shows `at`, or without it the failure or the beginning. A
 /// recording that differs is shown up to the difference.
 Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   std::ifstream file(arguments.recording, std::ios::binary);
@@ -115,7 +115,7 @@ Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::
   return {std::move(replayed), std::move(setup)};
 }
 
-/// Throws UsageError if `at` is not in the recording.
+/// Like replay_whole(), but throws UsageError if `at` is not in the recording.
 Travelled replay_to(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   Travelled travelled = replay_whole(models, arguments, at);
   if (at && *at != travelled.setup.at_first)

@@ -1,4 +1,4 @@
-// The flags of `replay`. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of `replay`. Only flags.cpp includes this file, because CLI11 is slow to compile.
 #pragma once
 
 #include <CLI/CLI.hpp>

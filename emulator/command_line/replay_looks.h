@@ -21,7 +21,7 @@ void require_looks(const ReplayArguments& arguments, FileClaims& claims);
 /// Writes the files during a replay. The constructor opens them, or throws an error with the reason.
 class ReplayLooks final : public world::ReplayWatcher {
  public:
-  /// `seen` receives the page's content at the end: the run log and the steps.
+  /// At the end, `seen` receives the page's content: the run log and the steps.
   ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen);
   ~ReplayLooks() override;
   ReplayLooks(const ReplayLooks&) = delete;

@@ -18,11 +18,11 @@
 
 namespace understudy::emulator::command_line {
 
-/// The path that stands for standard output.
+/// The path that means standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Holds a result file. It is opened before anything runs, so a wrong path is reported at once. Endless
-/// files, such as /dev/stdout, are allowed.
+/// Holds a result file. It is opened before anything runs, so a wrong path is reported at once. Paths that
+/// are not regular files, such as /dev/stdout, are allowed.
 class ResultFile {
  public:
   /// An empty path means that nothing is written.

@@ -106,7 +106,7 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   }
   const play::FailureKinds::Kind* const kind = result.failure ? kinds_.add(result) : nullptr;
   const bool is_new = kind != nullptr && kind->count == 1;
-  const bool may_play_again = arguments_.on.on.empty();  // a real machine does not move for a recording
+  const bool may_play_again = arguments_.on.on.empty();  // a real machine must not move only for a recording
   if (is_new && may_play_again && result.recording.empty() && !result.is_unreadable) {
     for (play::ScenarioResult& other : again()) {
       if (other.branch == result.branch) {

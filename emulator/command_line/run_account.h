@@ -1,5 +1,5 @@
-// Reports the results of a run case by case: verdicts for the user, JUnit, rows of results, a page. It keeps
-// only counts and the first failure of each kind, for any number of cases.
+// Reports the results of a run case by case: verdicts for the user, JUnit, result rows, a page. However many
+// cases there are, it keeps only counts and the first failure of each kind.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@ namespace understudy::emulator::command_line {
 
 class RunAccount {
  public:
-  /// Opens the files of results. Throws UsageError and GrowingFileError.
+  /// Opens the result files. Throws UsageError and GrowingFileError.
   RunAccount(ModelList models, const RunArguments& arguments);
 
-  /// Returns true if the files of results already have this case. Then it need not run again and counts as
-  /// left out. May be called on any thread, one call at a time.
+  /// Returns true if the result files already have this case. It then need not run again, and counts as left
+  /// out. May be called on any thread, one call at a time.
   bool was_played(const play::CaseKey& key);
-  /// Empties the files, unless the run continues in them.
+  /// Empties the files, unless the run appends to them.
   void begin();
   /// Takes the results of one case, in the order of the cases. `again` runs it once more, with a recorder;
   /// `files` keeps its files.
@@ -42,12 +42,12 @@ class RunAccount {
   void finish();
 
   play::Junit* junit() { return junit_ ? &*junit_ : nullptr; }
-  /// Returns the page. `programs` is a section on programs, or empty.
+  /// Returns the page. `programs` is its section on programs, or empty.
   std::string report(std::string_view programs) const;
   int exit_code() const;
 
  private:
-  /// Returns true if it is the first failure of its kind.
+  /// Returns true if the result is the first failure of its kind.
   bool add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                const std::function<std::vector<play::ScenarioResult>()>& again);
   void note_lint_findings(const play::ScenarioResult& result);

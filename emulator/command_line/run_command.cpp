@@ -76,7 +76,7 @@ struct SavedFile {
   bool is_varied;  // only a case list knows whether two such cases save the same file
 };
 
-/// Collects what the check of all scenarios found, before any of them runs.
+/// The results of checking all scenarios before any of them runs.
 struct Known {
   FileClaims claims;      // the files that are read
   std::size_t cases = 0;  // the cases that were checked
@@ -110,7 +110,7 @@ void note_saved(const play::Scenario& scenario, const RunArguments& arguments, K
   }
 }
 
-/// Adds all files and prints their errors. Returns false if there is any.
+/// Adds all files and prints their errors. Returns false if there are any.
 bool add_all(play::CaseList& case_list, const RunArguments& arguments, Known& known) {
   std::vector<std::string> files;
   bool is_well = true;
@@ -176,7 +176,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
 }
 
-/// Returns how failures get their recordings.
+/// Returns how recordings of failures are made.
 Recorded recorded_by(const RunArguments& arguments) {
   if (has_command(arguments) || is_on_box(arguments)) return Recorded::apart;
   return arguments.real_time ? Recorded::always : Recorded::again;
@@ -187,7 +187,7 @@ class CaseRunner {
  public:
   CaseRunner(ModelList models, const RunArguments& arguments, RunFiles& files, RunCoverage& coverage)
       : models_(models), arguments_(arguments), files_(files), coverage_(coverage) {
-    // Rows of results contain the hash.
+    // Result rows contain the hash.
     options_.with_hash = arguments.hash || (!arguments.results.empty() && !arguments.real_time);
     if (arguments.lint) {
       options_.observers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
@@ -233,7 +233,7 @@ class CaseRunner {
   }
 
  private:
-  /// A port that is lost fails the case. One that cannot be opened at all ends the run.
+  /// A port that is lost makes the case fail. A port that cannot be opened at all ends the run.
   std::vector<play::ScenarioResult> play_on_box(const play::Scenario& scenario) const {
     if (arguments_.on.plan)
       std::printf("%s: %s\n", one_line(scenario.file).c_str(), one_line(scenario.name).c_str());
@@ -287,7 +287,7 @@ class CaseRunner {
       result.which = reader.case_of(which_case);
       result.name = reader.name_of(which_case);
     } catch (const FileError&) {
-      // The result keeps the file's name.
+      // The result has the file's name.
     }
     play::Failure failure{.what = one_line(error.diagnostics().front().text)};
     for (std::size_t i = 1; i < error.diagnostics().size(); ++i) {
@@ -363,7 +363,7 @@ bool play_all(const play::NextCase& next, Players& players, int threads,
   }
 }
 
-/// Returns the exit code: 1 also if too little of the programs was covered.
+/// Returns the exit code, which is also 1 if too little of the programs was covered.
 int exit_code_of(const RunAccount& account, bool was_interrupted, bool is_enough) {
   const int code = was_interrupted ? static_cast<int>(kExitFailed) : account.exit_code();
   return code == kExitWell && !is_enough ? static_cast<int>(kExitFailed) : code;

@@ -56,7 +56,7 @@ struct FileKind {
   std::string RunFolders::*folder;
   std::string play::ScenarioResult::*place;
   const char* ending;
-  std::array<const char*, 3> of_files;  // endings of file names; a folder must not have one
+  std::array<const char*, 3> of_files;  // file name endings, which a folder's name must not have
 };
 constexpr FileKind kRecording{
     "--record", ContentKind::recording, &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl",
@@ -164,7 +164,7 @@ void copy_file(const std::string& from, const std::string& to, ContentKind conte
   }
 }
 
-/// Moves a file, also between file systems.
+/// Moves a file, even between file systems.
 void move_file(const char* flag, const std::string& from, const std::string& path, ContentKind content) {
   std::error_code error;
   try {
@@ -237,7 +237,7 @@ RunFiles::~RunFiles() {
 }
 
 std::string RunFiles::next_spool(const std::string& ending) {
-  // Several processes may have the same spool.
+  // Several processes may use the same spool.
   return spool_ + "/" + std::to_string(::getpid()) + "-" + std::to_string(++count_) + ending;
 }
 

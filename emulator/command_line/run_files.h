@@ -1,5 +1,5 @@
-// Manages the files that `run` makes of each scenario: recordings, traces, captures. They are spooled below
-// /tmp, and kept in the folders that the user chose.
+// Manages the files that `run` makes for each scenario: recordings, traces, captures. They are spooled below
+// /tmp, then kept in the folders that the user chose.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace understudy::emulator::command_line {
 
 /// The folders for the files of each scenario. `run` makes them if needed. An empty path means no files.
 struct RunFolders {
-  std::string recordings;  // for all recordings; empty: only first failures are recorded
-  std::string failures;    // for those of first failures; empty: below /tmp
+  std::string recordings;  // the folder for all recordings; empty: only first failures are recorded
+  std::string failures;    // the folder for those of first failures; empty: below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
@@ -31,9 +31,9 @@ struct RunFolders {
 /// paths that cannot be folders.
 void require_folders(const FileClaims& claims, const RunFolders& folders);
 
-/// The way in which failures get their recordings.
+/// How recordings of failures are made.
 enum class Recorded : std::uint8_t {
-  again,   // a varied case runs once more if it is to be recorded
+  again,   // a varied case runs once more to be recorded
   always,  // every case is recorded, because none can run again
   apart,   // the run makes a recording itself
 };
@@ -53,9 +53,9 @@ class RunFiles {
   play::ObserverMaker recorder(const play::Scenario& scenario);
   /// Returns the path of a new file, which settle() keeps or removes.
   std::string next_spool(const std::string& ending);
-  /// Keeps the files under the result's name, or removes them, and stores their paths in the result. It is
-  /// called in the order of the results, which decides between equal names. `is_new` means the first failure
-  /// of its kind.
+  /// Keeps the files under the result's name, or removes them, and stores their paths in the result. Must be
+  /// called in the order of the results, which decides which result gets a name that occurs twice. `is_new`
+  /// means the first failure of its kind.
   void settle(play::ScenarioResult& result, bool is_new);
 
  private:

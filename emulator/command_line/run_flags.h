@@ -1,4 +1,4 @@
-// The flags of `run` and `exec`. Included by flags.cpp only: CLI11 is slow to compile.
+// The flags of `run` and `exec`. Only flags.cpp includes this file, because CLI11 is slow to compile.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ inline void add_save_below(CLI::App& command, std::string& folder) {
       ->check(kNotEmpty);
 }
 
-/// The flags for the cases of a scenario, of `run` and of `exec`.
+/// Adds the flags of `run` and `exec` for the cases of a scenario.
 inline void add_case_flags(CLI::App& command, RunArguments& run) {
   command
       .add_option("--junit", run.junit,
@@ -127,7 +127,7 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
       ->check(kNotEmpty);
 }
 
-/// The flags of `exec` besides those of `serve`.
+/// Adds the flags that `exec` has in addition to those of `serve`.
 inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
   command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")->check(kNotEmpty);
   add_save_below(command, exec.save_below);

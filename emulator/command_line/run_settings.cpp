@@ -39,7 +39,7 @@ play::Shard shard_of(const RunArguments& arguments) {
 }
 
 int jobs_of(const RunArguments& arguments) {
-  if (!arguments.on.on.empty()) return 1;  // there is one machine
+  if (!arguments.on.on.empty()) return 1;  // there is only one machine
   if (!arguments.jobs) {
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     return arguments.real_time ? std::max(cores, kRealTimeJobs) : cores;

@@ -1,4 +1,4 @@
-// What the flags of `run` mean together.
+// Settings of `run` that follow from several flags.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ int jobs_of(const RunArguments& arguments);
 /// Throws UsageError if two flags contradict each other.
 void require_flags_that_agree(const RunArguments& arguments);
 
-/// Returns everything besides its sources on which the result of a case depends: the program's version, and
-/// the command, with the contents of the files that it names.
+/// Returns everything on which the result of a case depends besides its sources: the program's version, and
+/// the command with the contents of the files that it names.
 std::string maker_of(const RunArguments& arguments);
 /// Returns the hash of a case's sources and of the program that ran it.
 std::uint64_t made_of(const play::CaseList& case_list, std::size_t file, const std::string& maker);

@@ -53,7 +53,7 @@ pty::Timing require_timing(const std::string& timing) {
   throw UsageError("--timing: " + understudy::quoted(timing) + " is unknown; expected wire or instant");
 }
 
-/// Reports the model's error about a setting as an error of its flag.
+/// Reports the model's error about a setting as an error in the corresponding flag.
 void require_possible(const world::DeviceSetup& device) {
   try {
     make_device(*device.model, device.settings);
@@ -266,7 +266,7 @@ Serving make_serving(ModelList models, const ServeArguments& arguments, const st
 
 namespace {
 
-/// Prints a hint for people only. In a script's log it would look like an error.
+/// Prints a hint at terminals only, because in a script's log it would look like an error.
 void print_parity_hint(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {

@@ -31,10 +31,10 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// A signal ends a wait, too, unless it comes just before.
+/// A signal ends a wait too, unless it arrives just before the wait.
 constexpr int kTapWaitMs = 100;
 
-/// Real time that never runs back, even if the clock is set meanwhile.
+/// Real time that never runs backwards, even if the clock is set meanwhile.
 class RunningClock {
  public:
   SimTime now() const { return at_begin_ + SimTime{serve::wall_now() - begin_}; }
@@ -45,7 +45,7 @@ class RunningClock {
   box::WallTime begin_ = serve::wall_now();
 };
 
-/// One adapter.
+/// Reads the bytes of one adapter.
 class Adapter {
  public:
   Adapter(const std::string& port, pty::Direction direction) : name_(parsed(port)), direction_(direction) {
@@ -61,7 +61,7 @@ class Adapter {
     return one_line(name_.place) + (name_.has_settings() ? " at " + pty::to_string(settings_) : "");
   }
 
-  /// Takes what has arrived. The first byte began when the line was silent before it.
+  /// Reads the bytes that have arrived, and writes them to the capture with their estimated times.
   void take(const RunningClock& clock, pty::CaptureFile& file) {
     box::Bytes bytes;
     if (!wire_->receive(bytes, box::WallTime{0})) return;

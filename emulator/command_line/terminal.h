@@ -1,4 +1,4 @@
-// Prints output for people at a terminal only: colours, and the progress of a long run.
+// Output for people at a terminal only: colours, and the progress of a long run.
 #pragma once
 
 #include <condition_variable>
@@ -20,13 +20,14 @@ bool wants_colour(int descriptor);
 /// Colours the verdict that begins a line ("ok", "FAIL", "-"), if colours are wanted.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
-/// Shows a last line on a terminal with the number of finished and failed cases, the rate, and the remaining
-/// time. It appears once the run has taken a while. There is no such line if standard error is not a
+/// Shows a progress line at the bottom of a terminal: the number of finished and failed cases, the rate, and
+/// the remaining time. It appears after the run has taken a while. It is not shown if standard error is not a
 /// terminal, or if the variable CI is set.
 class ProgressLine {
  public:
   explicit ProgressLine(std::uint64_t total);
-  /// Shows the text that `text_of` returns for the seconds since the start. It is called on another thread.
+  /// Shows the text that `text_of` returns for the seconds since the start. `text_of` is called on another
+  /// thread.
   explicit ProgressLine(std::function<std::string(double)> text_of);
   ~ProgressLine();  // clears the line
   ProgressLine(const ProgressLine&) = delete;
@@ -63,7 +64,7 @@ class ProgressLine {
   std::uint64_t failed_ = 0;
   bool is_shown_ = false;
   bool is_over_ = false;
-  std::thread thread_;  // declared last: it uses all the others
+  std::thread thread_;  // declared last, because it uses all other members
 };
 
 }  // namespace understudy::emulator::command_line

@@ -6,8 +6,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Reads a text file named on the command line. "-" and "/dev/stdin" stand for standard input, which is read
-/// to its end.
+/// Reads a text file named on the command line. "-" and "/dev/stdin" mean standard input, which is read to
+/// its end.
 FileText read_text_argument(const std::string& path);
 
 }  // namespace understudy::emulator::command_line

@@ -1,4 +1,4 @@
-// Implements `understudy ctl watch`: a table that is kept up to date.
+// Implements `understudy ctl watch`, a table that is kept up to date.
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -61,7 +61,7 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Writes the lines over the old ones in a single write. A screen that is cleared first flickers.
+  /// Overwrites the old lines in a single write. Clearing the screen first would make it flicker.
   void show(const std::vector<std::string>& lines) {
     const winsize size = size_now();
     std::string text = "\x1b[H";
@@ -72,7 +72,7 @@ class Screen {
   }
   static std::size_t columns() { return size_now().ws_col; }
 
-  /// Waits this long, or until a signal or a key comes. Returns false if the user wants to end it.
+  /// Waits this long, or until a signal or a key arrives. Returns false if the user wants to end the display.
   bool wait(Clock::duration time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
     pollfd keyboard{keyboard_.exists() ? STDIN_FILENO : -1, POLLIN, 0};
@@ -109,8 +109,8 @@ void print(const std::vector<std::string>& lines) {
   std::fflush(stdout);
 }
 
-/// Makes the lines of the display from replies. A later reply may be a refusal, for example without power,
-/// which it then shows.
+/// Makes the lines of the display from replies. A later reply may be a refusal, for example if a device has
+/// no power; the refusal is then shown.
 class Shown {
  public:
   explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}

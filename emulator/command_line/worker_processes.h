@@ -1,5 +1,5 @@
-// Runs work in processes of its own: a case with a command has children and signals, and a process has only
-// one set of them.
+// Runs work in separate processes, because a case with a command has children and signals, and a process has
+// only one set of them.
 #pragma once
 
 #include <sys/types.h>
@@ -13,22 +13,22 @@
 
 namespace understudy::emulator::command_line {
 
-/// Answers a question. Both are bytes (base/state/state_bytes.h).
+/// Answers a question. Question and answer are bytes (base/state/state_bytes.h).
 using Work = std::function<std::vector<std::byte>(std::span<const std::byte>)>;
 
 class WorkerProcesses {
  public:
-  /// Starts `count` processes, each of which makes its Work. Must be called while this process has one
-  /// thread.
+  /// Starts `count` processes, each of which makes its own Work. Must be called while this process has only
+  /// one thread.
   WorkerProcesses(int count, const std::function<Work()>& make_work);
-  /// Lets them end, and waits for that.
+  /// Ends the processes, and waits for them.
   ~WorkerProcesses();
   WorkerProcesses(const WorkerProcesses&) = delete;
   WorkerProcesses& operator=(const WorkerProcesses&) = delete;
 
   std::size_t count() const { return workers_.size(); }
-  /// Asks that worker, which no other thread may use meanwhile. Throws pty::PortError with the message of
-  /// what the worker has thrown, or if it has ended.
+  /// Asks that worker, which no other thread may use meanwhile. Throws pty::PortError with the message of the
+  /// worker's exception, or if the worker has ended.
   std::vector<std::byte> ask(std::size_t worker, std::span<const std::byte> question) const;
 
  private:

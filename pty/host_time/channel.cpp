@@ -36,7 +36,8 @@ struct Connection {
 __thread Connection connection __attribute__((tls_model("initial-exec"))) = {-1, 0, 0, nullptr};
 pthread_key_t at_end_of_thread;
 
-// Above the descriptors that programs usually have, so that those get the same numbers as without us.
+// Above the descriptors that programs usually have, so that a program's own descriptors get the same numbers
+// as without us.
 constexpr int kLowestDescriptor = 200;
 
 void report(const char* what) {
@@ -53,7 +54,7 @@ void report(const char* what) {
   [[maybe_unused]] const ssize_t written = write(2, text, size);
 }
 
-/// The bench is gone, so time will never move again.
+/// The bench has ended, so time will never advance again.
 [[noreturn]] void give_up() {
   signal(SIGTERM, SIG_DFL);
   raise(SIGTERM);
@@ -132,7 +133,7 @@ void close_connection(void*) {
   connection.descriptor = -1;
 }
 
-/// A child has only the thread that forked, and a new connection.
+/// A child process has only the thread that forked. It gets a new connection.
 void begin_anew_in_child() {
   if (page == nullptr) return;
   const int error = errno;
@@ -205,7 +206,7 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
   for (nfds_t i = 0; i < wait.other_count; ++i) entries[i + 1] = wait.others[i];
   Woken woken = Woken::by_bench;
   while (true) {
-    // A plain recv: after a signal, the kernel restarts it if the handler has SA_RESTART.
+    // With a plain recv, the kernel restarts the call after a signal if the handler has SA_RESTART.
     const bool is_plain = wait.is_restartable;
     const long result =
         is_plain ? 1 : UNDERSTUDY_REAL(ppoll)(entries, wait.other_count + 1, nullptr, wait.mask);
@@ -228,7 +229,7 @@ Woken block(int descriptor, const Message& message, const Wait& wait) {
     }
     if (size != static_cast<ssize_t>(sizeof answer)) give_up();
     if (answer.what != MessageKind::go || answer.sequence != message.sequence)
-      continue;  // of an earlier wait
+      continue;  // this answer belongs to an earlier wait
     break;
   }
   if (entries != few) free(entries);
@@ -332,7 +333,7 @@ Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until
       woken = Woken::by_bench;
       break;
     }
-    if (!is_signal && !is_changed) continue;  // another thread has the same word
+    if (!is_signal && !is_changed) continue;  // another thread uses the same word
     cancel(descriptor, message);
     if (is_signal) woken = Woken::by_signal;
     break;

@@ -1,4 +1,5 @@
-// Clocks of a host in simulated time: they show the page's time, and stop while the host computes.
+// Clocks of a host in simulated time. They show the time of the shared page, and stand still while the host
+// computes.
 #include <errno.h>
 #include <sys/time.h>
 
@@ -17,7 +18,7 @@ int64_t clock_begin_ns(clockid_t clock) {
     case CLOCK_MONOTONIC_COARSE:
     case CLOCK_BOOTTIME:
     case CLOCK_BOOTTIME_ALARM: return kUptimeAtBegin_s * kBillion;
-    default: return -1;  // of processor time
+    default: return -1;  // a clock of processor time
   }
 }
 

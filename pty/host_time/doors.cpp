@@ -1,6 +1,6 @@
 // The TCP addresses of the bench (docs/host-time.md). A socket that connects to one is replaced by a local
-// socket to the bench: its bytes arrive as soon as they are written, and nobody else sees the address. The
-// host is answered as if it were still a TCP socket.
+// socket to the bench: its bytes arrive as soon as they are written, and no other program sees the address.
+// Calls of the host are answered as if it were still a TCP socket.
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>

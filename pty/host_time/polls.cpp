@@ -86,8 +86,8 @@ class Sorted {
   bool is_empty_ = true;
 };
 
-/// Waits in real time while simulated time is stopped. If nothing is ready then, the same time passes in the
-/// simulation.
+/// Waits in real time while simulated time is stopped. If nothing is ready after that, the same time passes
+/// in the simulation.
 template <class Look>
 int look_outside(int64_t length_ns, Look look) {
   begin_outside();
@@ -99,8 +99,8 @@ int look_outside(int64_t length_ns, Look look) {
   return ready;
 }
 
-/// `look(length)` returns how many are ready, or -1; it waits for the length in real time. It has looked
-/// before and found nothing.
+/// `look(length)` waits for up to `length` in real time, and returns how many descriptors are ready, or -1.
+/// The caller has already called it once without a wait, and it found nothing.
 template <class Look>
 int wait_in_turn(int64_t length_ns, const Sorted& sorted, Wait& wait, Look look) {
   if (sorted.is_all_outside()) return look_outside(length_ns, look);
@@ -135,7 +135,7 @@ int poll_for(pollfd* entries, nfds_t count, int64_t length_ns, const sigset_t* m
   return wait_in_turn(length_ns, sorted, wait, look);
 }
 
-/// The sets of a select, of which the kernel touches no more than it was asked for.
+/// The descriptor sets of a select. The kernel changes only the part that it was asked for.
 class Sets {
  public:
   Sets(int count, fd_set* reads, fd_set* writes, fd_set* excepts)
@@ -153,7 +153,8 @@ class Sets {
       if (given_[set] != nullptr) memcpy(given_[set], &asked_[set], size());
     }
   }
-  /// What another thread has closed does not end a select that runs, and is never ready.
+  /// Removes descriptors that another thread has closed: they do not end a running select, and are never
+  /// ready.
   void forget_closed() {
     for (int i = 0; i < count_; ++i) {
       if (events(i) == 0 || fcntl(i, F_GETFD) >= 0) continue;
@@ -213,7 +214,7 @@ int epoll_for(int descriptor, epoll_event* events, int count, int64_t length_ns,
   wait.line_count = kAnyLine;
   return wait_in_turn(length_ns, sorted, wait, [&](int64_t) {
     const int found = look();
-    return found < 0 && errno == EBADF ? 0 : found;  // it was closed: the wait goes on
+    return found < 0 && errno == EBADF ? 0 : found;  // it was closed: the wait continues
   });
 }
 
@@ -221,7 +222,7 @@ int64_t length_of_ms(int milliseconds) {
   return milliseconds < 0 ? kNever : int64_t{milliseconds} * 1'000'000;
 }
 
-/// Returns false, with errno set, if it is not a valid length.
+/// Converts a timeout. Returns false, with errno set, if it is not valid.
 bool take_length(const timespec* time, int64_t& length_ns) {
   length_ns = time == nullptr ? kNever : ns_of(*time);
   if (length_ns >= 0) return true;

@@ -1,4 +1,4 @@
-// Children of a host: the bench must know of them before time may move again.
+// Children of a host: the bench must know of them before time may advance again.
 #include <spawn.h>
 #include <sys/types.h>
 #include <unistd.h>

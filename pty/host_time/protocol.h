@@ -9,25 +9,26 @@
 
 namespace understudy::host_time {
 
-/// The library and the bench must be of one version: the library's greeting has this number.
+/// The library and the bench must have the same version: the library's greeting contains this number.
 inline constexpr uint32_t kVersion = 2;
-/// The library has this text, so that the bench recognizes it before a host loads it. It has the version.
+/// The library contains this text with its version, so that the bench can recognize it before a host loads
+/// it.
 #define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 2"
 
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
 inline constexpr const char* kPageEnding = ".page";
-/// The ending, before a number, of the paths of the sockets that stand for the TCP addresses of the bench.
+/// The ending, before a number, of the paths of the sockets that represent the TCP addresses of the bench.
 inline constexpr const char* kDoorEnding = ".door";
 
 /// The dates that a host sees at simulated time 0. They are always the same, so that a host that writes dates
-/// does the same in each run: 2026-01-01 00:00:00 UTC, and an hour after the machine was started.
+/// writes the same dates in each run: 2026-01-01 00:00:00 UTC, and an hour after the machine was started.
 inline constexpr int64_t kDateAtBegin_s = 1'767'225'600;
 inline constexpr int64_t kUptimeAtBegin_s = 3'600;
 
 inline constexpr int64_t kNever = INT64_MAX;
 
-inline constexpr uint32_t kMaxLines = 256;  // of a bench, which a host can distinguish from other terminals
+inline constexpr uint32_t kMaxLines = 256;  // the most lines that a host can tell from other terminals
 inline constexpr uint32_t kLinesInMessage = 6;
 inline constexpr uint32_t kMaxDoors = 64;
 /// Messages identify a door by this plus its number: no pseudo-terminal has such a high number.
@@ -38,13 +39,13 @@ inline constexpr uint32_t kAnyLine = UINT32_MAX;
 /// it increments the word that the thread's number selects, and wakes it.
 inline constexpr uint32_t kWords = 1024;
 
-/// A TCP address of the bench. An empty address is this machine itself.
+/// A TCP address of the bench. An empty address means this machine itself.
 struct Door {
   uint16_t port;
   char address[46];  // as inet_ntop writes it
 };
 
-/// The page. The bench writes it while all threads of the host wait.
+/// The shared page. The bench writes it while all threads of the host are waiting.
 struct Page {
   uint32_t version;
   uint32_t line_count;
@@ -72,7 +73,7 @@ enum class MessageKind : uint32_t {
 struct Message {
   MessageKind what;
   uint32_t sequence;  // the number of the thread's wait, of the timer, or the version
-  int64_t until_ns;   // simulated time; kNever: without end
+  int64_t until_ns;   // simulated time; kNever: without limit
   int64_t interval_ns;
   int64_t value;  // of a timer: the value that comes with its signal
   int32_t process;

@@ -1,5 +1,5 @@
-// Reads that wait for a line of the bench, by the terminal's VMIN and VTIME, writes that wait until it has
-// room, and tcdrain.
+// Reads that wait for a line of the bench according to the terminal's VMIN and VTIME, writes that wait until
+// the line has room, and tcdrain.
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -25,7 +25,7 @@ struct Patience {
   bool is_between_bytes = false;  // the length starts again with each byte
 };
 
-/// Returns false if the read does not wait, or not for a line.
+/// Returns false if the read does not wait, or does not read from a line.
 bool take_patience(int descriptor, size_t size, int* number, Patience& patience) {
   if (size == 0 || !is_line(descriptor, number)) return false;
   const int flags = fcntl(descriptor, F_GETFL);
@@ -45,8 +45,8 @@ bool take_patience(int descriptor, size_t size, int* number, Patience& patience)
   return true;
 }
 
-/// Waits until a read of the line would not block. Returns how many bytes it may ask for; 0: time is up; -1:
-/// a signal came.
+/// Waits until a read of the line would not block. Returns how many bytes the read may ask for; 0: the time
+/// is up; -1: a signal arrived.
 ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& patience) {
   Wait wait;
   wait.add_line(number);
@@ -83,7 +83,7 @@ ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& 
 
 namespace {
 
-/// Waits until a timer has expired. Returns false if a signal came.
+/// Waits until a timer has expired. Returns false if a signal arrived.
 bool wait_for_timer(int descriptor) {
   const int flags = fcntl(descriptor, F_GETFL);
   if (flags < 0 || (flags & O_NONBLOCK) != 0) return true;
@@ -119,7 +119,7 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   if (is_active() && take_patience(descriptor, size, &number, patience)) {
     const ssize_t max = wait_for_bytes(descriptor, number, size, patience);
     if (max <= 0) return max;
-    for (int i = 0; i < count; ++i) {  // fills one part only: terminals may return less
+    for (int i = 0; i < count; ++i) {  // fills only one part: terminals may return less
       if (parts[i].iov_len > 0) {
         const size_t part =
             static_cast<size_t>(max) < parts[i].iov_len ? static_cast<size_t>(max) : parts[i].iov_len;
@@ -132,7 +132,7 @@ UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
 
 namespace {
 
-// A line that takes anything takes this much, so only longer writes may wait.
+// A line that accepts anything accepts this much, so only longer writes may wait.
 constexpr size_t kSurelyTaken = 1024;
 
 /// Returns true if a write may wait for the line.

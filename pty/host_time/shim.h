@@ -28,7 +28,7 @@ Function* real_function(Function*& found, const char* name) {
     return ::understudy::host_time::real_function(found, #name); \
   }())
 
-/// Returns true if this process lives in simulated time.
+/// Returns true if this process runs in simulated time.
 bool is_active();
 
 int64_t now_ns();
@@ -37,7 +37,8 @@ constexpr int64_t kBillion = 1'000'000'000;
 
 /// Returns what the clock shows at simulated time 0, or -1 if it does not measure elapsed time.
 int64_t clock_begin_ns(clockid_t clock);
-/// Returns true if the kernel lets programs wait by this clock: not by coarse ones, nor by processor time.
+/// Returns true if the kernel lets programs wait by this clock: they cannot wait by coarse clocks or
+/// processor time.
 bool is_for_waits(clockid_t clock);
 timespec time_of(int64_t ns);
 /// Returns -1 if the time is not valid.
@@ -63,16 +64,16 @@ int number_of_door(const sockaddr_un& address);
 
 enum class Woken : uint8_t { by_bench, by_descriptor, by_signal };
 
-/// Describes what a thread waits for.
+/// Describes what a thread is waiting for.
 struct Wait {
   int64_t until_ns = kNever;
   uint32_t line_count = 0;  // or kAnyLine
   int32_t lines[kLinesInMessage] = {};
   bool is_for_drain = false;
   bool is_restartable = false;  // restarts after a signal with SA_RESTART; only without others and a mask
-  pollfd* others = nullptr;     // descriptors that are not lines: they wake it as well
+  pollfd* others = nullptr;     // descriptors that are not lines: they wake it too
   nfds_t other_count = 0;
-  const sigset_t* mask = nullptr;  // of signals, while it waits
+  const sigset_t* mask = nullptr;  // the signal mask during the wait
 
   void add_line(int number) {
     if (line_count < kLinesInMessage) {
@@ -97,9 +98,9 @@ Woken wait_on_word(uint32_t* word, uint32_t value, bool is_shared, int64_t until
 void begin_outside();
 void end_outside();
 
-/// Informs the bench how a timer is set. The bench counts expirations in the descriptor, unless that is -1.
+/// Informs the bench of a timer's setting. The bench counts expirations in the descriptor, unless that is -1.
 void tell_timer(Message message, int descriptor);
-/// Returns true if the descriptor is one of timers.cpp's.
+/// Returns true if the descriptor is one of the timers in timers.cpp.
 bool is_timer(int descriptor);
 /// Forgets the parent's timers: a child process does not inherit them.
 void forget_timers();

@@ -9,7 +9,7 @@ using namespace understudy::host_time;
 
 namespace {
 
-/// Returns the rest of a sleep, at least 0.
+/// Returns the remaining time of a sleep, at least 0.
 int64_t rest_until(int64_t until_ns) {
   const int64_t now = now_ns();
   return until_ns > now ? until_ns - now : 0;

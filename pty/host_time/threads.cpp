@@ -1,8 +1,8 @@
 // Timed waits of threads for each other: conditions, semaphores, mutexes.
 //
-// libc waits for these internally, where nothing can be replaced. So conditions are entirely ours: a count of
-// signals, and a wait in the kernel until it changes. Semaphores keep libc's form, which no release may
-// change, because programs have them in their memory.
+// libc waits for these in internal functions that cannot be replaced. So conditions are implemented entirely
+// here: a count of signals, and a wait in the kernel until it changes. Semaphores keep libc's form, which no
+// release may change, because programs have them in their memory.
 #include <errno.h>
 #include <linux/futex.h>
 #include <pthread.h>
@@ -19,7 +19,7 @@ using namespace understudy::host_time;
 
 namespace {
 
-/// Our form of a pthread_cond_t. A static one is all zero at first.
+/// Our form of a pthread_cond_t. A statically initialized one is all zero.
 struct Condition {
   uint32_t signals;
   uint32_t waiters;
@@ -56,18 +56,18 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
   return !is_signalled && now_ns() >= until_ns ? ETIMEDOUT : 0;
 }
 
-/// Converts an absolute time of a clock to simulated time. Returns false if it is not valid: libc waits by
-/// two clocks.
+/// Converts an absolute time of a clock to simulated time. Returns false if the time is not valid, or if libc
+/// does not wait by that clock (it has two).
 bool take_end(clockid_t clock, const timespec* time, int64_t& until_ns) {
   const int64_t begin = clock_begin_ns(clock);
   if ((clock != CLOCK_REALTIME && clock != CLOCK_MONOTONIC) || time->tv_nsec < 0 || time->tv_nsec >= kBillion)
     return false;
   const int64_t ns = ns_of(*time);
-  until_ns = ns == kNever ? kNever : ns - begin;  // a time before the beginning is over
+  until_ns = ns == kNever ? kNever : ns - begin;  // a time before the beginning is in the past
   return true;
 }
 
-/// Returns true if the kernel's number of a thread is that of this one.
+/// Returns true if the thread number (the kernel's) is that of this thread.
 bool is_own(int thread) { return thread == static_cast<int>(UNDERSTUDY_REAL(syscall)(SYS_gettid)); }
 
 /// libc's form of a semaphore: the value in the low half, the waiters in the high one.

@@ -1,5 +1,5 @@
-// Timers of a host in simulated time. The bench keeps them: it sends the signals, and counts in the
-// descriptors, which are eventfds here: they are read like timers.
+// Timers of a host in simulated time. The bench runs them: it sends the signals, and counts in the
+// descriptors. These are eventfds here, which are read like timers.
 #include <errno.h>
 #include <limits.h>
 #include <pthread.h>
@@ -47,7 +47,7 @@ bool take_setting(const itimerspec& spec, bool is_absolute, clockid_t clock, Set
   setting = {0, interval};
   if (value == 0) return true;
   const int64_t at = is_absolute ? value - clock_begin_ns(clock) : after(value);
-  setting.next_ns = at > now_ns() ? at : now_ns() + 1;  // a time in the past is over at once
+  setting.next_ns = at > now_ns() ? at : now_ns() + 1;  // a time in the past expires at once
   return true;
 }
 
@@ -101,7 +101,7 @@ DescriptorTimer* timer_of(int descriptor) {
 
 bool understudy::host_time::is_timer(int descriptor) { return timer_of(descriptor) != nullptr; }
 
-/// What is wrong goes to the kernel, which says so.
+/// Passes invalid arguments to the kernel, which reports them.
 UNDERSTUDY_EXPORT int timerfd_create(clockid_t clock, int flags) noexcept {
   const bool is_good =
       is_for_waits(clock) && clock != CLOCK_TAI && (flags & ~(TFD_NONBLOCK | TFD_CLOEXEC)) == 0;
@@ -153,7 +153,7 @@ namespace {
 
 Setting alarm_setting;
 
-/// Returns false if it is not a time.
+/// Converts a time. Returns false if it is not valid.
 bool take_time(const timeval& given, timespec& time) {
   if (given.tv_usec < 0 || given.tv_usec >= 1'000'000) return false;
   time = {given.tv_sec, given.tv_usec * 1'000};
@@ -269,7 +269,8 @@ void tell(const SignalTimer& timer) {
 
 namespace {
 
-/// Timers that start a thread at each expiry are left to libc, and what is wrong to the kernel.
+/// Returns false for timers that start a thread at each expiry, which are left to libc, and for invalid
+/// events, which are left to the kernel.
 bool is_simulated(const sigevent& event) {
   if (event.sigev_notify == SIGEV_NONE) return true;
   const bool is_signal = event.sigev_notify == SIGEV_SIGNAL || event.sigev_notify == SIGEV_THREAD_ID;

@@ -1,5 +1,5 @@
-// A controller on a pseudo-terminal that a test makes itself. It agrees with every request, and counts the
-// functions that it is asked for, and the writes to each address. A test may decide what it tells.
+// A controller on a pseudo-terminal, implemented by the test itself. It accepts every request, and counts the
+// requested functions and the writes to each address. A test can choose the values of its registers.
 #pragma once
 
 #include <fcntl.h>
@@ -55,7 +55,7 @@ class CountingBox {
   int writes() const {
     return count([](const Frame& frame) { return frame[1] > 4; });
   }
-  /// Writes to an address.
+  /// Returns the number of writes to an address.
   int writes_to(int address) const {
     return count([&](const Frame& frame) { return frame[1] > 4 && (frame[2] << 8 | frame[3]) == address; });
   }

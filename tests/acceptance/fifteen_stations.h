@@ -1,4 +1,4 @@
-// As many Simple2-R3 on one line as their rotary switches have addresses.
+// One line with as many Simple2-R3 as their rotary switches have addresses.
 #pragma once
 
 #include <string>

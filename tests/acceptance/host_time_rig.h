@@ -1,4 +1,4 @@
-// Runs hosts in simulated time on a bench of its own.
+// Runs hosts in simulated time on a separate bench.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ class HostTime : public testing::Test {
   Finished python(const std::string& script, const Words& flags = {}) const {
     return exec({kPython, "-c", script}, flags);
   }
-  /// Runs it twice while the machine is loaded. Its output and the recording must be the same.
+  /// Runs the script twice while the machine is loaded. Its output and the recording must be the same.
   Finished python_twice(const std::string& script, Words flags = {}) const {
     flags.emplace_back("--record");
     const auto run = [&](const char* recording) {

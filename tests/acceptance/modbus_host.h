@@ -1,4 +1,4 @@
-// libmodbus as the host, as in many real programs; and the registers of a Simple2-R3 that tests use.
+// A host that uses libmodbus, like many real programs; and the registers of a Simple2-R3 that tests use.
 #pragma once
 
 #include <errno.h>
@@ -25,7 +25,7 @@ inline constexpr int kAaxisSpeed = 0x1002;
 inline constexpr int kAaxisAccTime = 0x1003;
 inline constexpr int kAaxisMoveInc = 0x1005;
 inline constexpr int kAaxisSvon = 0x1014;
-inline constexpr int kMovingA = 1 << 4;  // of STATUS
+inline constexpr int kMovingA = 1 << 4;  // a bit of STATUS
 
 struct HostSetup {
   int baud = 19200;
@@ -51,7 +51,7 @@ class ModbusHost {
     connected_ = note(modbus_connect(context_.get())) == 0;
   }
 
-  /// Sends a request that gets no reply, so it does not wait long.
+  /// Sends a request that gets no reply, and therefore does not wait long.
   template <class Ask>
   auto in_vain(const Ask& ask, std::chrono::milliseconds patience = std::chrono::milliseconds(200)) {
     set_patience(patience);

@@ -1,4 +1,4 @@
-// The code blocks of a page of docs/ in one language, which readers paste.
+// Returns the code blocks in one language on a page of docs/, which readers paste.
 #pragma once
 
 #include <fstream>

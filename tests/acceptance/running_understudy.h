@@ -76,7 +76,7 @@ Finished understudy(Words arguments, const Environment& environment = {});
 
 std::vector<std::string> lines_of(const std::string& text);
 
-/// A running `understudy serve`. At the end of the test it is asked to stop, and must exit with 0.
+/// A running `understudy serve`. At the end of the test it is told to stop, and must exit with 0.
 class RunningUnderstudy {
  public:
   /// Serves one Simple2-R3 on a line called "line" with the link folder()/port. `flags` are added.
@@ -101,9 +101,9 @@ class RunningUnderstudy {
   const Process& process() const { return *process_; }
   std::string errors() const { return process_->errors(); }
 
-  /// Runs `understudy ctl WORDS` with this one's socket.
+  /// Runs `understudy ctl WORDS` with this daemon's socket.
   Finished ctl(const Words& words) const;
-  /// Returns how many requests its first station has served, by `ctl status`.
+  /// Returns how many requests its first station has served, according to `ctl status`.
   int requests() const;
   /// Sends the signal and returns the exit code, which the caller checks.
   std::optional<int> stop(int signal_number);

@@ -16,7 +16,7 @@
 
 namespace understudy::acceptance {
 
-/// Returns the port on which it listens, from its log; 0 if there is none.
+/// Returns the port on which the daemon listens, from its log, or 0 if there is none.
 inline int listened_port(const RunningUnderstudy& served) {
   std::smatch found;
   const std::string errors = served.errors();

@@ -1,4 +1,4 @@
-// Calls that exec --host-time handles, with arguments that are drawn: good, odd and wrong ones.
+// Calls that exec --host-time handles, with random arguments: valid, unusual and invalid ones.
 #pragma once
 
 #include <poll.h>
@@ -17,7 +17,7 @@
 
 namespace calling_host {
 
-/// Draws arguments. Equal seeds draw the same on any machine.
+/// Draws arguments. Equal seeds give the same arguments on any machine.
 class Drawer {
  public:
   explicit Drawer(std::uint32_t seed) : numbers_(seed) {}
@@ -30,17 +30,17 @@ class Drawer {
   }
 
   clockid_t clock();
-  /// Short, none, or not a time. Waits in real time must not take long.
+  /// Returns a short time, zero, or an invalid time. Waits in real time must not take long.
   timespec length();
   timeval short_length();
-  /// A time of the clock that is over, soon, or not a time.
+  /// Returns a time of the clock that is in the past, is soon, or is invalid.
   timespec end_by(clockid_t clock);
 
  private:
   std::mt19937 numbers_;
 };
 
-/// Descriptors of every kind that a wait may meet. They have the same numbers in each run.
+/// Descriptors of every kind that a wait may be given. They have the same numbers in each run.
 class Descriptors {
  public:
   Descriptors();
@@ -64,13 +64,13 @@ class Descriptors {
   int ready_epoll_ = -1;
 };
 
-/// Prints what was called.
+/// Prints the call.
 void tell(const std::string& text);
-/// Prints what was called, and what it returned: with errno if that is -1.
+/// Prints the call and its result, with errno if the result is -1.
 void tell(const std::string& call, long result);
-/// The same of a call that returns its error.
+/// Prints a call that returns its error, and the error.
 void tell_error(const std::string& call, int error);
-/// Runs a call whose result goes to tell(), with an errno that no call sets.
+/// Runs a call with errno set to 0, which no call sets. The caller passes the result to tell().
 template <class Call>
 long result_of(Call call) {
   errno = 0;

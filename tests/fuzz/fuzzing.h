@@ -1,8 +1,8 @@
-// Shared by the fuzz targets: how they report errors, and how they divide the time of a search.
+// Code shared by the fuzz targets: error reports, and how the time of a search is divided.
 //
-// A search needs many runs: worlds are made once and restored to their initial state, and checks that cost a
-// multiple of a plain run (the same in single ticks, a second station) are done for one input in eight, or
-// fewer. When a corpus is replayed, everything is checked.
+// A search needs many runs: worlds are made once and restored to their initial state, and checks that cost
+// several times as much as a plain run (the same run in single ticks, a second station) are done for one
+// input in eight, or fewer. When a corpus is replayed, everything is checked.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Returns true for the one input in this many with which everything is checked. Depends only on the input.
+/// Returns true for one input in `many`, for which everything is checked. The result depends only on the
+/// input.
 inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input,
                               [[maybe_unused]] std::uint32_t one_in = 8) {
 #ifdef UNDERSTUDY_REPLAYS_CORPUS

@@ -23,7 +23,7 @@ inline void require_no_difference(emulator::world::World& world, const emulator:
   require(false, what);
 }
 
-/// A stage can restart, apply acts and run for ticks, and it has a world.
+/// `Executor` can restart, apply acts and run for ticks, and has a world.
 template <class Executor, class Act>
 void play(Executor& stage, std::span<const Act> acts, Tick ticks_after) {
   stage.restart();
@@ -50,7 +50,7 @@ void require_same_by_single_ticks(Executor& stepped, Executor& in_bulk, std::spa
                         "many ticks in one step are the same as one by one");
 }
 
-/// A refused request changes nothing.
+/// Requires that a refused request changes nothing.
 inline void require_refused_changes_nothing(emulator::Device& device, std::span<const std::uint8_t> pdu,
                                             bool may_change = false) {
   namespace world = emulator::world;

@@ -1,4 +1,5 @@
-// Facts from a maker's manual, stored as CSV files next to the tests: an oracle that is not our code.
+// Facts from a manufacturer's manual, stored as CSV files next to the tests: an oracle that is independent of
+// our code.
 #pragma once
 
 #include <gtest/gtest.h>

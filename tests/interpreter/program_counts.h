@@ -1,4 +1,4 @@
-// Adds up what is reported to an observer of a program.
+// Counts the reports that an observer of a program receives.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct LineCount {
   }
 };
 
-/// By part and line.
+/// Counts by part and line.
 using LineTally = std::map<std::pair<int, int>, LineCount>;
 
 class ProgramCounts final : public ProgramWatch {

@@ -7,13 +7,13 @@
 
 namespace understudy::motion {
 
-/// A trapezoid with `slope_pps2` up and down.
+/// Returns a trapezoid with `slope_pps2` up and down.
 inline SpeedLaw trapezoid(double top_pps, double slope_pps2) {
   return {
       .top_speed_u_s = top_pps, .up = RampLaw::by_slope(slope_pps2), .down = RampLaw::by_slope(slope_pps2)};
 }
 
-/// Constant speed `pps` from the first moment to the last.
+/// Returns a law with the constant speed `pps` from the first moment to the last.
 inline SpeedLaw constant(double pps) {
   SpeedLaw law = trapezoid(pps, 1e6);
   law.start_speed_u_s = pps;
@@ -54,7 +54,7 @@ struct AxisCourse {
     for (Tick tick = 0; tick < ticks; ++tick) sent += step();
     return sent;
   }
-  /// Runs until it is at rest. Returns the ticks, or -1 if it still moves after `at_most`.
+  /// Runs until the axis is at rest. Returns the number of ticks, or -1 if it still moves after `at_most`.
   Tick until_rest(Tick at_most = 1'000'000) {
     for (Tick ticks = 0; ticks <= at_most; ++ticks) {
       if (!axis.moving()) return ticks;
@@ -62,7 +62,7 @@ struct AxisCourse {
     }
     return -1;
   }
-  /// Returns the events since the last call.
+  /// Returns true if the event has occurred.
   bool saw(Event event) const { return (seen & bit(event)) != 0; }
 
   std::int64_t travel() const { return axis.travel_pulses; }

@@ -1,4 +1,4 @@
-// Random acts on an axis: commands, numbers, switches that come and go.
+// Random acts on an axis: commands, numbers, switches that turn on and off.
 #pragma once
 
 #include <functional>
@@ -33,7 +33,8 @@ class AxisScenario {
     return course;
   }
 
-  /// The act before the next tick, mostly none. The axis may refuse it, by an exception or by a cause.
+  /// Returns the act before the next tick, which is mostly none. The axis may refuse it, with an exception or
+  /// a cause.
   std::function<void(AxisCourse&)> next() {
     const SpeedLaw law = speed_law();
     const int direction = between(0, 1) == 0 ? +1 : -1;
@@ -70,7 +71,7 @@ class AxisScenario {
     }
   }
 
-  /// The input of the next tick from elsewhere.
+  /// Returns the external counts for the next tick.
   std::int64_t counts() { return between(0, 3) == 0 ? 0 : between(-40, 60); }
 
   std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }
@@ -125,7 +126,7 @@ class AxisScenario {
   std::uint64_t seed_;
 };
 
-/// Applies it; a refused act changes nothing.
+/// Applies an act; a refused act changes nothing.
 inline void act(const std::function<void(AxisCourse&)>& command, AxisCourse& course) {
   try {
     command(course);

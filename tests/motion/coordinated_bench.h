@@ -1,4 +1,4 @@
-// Four axes on a bench that are carried along paths, and the shapes that they are compared with.
+// Four axes on a bench that are carried along paths, and the shapes with which they are compared.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct Bench {
 
   std::array<Axis, kAxes> axes{};
   std::array<Environment, kAxes> environment{};
-  std::array<std::int64_t, kAxes> pulses{};  // of the last tick
+  std::array<std::int64_t, kAxes> pulses{};  // the pulses of the last tick
   std::array<std::int64_t, kAxes> sent{};    // all so far, as they were sent
   std::array<Events, kAxes> events{};        // all so far
   Coordinated group;
@@ -46,7 +46,7 @@ struct Bench {
   void steps(int count) {
     for (; count > 0; --count) step();
   }
-  /// Returns the tick in which the group released it; -1 if it did not.
+  /// Runs until the group releases the axes. Returns that tick, or -1 if it does not.
   Tick to_the_end(Tick max = 1'000'000) {
     for (const Tick last = tick + max; tick < last;) {
       step();

@@ -19,7 +19,7 @@ inline std::int64_t pulses_at(const Profile& profile, Tick elapsed) {
   return drive.pulses_at(elapsed);
 }
 
-/// Returns the first tick, counted from the beginning, at which `profile` is over.
+/// Returns the first tick, counted from the beginning, at which `profile` has ended.
 inline Tick end_tick(const Profile& profile) {
   return static_cast<Tick>(std::ceil(profile.duration_s * kTicksPerSecond - kTickTolerance));
 }
@@ -58,7 +58,7 @@ struct RegisterMove {
   std::int64_t deceleration_ms() const { return 10 * deceleration_10ms; }
   std::int64_t ramps_ms() const { return acceleration_ms() + deceleration_ms(); }
 
-  /// The limit, pulses per millisecond: speed * resolution / 60000, at most 100 (100 kHz).
+  /// Returns the speed limit in pulses per millisecond: speed * resolution / 60000, at most 100 (100 kHz).
   Ratio limit() const {
     const Int128 pulses_per_minute = Int128{speed_rpm} * resolution;
     return pulses_per_minute > 6'000'000 ? Ratio{100, 1} : Ratio{pulses_per_minute, 60'000};
@@ -68,11 +68,11 @@ struct RegisterMove {
     return pps > 100'000 ? 100'000 : pps;
   }
 
-  /// Compares 2P / (TA+TD) with V.
+  /// Returns true if 2P / (TA+TD) reaches V.
   bool reaches_limit() const { return Int128{2} * distance_pulses * limit().den >= limit().num * ramps_ms(); }
   Ratio top() const { return reaches_limit() ? limit() : Ratio{Int128{2} * distance_pulses, ramps_ms()}; }
 
-  /// TT, milliseconds.
+  /// Returns the total time TT in milliseconds.
   Ratio total_ms() const {
     const Ratio r = top();  // (TA+TD)/2 + P/R
     return {Int128{ramps_ms()} * r.num + Int128{2} * distance_pulses * r.den, 2 * r.num};

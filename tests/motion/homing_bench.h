@@ -1,7 +1,7 @@
 // A bench for homing: an axis, the switches along its travel, and the trace of its motion there.
 //
-// Tables are written for the home direction +; mirrored() reverses a bench or a trace, so that each also runs
-// for the direction -.
+// Tables are written for the home direction +; mirrored() reverses a bench or a trace, so that each test also
+// runs for the direction -.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 namespace understudy::motion {
 
 inline constexpr std::int64_t kFar = 1'000'000'000;
-/// The end of a leg that did not come to rest, because the next one took over during motion.
+/// Marks the end of a leg that did not come to rest, because the next leg began during motion.
 inline constexpr std::int64_t kRunsOn = INT64_MIN;
 
 /// A leg: a row of the homing table, in a direction, until it comes to rest.
@@ -107,7 +107,7 @@ struct HomingBench {
     runs_ = is;
   }
 
-  /// Runs until homing has ended, or until the tick. Returns true if it has ended.
+  /// Runs until homing has ended, or until the tick `until`. Returns true if homing has ended.
   bool run(Tick until = 200'000) {
     while (axis.homing.active() && now < until) step();
     return !axis.homing.active();
@@ -166,7 +166,7 @@ inline double time_to_reach_s(double pulses, double speed_pps, double slope) {
   return pulses / speed_pps + speed_pps / (2 * slope);
 }
 
-/// The duration from rest to rest, with equal ramps.
+/// Returns the duration from rest to rest, with equal ramps.
 inline double time_of_move_s(double pulses, double speed_pps, double slope) {
   if (pulses < 2 * brake_pulses(speed_pps, slope)) return 2 * std::sqrt(pulses / slope);
   return pulses / speed_pps + speed_pps / slope;

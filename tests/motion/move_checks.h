@@ -1,4 +1,4 @@
-// Checks of every profile of a move: it has no gaps, keeps within the limits of its law, and has the
+// Checks of every profile of a move: it has no gaps, stays within the limits of its law, and has the
 // positions that it reports.
 #pragma once
 
@@ -75,15 +75,16 @@ inline Long farthest(const Profile& profile) {
   return far;
 }
 
-/// Returns whether a segment increases the speed (in the direction of motion), decreases it, or neither.
+/// Returns +1, -1 or 0 if a segment increases the speed (in the direction of motion), decreases it, or
+/// neither.
 inline int sense_of(const Segment& segment) {
   const double change = segment.acceleration_u_s2 != 0 ? segment.acceleration_u_s2 : segment.jerk_u_s3;
   return change > 0 ? 1 : change < 0 ? -1 : 0;
 }
 
-/// Times are doubles counted from the profile's beginning, so every boundary between segments is only known
-/// to a rounding error of the whole duration. The effect of that on speeds and accelerations is not a fault;
-/// in moves of hours with ramps of milliseconds it exceeds rounding errors of the speeds themselves.
+/// Times are doubles counted from the profile's beginning, so every boundary between segments has an error of
+/// up to a rounding error of the whole duration. The effect of that on speeds and accelerations is not a
+/// fault; in moves of hours with ramps of milliseconds it exceeds rounding errors of the speeds themselves.
 struct Blur {
   Long time_s = 0, speed = 0, acceleration = 0;
 };
@@ -107,7 +108,8 @@ inline Blur blur_of(const Profile& profile) {
   return blur;
 }
 
-/// Returns true if it reverses after segment `i`: it stops from the start speed, and returns at that speed.
+/// Returns true if the motion reverses after segment `i`: it stops from the start speed, and returns at that
+/// speed.
 inline bool turns_after(const Profile& profile, std::int32_t i) {
   return i + 1 < profile.segment_count && profile.segments[static_cast<std::size_t>(i + 1)].speed_u_s < 0 &&
          profile.segments[static_cast<std::size_t>(i)].speed_u_s > 0;
@@ -139,22 +141,22 @@ inline Fault gap_in(const Profile& profile, Long scale_u, Long scale_u_s = 0) {
 }
 
 /// Checks a move from rest to rest, forwards: limits kept, and acceleration without gaps if the law has jerk.
-/// `whole_ramps`: no ramp was broken off.
+/// `whole_ramps` means that no ramp was broken off.
 inline Fault beyond_limits(const Profile& profile, const SpeedLaw& law, bool whole_ramps) {
   const Long start = oracle::start_of(law);
   const Long peak = greatest_speed(profile);
   if (peak > law.top_speed_u_s * (1 + kLimitTolerance)) return "speed is " + text(peak);
   const Limits down = limits_of(law.down, peak - start);
   Limits up = limits_of(law.up, peak - start);
-  if (!whole_ramps) {  // a part of one to a higher speed
+  if (!whole_ramps) {  // it may be a part of a ramp to a higher speed
     const Limits whole = limits_of(law.up, law.top_speed_u_s - start);
     up = {std::max(up.acceleration, whole.acceleration), std::max(up.jerk, whole.jerk)};
   }
   const Blur blur = blur_of(profile);
-  // A change of speed next to a large start speed is only known to some rounding errors of the latter.
+  // A change of speed next to a large start speed has an error of a few rounding errors of the start speed.
   const Long rounding = 1e-15L * peak;
   State before{};
-  bool is_known = true;  // `before` is what the last segment ended with
+  bool is_known = true;  // `before` is the end of the last segment
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
     const Segment& segment = profile.segments[static_cast<std::size_t>(i)];
     const int sense = sense_of(segment);
@@ -202,7 +204,7 @@ inline Fault off_target(const Profile& profile, double target_u) {
 }
 
 /// Integrates only the jerk, by the Runge-Kutta method, from the beginning; acceleration jumps where a
-/// segment says so. sample() must agree everywhere, and the end must be the target.
+/// segment has a jump. sample() must agree everywhere, and the end must be the target.
 inline Fault differs_from_integral(const Profile& profile, double target_u, Long scale_u) {
   const Long tolerance_u = kLimitTolerance * scale_u + blur_of(profile).speed * profile.duration_s;
   const Long tolerance_u_s = kLimitTolerance * greatest_speed(profile) + 2 * blur_of(profile).speed;

@@ -1,5 +1,5 @@
-// Another implementation of the laws of moves, in long double, from the chips' formulas, to compare plan()
-// with.
+// Another implementation of the laws of moves, in long double, from the chips' formulas, for comparison with
+// plan().
 //
 //   slope     T = dv / a                     time      T given
 //   jerk      T = 2 sqrt(dv / K), with a bound A: dv / A + A / K once A is reached (dv > A^2 / K)
@@ -18,7 +18,7 @@ namespace understudy::motion::oracle {
 
 using Long = long double;
 
-/// A ramp's shape: jerk for `end_s`, none for `middle_s`, jerk back for `end_s`.
+/// A ramp's shape: jerk for `end_s`, none for `middle_s`, the opposite jerk for `end_s`.
 struct Shape {
   Long end_s = 0, middle_s = 0, acceleration = 0, jerk = 0;
   Long duration_s() const { return 2 * end_s + middle_s; }
@@ -112,7 +112,7 @@ inline Expected move_of(double distance_u, const SpeedLaw& law) {
   Expected expected{.peak = start};
   Long rise_s = 0;
   Long risen = 0;
-  Long rise_to = top;  // of the ramp with which the move starts, whole or broken off
+  Long rise_to = top;  // the top of the ramp with which the move starts, whole or broken off
   if (law.slow_down_at_u || law.when_short == Short::cut_ramp) {
     rise_s = greatest(0, shape_of(law.up, top - start).duration_s(), [&](Long t) {
       const Place here = on_ramp(law.up, start, top - start, t);

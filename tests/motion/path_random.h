@@ -15,7 +15,7 @@
 
 namespace understudy::motion {
 
-/// UNDERSTUDY_SEED overrides; the present seed is printed with a failure.
+/// Returns the seed, which UNDERSTUDY_SEED can set. It is printed with a failure.
 inline std::uint64_t path_seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
@@ -33,7 +33,7 @@ inline std::string code_of(const Point& point) {
   return text + ")";
 }
 
-/// The arguments of one arc function, and what is known of its arc beforehand.
+/// The arguments of one arc function, and the known properties of the arc.
 struct ArcCase {
   enum class Maker { by_sweep, by_centre, by_radius, by_three_points, in_space, spiral };
 
@@ -103,7 +103,7 @@ class RandomPaths {
   double within(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  /// Small ones as often as large ones.
+  /// Draws small numbers as often as large ones.
   double of_any_size(double low, double high) {
     return std::pow(10, within(std::log10(low), std::log10(high)));
   }

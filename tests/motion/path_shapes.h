@@ -1,5 +1,5 @@
-// Shapes with their own geometry that a run along paths is compared with, and how far along them a position
-// is. This file uses nothing of motion/path.h except the Path for the run.
+// Shapes with their own geometry, with which a run along paths is compared. They find how far along a shape a
+// position is. This file uses nothing of motion/path.h except the Path for the run.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline std::string place_as_code(const Point& place) {
 struct Shape {
   bool straight = true;
   Point begin = Point::Zero();
-  Point end = Point::Zero();  // of an arc: as in the path
+  Point end = Point::Zero();  // for an arc, as in the path
   Point centre = Point::Zero();
   double sweep_rad = 0;
   double rise_u = 0;
@@ -89,8 +89,8 @@ struct Shape {
 struct Walk {
   std::vector<Shape> shapes{};
   std::size_t done = 0;      // shapes completed
-  double done_length_u = 0;  // of those
-  double along_u = 0;        // in all
+  double done_length_u = 0;  // their length
+  double along_u = 0;        // the total
   double off_u = 0;          // the largest distance from the shapes so far
   double speed_u_s = 0;      // mean speed of the last tick
   double speed_before_u_s = 0;

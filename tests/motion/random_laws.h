@@ -55,7 +55,7 @@ class RandomLaws {
   }
   double of_any_size(double low, double high) { return std::exp2(between(std::log2(low), std::log2(high))); }
 
-  /// Above 0. One in eight is extreme, one in four is round.
+  /// Draws a number above 0. One in eight is extreme, one in four is round.
   double number() {
     constexpr std::array<double, 8> kRound{1, 2, 10, 100, 1000, 0.5, 4096, 1e6};
     switch (below(8)) {
@@ -65,14 +65,14 @@ class RandomLaws {
       default: return of_any_size(1e-2, 1e6);
     }
   }
-  /// Above 0, as controllers use them.
+  /// Draws a number above 0 in the range that controllers use.
   double usual_number() {
     return below(4) == 0 ? 100.0 * static_cast<double>(1 + below(10)) : of_any_size(10, 1e5);
   }
 
   RampLaw slope(bool extreme = true) { return RampLaw::by_slope(extreme ? number() : 10 * usual_number()); }
   RampLaw time() { return RampLaw::by_time(of_any_size(1e-3, 100)); }
-  /// Half of them have a bound that changes of speed of about `dv` reach, or just do not reach.
+  /// Draws a law with jerk. Half of them have a bound near the one that a speed change of `dv` just reaches.
   RampLaw jerk(double dv, bool extreme = true) {
     const double jerk = extreme ? number() : 100 * usual_number();
     if (below(2) == 0) return RampLaw::by_jerk(jerk);
@@ -105,7 +105,7 @@ class RandomLaws {
     }
   }
 
-  /// A distance for `law`, given that its ramps to and from the top speed together need `ramps_u`.
+  /// Draws a distance for a law whose ramps to and from the top speed together need `ramps_u`.
   double distance(double ramps_u) {
     constexpr std::array<double, 6> kGiven{0, 1, 2, 3, 1000, 2147483647};
     double distance = ramps_u;

@@ -13,13 +13,14 @@
 
 namespace understudy::motion {
 
-/// UNDERSTUDY_SEED overrides; print the present seed with every failure.
+/// Returns the seed, which UNDERSTUDY_SEED can set. Tests print it with every failure.
 inline std::uint64_t seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
 }
 
-/// How many random cases a test tries: `usual`, a tenth of it under sanitizers, or UNDERSTUDY_MOVES if given.
+/// Returns how many random cases a test tries: `usual`, a tenth of that under sanitizers, or UNDERSTUDY_MOVES
+/// if given.
 inline int random_cases(int usual) {
   if (const char* given = std::getenv("UNDERSTUDY_MOVES")) return std::atoi(given);
   return is_address_sanitized() ? usual / 10 : usual;
@@ -33,7 +34,7 @@ class RandomMoves {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
   }
 
-  /// Small numbers as often as large ones.
+  /// Draws small numbers as often as large ones.
   std::int64_t of_any_size(std::int64_t low, std::int64_t high) {
     std::uniform_real_distribution<double> exponent(std::log2(static_cast<double>(low)),
                                                     std::log2(static_cast<double>(high)));
@@ -50,7 +51,7 @@ class RandomMoves {
     move.acceleration_10ms = ramp_time();
     move.deceleration_10ms = between(0, 3) == 0 ? move.acceleration_10ms : ramp_time();
     const Ratio limit = move.limit();
-    // Returns the distance at which the ramps just fill the move.
+    // The distance at which the ramps just fill the move.
     const std::int64_t equal = Ratio{limit.num * move.ramps_ms(), 2 * limit.den}.floor();
     switch (between(0, 5)) {
       case 0: move.distance_pulses = between(1, 5); break;

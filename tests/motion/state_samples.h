@@ -1,5 +1,5 @@
 // A value of every type that motion can save, taken in the middle of its work, and functions that continue
-// with it.
+// the work.
 #pragma once
 
 #include <cstdint>
@@ -80,7 +80,7 @@ inline Output go_on(Environment& environment, Tick tick) {
   return {static_cast<double>(environment.at(tick * 7 - 1000)), static_cast<double>(next.value_or(-1))};
 }
 
-/// Adds up what the actions of a tick leave to their owner.
+/// Collects the outputs and interrupts of a tick's actions.
 struct ActingOwner final : EdgeOwner {
   explicit ActingOwner(SyncTable& acting) : table(acting) {}
   void at_edge(SharedTick& now, std::size_t axis, Events events) override {

@@ -1,5 +1,4 @@
-// The registers that the hosts use, and what they do with them: those of a Simple2-R3, and one of an
-// RS-M8194H.
+// The registers that the hosts use, and operations on them: those of a Simple2-R3, and one of an RS-M8194H.
 #pragma once
 
 #include <cstdint>

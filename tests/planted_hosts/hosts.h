@@ -1,9 +1,9 @@
-// Hosts that move a machine, each with a fault that shows only now and then, and without it (`is_careful`).
+// Hosts that move a machine. Each has a fault that shows only now and then, except if `is_careful` is true.
 #pragma once
 
 namespace understudy::planted {
 
-// Each takes a number that its campaign varies, where it needs one.
+// The numbers are parameters that the host's campaign varies.
 void double_move(bool is_careful, int pulses);
 void stale_busy_bit(bool is_careful, int pulses);
 void torn_value(bool is_careful, int pause_ms);

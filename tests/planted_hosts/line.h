@@ -19,23 +19,23 @@ class Line {
 
   int station = 1;
   int timeout_ms = 200;
-  bool flushes = true;  // drops what has come before a request
+  bool flushes = true;  // drops bytes that have arrived before a request
 
-  /// Each sends a request once. Nothing, or false: no good answer came in time.
+  /// Each of these sends a request once. Nothing or false: no valid answer arrived in time.
   std::optional<Words> read(int first, int count);
   std::optional<int> read_one(int address);
   bool write(int address, int value);
   bool write(int first, const Words& words);
 
-  /// Sends it again and again until it is answered.
+  /// Repeats the request until it is answered.
   int surely_read(int address);
   Words surely_read(int first, int count);
   void surely_write(int address, int value);
   void surely_write(int first, const Words& words);
 
-  /// A request failed because the port is gone.
+  /// Returns true if a request failed because the port disappeared.
   bool is_lost() const { return is_lost_; }
-  /// Opens the port again as soon as it is there.
+  /// Opens the port again as soon as it exists.
   void reopen();
   void throw_away();
 
@@ -48,7 +48,7 @@ class Line {
 };
 
 void sleep_ms(int milliseconds);
-/// The time since the start of the machine.
+/// Returns the time since the machine was started.
 std::int64_t now_ms();
 
 }  // namespace understudy::planted

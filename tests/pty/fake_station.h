@@ -13,7 +13,7 @@
 
 namespace understudy::pty {
 
-/// Serves every frame with its own address, and replies with the bytes it was given.
+/// Answers every frame to its own address with the bytes that the test sets.
 class FakeSlave : public Station {
  public:
   FakeSlave(std::uint8_t address, Bytes reply,
@@ -53,7 +53,7 @@ class FakeSlave : public Station {
   Bytes reply_;
 };
 
-/// Sends what it was given, at the given times.
+/// Sends the given bytes at the given times.
 class FakeTalker : public Station {
  public:
   LineSettings settings() const override { return {}; }

@@ -1,5 +1,5 @@
-// Reads pcapng by its specification alone, with nothing in common with the writer; reports anything that is
-// not well-formed through gtest.
+// Reads pcapng according to its specification, without code of the writer. Reports anything that is not
+// well-formed through gtest.
 #pragma once
 
 #include <gtest/gtest.h>

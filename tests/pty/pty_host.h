@@ -1,4 +1,4 @@
-// The two ends of a pseudo-terminal for tests: a host as real programs open it, and a server of it.
+// The two ends of a pseudo-terminal for tests: a host that opens it as real programs do, and a server.
 #pragma once
 
 #include <fcntl.h>
@@ -19,7 +19,7 @@
 
 namespace understudy::pty {
 
-inline constexpr int kTimeoutMs = 10000;  // of a failing test; a passing one only waits for events
+inline constexpr int kTimeoutMs = 10000;  // for a failing test; a passing one only waits for events
 
 inline bool is_readable(int descriptor, int timeout_ms) {
   pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
@@ -32,7 +32,8 @@ class Host {
     EXPECT_TRUE(descriptor_) << path;
   }
 
-  /// Raw, with even parity: the settings of nearly every Modbus host. Returns false if libc refused them.
+  /// Sets the terminal to raw with even parity, as nearly every Modbus host does. Returns false if libc
+  /// refused them.
   bool set_even_parity(speed_t speed, int stop_bits = 1) {
     termios settings = {};
     if (::tcgetattr(descriptor_.get(), &settings) != 0) return false;
@@ -115,7 +116,7 @@ class ComplementServer {
 
   std::atomic<int> opened{0};
   std::atomic<int> closed{0};
-  std::atomic<int> wrong_settings{0};  // reads whose host was not seen at 19200 baud
+  std::atomic<int> wrong_settings{0};  // reads for which the host's speed was not 19200 baud
 
  private:
   void serve() {

@@ -1,4 +1,5 @@
-// Frames that a manual or a specification prints, with their checksums: an oracle that is not our code.
+// Frames that a manual or a specification prints, with their checksums: an oracle that is independent of our
+// code.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace understudy::pty {
 using Bytes = std::vector<std::uint8_t>;
 using Frames = std::vector<Bytes>;
 
-/// "01 03 D5" as bytes.
+/// Converts text such as "01 03 D5" to bytes.
 inline Bytes hex(std::string_view text) {
   Bytes bytes;
   for (std::size_t at = 0; at + 1 < text.size(); at += 3) {

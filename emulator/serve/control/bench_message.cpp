@@ -1,4 +1,4 @@
-// Describes a bench to observers that know none of its models.
+// Describes a bench to observers that know nothing about its models.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -94,7 +94,7 @@ std::string_view name_of_terminal(const Model& model, int terminal) {
   return terminal < 0 ? std::string_view() : model.terminals[static_cast<std::size_t>(terminal)].name;
 }
 
-/// Returns for each terminal what machines and drives use it for: "A.home", "B.servo".
+/// Returns, for each terminal, what machines and drives use it for: "A.home", "B.servo".
 std::vector<std::vector<std::string>> functions_of(const Model& model, const world::World& world,
                                                    std::size_t device) {
   std::vector<std::vector<std::string>> functions(model.terminals.size());
@@ -207,7 +207,7 @@ Json terminal_of(const TerminalRow& row, const std::vector<std::string>& functio
   return terminal;
 }
 
-/// Describes all that an observer needs to show a device: `device`, or `devices` for all of them.
+/// Describes everything that an observer needs in order to show the device `only`, or all devices.
 ReplyTask device_message(Daemon& daemon, std::optional<std::size_t> only) {
   const Pause pause(daemon);
   const world::World& world = daemon.world();

@@ -8,7 +8,8 @@
 namespace understudy::emulator::serve {
 
 /// Makes a socket at `path`; throws ControlError if it cannot be opened there. If `path` is empty, uses a
-/// path that no other daemon has (sockets.h); if that fails, logs it, and the daemon runs without a socket.
+/// path that no other daemon uses (sockets.h). If that fails, it logs the reason, and the daemon runs without
+/// a socket.
 DoorMaker control_door(const std::string& path = "");
 
 }  // namespace understudy::emulator::serve

@@ -254,7 +254,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
   }
 }
 
-/// Returns a frame of a stack: a line of the listing as the source's line, and its first instruction.
+/// Returns a stack frame: the source line for a line of the listing, and its first instruction.
 static Json json_of_frame(const world::ProgramLines& lines, int listing_line) {
   const int line = lines.source_line(listing_line);
   Json frame{{"line", line}};
@@ -278,7 +278,7 @@ static Json json_of_instructions(const Device& device, const world::ProgramLines
   }
   const bool has_lines =
       std::any_of(rows.begin(), rows.end(), [](const CellRow& row) { return row.line > 0; });
-  std::map<int, std::vector<std::int64_t>> cells;  // by line, or by number if the rows have no lines
+  std::map<int, std::vector<std::int64_t>> cells;  // keyed by line, or by number if the rows have no lines
   for (std::size_t i = 0; i < rows.size(); ++i)
     cells[has_lines ? rows[i].line : static_cast<int>(i)] = std::move(rows[i].cells);
   Json programs = Json::array();

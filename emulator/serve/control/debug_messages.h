@@ -1,4 +1,5 @@
-// The control messages of a debugger (docs/debugging.md). As in verbs.h, nothing has changed if one throws.
+// The control messages of a debugger (docs/debugging.md). As in verbs.h, a function that throws has changed
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +16,23 @@ namespace understudy::emulator::serve {
 inline constexpr std::string_view kRunsByItself =
     "time is already running; expected --speed manual, or `pause` first";
 
-/// {"do":"break","device":"feeder","line":12,"when":"...","nth":3,"log":"..."} sets a breakpoint; so do
-/// "instruction", "write" and "on" in the place of "line", or "when" alone. {"do":"break"} lists them,
+/// {"do":"break","device":"feeder","line":12,"when":"...","nth":3,"log":"..."} sets a breakpoint; so does
+/// "instruction", "write" or "on" instead of "line", or "when" alone. {"do":"break"} lists them,
 /// {"do":"break","delete":1} deletes one, or "all".
 Json break_message(Daemon& daemon, const Json& message);
-/// {"do":"continue"} lets time run; {"do":"continue","within":"10s"} advances it. The reply to that follows
-/// at the next stop, or when the time is over.
+/// {"do":"continue"} lets time run; {"do":"continue","within":"10s"} advances it; the reply then follows at
+/// the next stop, or when that time is over.
 void continue_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"step","ticks":10} runs to the end of the tenth tick from now; {"do":"step","what":"line",
 /// "device":"feeder","within":"10s"} to the program's next line. The clock must be stopped.
 void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
-/// {"do":"stack","device":"feeder"}: where its programs are, and their callers.
+/// {"do":"stack","device":"feeder"}: the positions of the device's programs, and their callers.
 Json stack_message(Daemon& daemon, const Json& message);
-/// {"do":"source","device":"feeder"}: the text of its program. `break` and `stack` use its line numbers.
-/// "instructions":true adds the instructions of each program.
+/// {"do":"source","device":"feeder"}: the text of the device's program. `break` and `stack` use its line
+/// numbers. "instructions":true adds the instructions of each program.
 Json source_message(Daemon& daemon, const Json& message);
-/// {"do":"variables","device":"feeder","scope":"axes"}: the values of the names in its program, of its axes,
-/// of its terminals; without "scope" all of these.
+/// {"do":"variables","device":"feeder","scope":"axes"}: the values of the names in the device's program, of
+/// its axes, or of its terminals; without "scope", all of these.
 Json variables_message(Daemon& daemon, const Json& message);
 
 inline constexpr std::uint64_t kMaxStepTicks = 3'600'000;  // an hour

@@ -1,4 +1,5 @@
-// Handles what a user does to devices and machines from outside: inputs, power, programs, faults.
+// Handles messages with which a user acts on devices and machines from outside: inputs, power, programs,
+// faults.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -79,14 +80,15 @@ Json mistakes_as_json(const std::vector<ProgramMistake>& mistakes) {
   return list;
 }
 
-/// Refuses a program with the first mistake for people, and all mistakes for programs.
+/// Returns the refusal of a program: the first mistake as text for people, and all mistakes as data for
+/// programs.
 Json refusal_of(const std::vector<ProgramMistake>& mistakes) {
   return Json{{"ok", false},
               {"error", in_text(mistakes.front()) + and_more(mistakes)},
               {"mistakes", mistakes_as_json(with_word_of_more(mistakes))}};
 }
 
-/// Returns "it is busy (reason 5)". The number is the device's own.
+/// Returns a text such as "it is busy (reason 5)". The number is the device's own reason code.
 std::string why_refused(const Objection& refused) {
   const std::string reason = refused.reason == 0 ? "" : " (reason " + std::to_string(refused.reason) + ")";
   switch (refused.refusal) {
@@ -247,7 +249,7 @@ Json inject_message(Daemon& daemon, const Json& message) {
 
 namespace {
 
-/// Returns "one of 1, 4".
+/// Returns a text such as "one of 1, 4".
 std::string numbers_of_faults(const world::World& world) {
   constexpr std::size_t kMaxListed = 8;
   std::string numbers;

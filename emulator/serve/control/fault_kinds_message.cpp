@@ -50,7 +50,7 @@ std::string_view doc_of(std::string_view key) {
   return {};
 }
 
-/// Returns all words that a field can have, if there are only a few.
+/// Returns all words that a field accepts, if there are only a few.
 std::vector<std::string_view> words_of(world::FaultFieldRow::ValueType type) {
   using ValueType = world::FaultFieldRow::ValueType;
   switch (type) {

@@ -14,13 +14,13 @@ class Listing {
  public:
   enum class What : std::uint8_t { frames, events };
 
-  /// Starts at that number. With `is_raw`, frames have their bytes and latency.
+  /// Starts at the entry `first`. With `is_raw`, frames include their bytes and latency.
   Listing(Daemon& daemon, What what, std::uint64_t first, bool is_raw = false)
       : daemon_(daemon), what_(what), is_raw_(is_raw), next_(first) {}
 
-  /// Continues, and may add one entry. Returns false if none are left, or if the reply has enough.
+  /// Does one step, which may add one entry. Returns false if none are left, or if the reply is full.
   bool add_next(ReplyText& text);
-  /// Returns the number for the next request.
+  /// Returns the number at which the next request continues.
   std::uint64_t next() const { return next_; }
 
  private:

@@ -53,7 +53,7 @@ std::string hex_of(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// Returns the number of the first entry of a list: the one after "since", or the first of the last ones.
+/// Returns the number of a list's first entry: "since", or the first of the "last" entries.
 std::uint64_t first_wanted(const Json& message, std::uint64_t next, std::size_t max) {
   if (message.contains("since") && message.contains("last")) {
     throw MessageError("since: cannot be combined with last; expected one of them");
@@ -153,7 +153,7 @@ ReplyTask frames_message(Daemon& daemon, Json message) {
 
 namespace {
 
-/// Returns the list of names in the message, given by its number or in full. Returns nothing if there is
+/// Returns the list of names that the message gives in full or by its number. Returns nothing if it gives
 /// none.
 std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json& message) {
   if (message.contains("look")) {
@@ -179,7 +179,7 @@ std::optional<std::uint64_t> require_list(world::LookedNames& known, const Json&
 
 }  // namespace
 
-/// Returns values of the moment that the reply names. Frames and events have their own times.
+/// Returns the values at the moment that the reply names. Frames and events have their own times.
 ReplyTask look_message(Daemon& daemon, Json message) {
   require_keys(message, {"do", "look", "names", "frames", "events", "status"});
   const std::uint64_t frames = message.contains("frames") ? require_count(message, "frames") : 0;

@@ -1,5 +1,5 @@
 // The control messages that observers such as the page need (docs/page.md): the bench's contents, its state,
-// and its events. As in verbs.h, nothing has changed if one throws.
+// and its events. As in verbs.h, a function that throws has changed nothing.
 #pragma once
 
 #include <string_view>
@@ -32,15 +32,15 @@ ReplyTask faults_message(Daemon& daemon, Json message);
 ReplyTask events_message(Daemon& daemon, Json message);
 
 /// {"do":"spans","from_ns":0,"to_ns":6000000000,"dots":1000,"from":0}: what a host in simulated time has
-/// waited for, and waits for now. Recordings have more spans (course_messages.h).
+/// waited for, and what it is waiting for now. Recordings have more spans (course_messages.h).
 Json present_spans_message(Daemon& daemon, const Json& message);
 
 /// Returns the word for a program's state.
 std::string_view state_word(ProgramLocation::State state);
-/// {"do":"where","device":"feeder"}: the positions of its programs.
+/// {"do":"where","device":"feeder"}: the positions of the device's programs.
 Json where_message(Daemon& daemon, const Json& message);
-/// {"do":"coverage","device":"feeder"}: which lines of programs have run since the count began; it begins
-/// with the first message, and again with "again":true.
+/// {"do":"coverage","device":"feeder"}: which lines of programs have run since the count began. The count
+/// begins with the first message, and again with "again":true.
 ReplyTask coverage_message(Daemon& daemon, Json message);
 /// {"do":"speed","to":"0.5"}
 Json speed_message(Daemon& daemon, const Json& message);
@@ -52,7 +52,7 @@ ReplyTask scope_message(Daemon& daemon, Json message);
 Json send_message(Daemon& daemon, const Json& message);
 /// {"do":"snapshots"}: the snapshots that the daemon keeps by name.
 Json snapshots_message(Daemon& daemon, const Json& message);
-/// {"do":"snapshot","name":"homed"}, {"do":"restore","name":"homed"}; "drop" deletes it.
+/// {"do":"snapshot","name":"homed"}, {"do":"restore","name":"homed"}; "drop" deletes the snapshot.
 Json snapshot_by_name(Daemon& daemon, const Json& message);
 Json restore_by_name(Daemon& daemon, const Json& message);
 

@@ -35,13 +35,13 @@ inline constexpr std::size_t kMaxAtOnce = std::size_t{16} << 10;  // bytes
 /// The most members of an object in a message, and so the most names that can be set at once, all or none.
 inline constexpr std::size_t kMaxNamed = 4096;
 
-/// Returns the value as it was received, for messages: 'fast', 3.5, [1,3]. It is cut if it is long.
+/// Returns the value as it was received, for messages: 'fast', 3.5, [1,3]. A long value is cut short.
 std::string shown(const Json& value);
-/// Returns "Speed: 'fast' is not a number; expected 0 to 32768".
+/// Returns an error such as "Speed: 'fast' is not a number; expected 0 to 32768".
 MessageError is_not(std::string_view name, const Json& value, std::string_view what,
                     std::string_view expected = "one");
 
-/// All of these throw MessageError.
+/// The functions below throw MessageError.
 void require_keys(const Json& message, std::initializer_list<std::string_view> known);
 const Json& require(const Json& message, const char* key);
 /// Returns a whole number as an integer, any other as a real number.

@@ -101,7 +101,8 @@ const Verb& require_verb(const Json& message) {
   throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
-/// Returns the author that observers see. A client may say that it is a page.
+/// Takes the author from the message: "page" if the client declares itself a page, otherwise "control".
+/// Observers see it.
 std::string take_author(Json& message) {
   if (!message.contains("as")) return "control";
   const std::string author = require_text(message, "as");
@@ -212,7 +213,7 @@ Json act_on(Daemon& daemon, Json message, const ControlServer::Reply& reply) {
 
 void handle_message(Daemon& daemon, const std::string& line, const ControlServer::Reply& reply) {
   if (line.size() <= kMaxAtOnce) return answer(reply, [&] { return act_on(daemon, parsed(line), reply); });
-  // A long message is parsed aside, because devices and hosts would have to wait for it.
+  // A long message is parsed in a helper thread, because devices and hosts would have to wait for it.
   daemon.do_aside([&daemon, line, reply]() -> std::function<void()> {
     std::shared_ptr<Json> message;
     std::exception_ptr refused;

@@ -1,4 +1,4 @@
-// The control messages: JSON, one object a line (docs/control.md).
+// The control messages: JSON, one object per line (docs/control.md).
 //   {"do":"status"}                          -> {"ok":true, "status":{...}}
 //   {"do":"get","names":["feeder.Cord_A"]}   -> {"ok":true, "values":{"feeder.Cord_A":0}}
 //   {"do":"set","values":{"feeder.Aaxis_Speed":200}}

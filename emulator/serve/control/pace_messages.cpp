@@ -1,4 +1,4 @@
-// Handles messages about the pace of time, and about what programs do meanwhile.
+// Handles messages about the pace of time, the positions of programs, and named snapshots.
 #include <cstddef>
 #include <cstdint>
 #include <string>

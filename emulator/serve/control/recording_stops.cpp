@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns true if the stop ends a step: at its end, or at a breakpoint on the way.
+/// Returns true if the stop ends a step, either at its end or at a breakpoint on the way.
 bool is_at_a_line(const world::DebugStop& stop) {
   using Reason = world::DebugStop::Reason;
   return stop.reason == Reason::step || (stop.reason == Reason::breakpoint && stop.place.line != 0);
@@ -68,8 +68,8 @@ Json RecordingStops::step(const Json& message) {
   }
   if (wanted.kind == world::StepKind::stand)
     throw MessageError("what: stand cannot go back; expected instruction, line, over or out with back");
-  // A step back over a routine goes to the last earlier line with at most as many callers; a step back out of
-  // it, to the last one with fewer.
+  // A step back over a routine goes to the last earlier line with at most as many callers. A step back out of
+  // the routine goes to the last line with fewer.
   const world::DebugStop* const stop = debugger().stop();
   const std::size_t depth = stop != nullptr ? stop->depth : SIZE_MAX;
   const world::StepKind kind = wanted.kind;
@@ -112,8 +112,9 @@ bool RecordingStops::step_on(const Wanted& wanted, SimTime until) {
 
 void RecordingStops::begin_at(std::size_t keyframe) { go_to_(timeline_.time_of_keyframe(keyframe)); }
 
-/// Plays from a keyframe on. Returns the number of the last wanted stop before that moment. It plays to the
-/// tick after the next keyframe: from there, a line that begins in that tick would seem to run already.
+/// Plays from a keyframe on. Returns the number of the last wanted stop before the moment `before`. It plays
+/// to the tick after the next keyframe, because a line that begins in that tick would seem to be running
+/// already if playback began at that keyframe.
 std::optional<std::size_t> RecordingStops::last_stop(std::size_t keyframe, SimTime before, const PlayOn& play,
                                                      const IsWanted& is_wanted) {
   const bool is_last = keyframe + 1 == timeline_.keyframes();

@@ -19,13 +19,14 @@ bool is_way_back(const Json& message);
 
 class RecordingStops {
  public:
-  /// `go_to` takes the world to a moment. All must outlive it.
+  /// `go_to` moves the world to a time. The daemon and the timeline must outlive this object.
   RecordingStops(Daemon& daemon, world::Timeline& timeline, std::function<void(SimTime)> go_to);
 
   /// {"do":"continue","within":"10s"}, {"do":"continue","back":true}. If there is no stop, goes to the end,
   /// or back to the beginning.
   Json resume(const Json& message);
-  /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and by ticks.
+  /// {"do":"step","what":"line","device":"feeder"}, {"do":"step","what":"line","back":true}, and steps by
+  /// ticks.
   Json step(const Json& message);
 
  private:

@@ -1,4 +1,4 @@
-// Returns tables of registers page by page.
+// Returns register tables page by page.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -90,8 +90,8 @@ std::string parameter_name(const ParameterRow& parameter, int index) {
          std::to_string(parameter.first + (parameter.of_each_axis ? 0 : index));
 }
 
-/// Returns the names by which choices refer to a register: its own name, and its number as a parameter. If
-/// its name is that of a parameter too, choices mean the parameter.
+/// Returns the names by which choices refer to a register: its own name, and its number as a parameter. If a
+/// parameter has the same name, choices mean the parameter.
 std::vector<std::string> names_in_choices(const Model& model, const RegisterRow& row, int index) {
   std::vector<std::string> names;
   bool is_of_parameter = false;
@@ -150,7 +150,7 @@ Json json_of_row(const Device& device, const RegisterRow& row, int index, int se
   return entry;
 }
 
-/// A register of a row, or a parameter of a device without registers.
+/// An entry of a page: a register, or a parameter of a device without registers.
 struct Listed {
   const RegisterRow* row = nullptr;
   const NamedParameterRow* parameter = nullptr;
@@ -183,8 +183,8 @@ bool is_number_of(unsigned address, const std::string& find) {
   return hex == find || hex.substr(2) == find || std::to_string(address) == find;
 }
 
-/// Returns true if the text is part of one of the register's names or of what it stands for, or its address.
-/// A 32-bit register has two names and two addresses.
+/// Returns true if the text is part of one of the register's names or of its meaning, or is its address. A
+/// 32-bit register has two names and two addresses.
 bool is_row_found(const RegisterRow& row, int index, const std::string& find) {
   const auto address = static_cast<unsigned>(row.address + index * row.stride);
   if (is_number_of(address, find) || (is_32_bit(row.type) && is_number_of(address + 1, find))) return true;
@@ -329,7 +329,7 @@ ReplyTask tell_rows(Daemon& daemon, WantedPage wanted) {
 ReplyTask tell_values(Daemon& daemon, WantedPage wanted) {
   const Pause pause(daemon);
   const Device& device = daemon.world().device(wanted.device);
-  // Finding the names takes long; reading the values does not. So all values are of one moment.
+  // Finding the names takes long, so it is done first. All values are then read at one moment.
   std::vector<PageValue> page;
   PageWalk walk(device, wanted);
   while (walk.step()) {

@@ -11,8 +11,8 @@
 //     co_return text.take();
 //   }
 //
-// The world runs during a pause, so data that must be of one moment is read between two pauses. Pointers to
-// objects that may disappear must not be kept across a pause.
+// The world runs during a pause, so data that must belong to one moment is read between two pauses. Pointers
+// to objects that may disappear must not be kept across a pause.
 #pragma once
 
 #include <coroutine>
@@ -48,8 +48,8 @@ class ReplyTask {
     if (handle_) handle_.destroy();
   }
 
-  /// Continues until it pauses or is done. Returns true if the reply is complete. Throws the exceptions of
-  /// the verb.
+  /// Continues until it pauses or is done. Returns true if the reply is complete. Rethrows exceptions of the
+  /// verb.
   bool resume() {
     handle_.resume();
     if (handle_.promise().error) std::rethrow_exception(handle_.promise().error);

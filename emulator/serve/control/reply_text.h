@@ -1,5 +1,5 @@
-// Writes the text of a reply member by member, so that a long reply need not be a JSON tree first, nor be
-// made all at once.
+// Writes the text of a reply member by member, so that a long reply does not need a JSON tree and can be
+// written in pieces.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ std::string text_of(const Json& json);
 
 class ReplyText {
  public:
-  /// Begins an object that confirms that the message was obeyed.
+  /// Begins an object that reports success.
   ReplyText() : text_("{\"ok\":true") {}
 
   /// Adds a member to an object.

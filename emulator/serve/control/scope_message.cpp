@@ -1,4 +1,4 @@
-// Handles the single shot of an oscilloscope, and bytes that a user puts on a line.
+// Handles single shots of the oscilloscope, and bytes that a user sends on a line.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxSamples = 500;  // for each name, in a reply
+constexpr std::size_t kMaxSamples = 500;  // the most samples of a name in a reply
 constexpr std::size_t kMaxBytes = 512;
 
 std::string_view state_word(world::Scope::State state) {
@@ -119,7 +119,7 @@ Json scope_reply(const world::Scope* scope) {
   return Json{{"ok", true}, {"scope", scope != nullptr ? course_of_scope(*scope) : Json()}};
 }
 
-/// Returns samples. It copies them all at one moment, then writes them in pieces.
+/// Returns samples. They are all copied at one moment, then written in pieces.
 ReplyTask samples_message(Daemon& daemon, std::uint64_t from) {
   const Pause pause(daemon);
   const world::Scope& scope = *daemon.observers().scope;
@@ -195,7 +195,8 @@ Json send_message(Daemon& daemon, const Json& message) {
   if (line.line.due() || line.line.room() < bytes.size()) {
     throw MessageError(name + ": bytes are in transit there; expected an idle line");
   }
-  // The bytes come as from a host that has closed: the reply appears in `frames` and goes to nobody.
+  // The bytes arrive as if from a host that has closed the port: the reply appears in `frames`, but nobody
+  // receives it.
   const std::uint64_t next = daemon.frames().next_number();
   world.receive_departed(port.line_number(), bytes);
   world.advance_to(world.now());

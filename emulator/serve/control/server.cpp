@@ -127,7 +127,7 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
   if (client->is_awaiting || client->has_finished_sending)
-    return drop(descriptor);  // nothing is read from it now, so it has hung up
+    return drop(descriptor);  // reading is off, so this event is a hang-up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
   if (count > 0) {
@@ -162,7 +162,7 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  // Changes the interest too: nothing is read until the reply.
+  // This changes the interest too, because nothing is read until the reply is sent.
   if (client->socket && client->is_awaiting) write_out(*client);
 }
 
@@ -192,7 +192,7 @@ bool ControlServer::write_out(Client& client) {
     client.output = {};  // frees the memory of a large reply
   }
   if (client.has_finished_sending && client.output.empty()) return false;
-  // Messages that follow one without a reply yet stay in the socket.
+  // Messages behind an unanswered one stay in the socket.
   const std::uint32_t read = client.has_finished_sending || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.socket.get(), read | write);
@@ -203,7 +203,7 @@ void ControlServer::drop(int descriptor) {
   const auto it = clients_.find(descriptor);
   if (it == clients_.end()) return;
   loop_.unwatch(descriptor);
-  it->second->socket.close();  // closes it also for others that hold the client
+  it->second->socket.close();  // closes it even if others hold the client
   clients_.erase(it);
   listener_->try_again();
 }

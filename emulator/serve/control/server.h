@@ -50,14 +50,14 @@ class ControlServer final : public Door {
   std::string path_;
   Handler handler_;
   std::unique_ptr<Listener> listener_;
-  std::uint64_t inode_ = 0;  // of our socket
+  std::uint64_t inode_ = 0;  // identifies our socket
   std::map<int, std::shared_ptr<Client>> clients_;
 };
 
 /// Returns true if a process listens at that path.
 bool is_answered(const std::string& path);
 
-/// Sends one message and waits for its reply, at most this long if `patience` is given. Returns the reply
+/// Sends one message and waits for its reply, for at most `patience` if it is given. Returns the reply
 /// without its line end. Throws ControlError.
 std::string ask_control(const std::string& path, const std::string& message,
                         std::optional<std::chrono::milliseconds> patience = {});

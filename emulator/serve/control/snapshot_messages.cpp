@@ -23,7 +23,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Returns the path, which must be absolute because the daemon may run in another folder than the client.
+/// Returns the path, which must be absolute because the daemon may run in a different folder from the client.
 std::string require_file(const Json& message) {
   require_keys(message, {"do", "file"});
   const std::string path = require_text(message, "file");
@@ -78,7 +78,8 @@ void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::
 
 namespace {
 
-/// Reads and checks a snapshot. It runs aside, so that the devices do not wait for a large or invalid file.
+/// Reads and checks a snapshot. It runs in a helper thread, so that the devices do not wait for a large or
+/// invalid file.
 world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
   const auto text = read_text_file(path);
   if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");

@@ -50,7 +50,7 @@ std::string control_folder() {
   std::string folder = folder_path();
   mkdir(folder.c_str(), 0700);
   struct stat status {};
-  // If another user owned a folder of that name, they could read along.
+  // If another user owned a folder of that name, that user could read the messages.
   if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
       (status.st_mode & 077) != 0) {
     throw ControlError(folder + ": is not a private folder of your own; expected one, or --control SOCKET");

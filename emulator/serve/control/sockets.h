@@ -11,8 +11,7 @@ namespace understudy::emulator::serve {
 /// other users could open it.
 std::string control_folder();
 
-/// Returns a path in that folder for a daemon of this process, which no other daemon has. Throws
-/// ControlError.
+/// Returns a path in that folder for a daemon of this process. No other daemon uses it. Throws ControlError.
 std::string own_control_path();
 
 /// Returns the sockets in that folder at which a daemon listens, in the order of their names. Removes

@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 namespace {
 
 constexpr std::uint64_t kMaxDots = 4'000;
-constexpr std::size_t kMaxSpans = 2'000;  // in a reply
+constexpr std::size_t kMaxSpans = 2'000;  // the most spans in a reply
 
 Json json_of_span(const Span& span) {
   Json entry{{"lane", span.lane}, {"begin_ns", span.begin.count()}, {"end_ns", span.end.count()}};
@@ -30,14 +30,15 @@ Json json_of_span(const Span& span) {
   return entry;
 }
 
-/// Keeps the spans in the stretch, ordered by their beginning. Spans of a lane within one dot become one.
+/// Keeps the spans in the stretch, ordered by their beginning. Merges spans of a lane that lie within one
+/// dot.
 std::vector<Span> thinned(std::vector<Span> spans, const Stretch& stretch) {
   std::erase_if(spans, [&](const Span& span) { return span.end < stretch.from || span.begin > stretch.to; });
   std::stable_sort(spans.begin(), spans.end(),
                    [](const Span& one, const Span& other) { return one.begin < other.begin; });
   const SimTime dot =
       std::max(SimTime{1}, (stretch.to - stretch.from) / static_cast<std::int64_t>(stretch.dots));
-  std::map<std::string, std::size_t> last;  // by lane
+  std::map<std::string, std::size_t> last;  // the last span of each lane
   std::vector<Span> some;
   for (Span& span : spans) {
     const auto found = last.find(span.lane);

@@ -1,4 +1,4 @@
-// Spans of a timeline: what lasted, and what happened, in a stretch of it (docs/control.md#spans).
+// Spans of a timeline: the states and events in a stretch of it (docs/control.md#spans).
 #pragma once
 
 #include <cstdint>

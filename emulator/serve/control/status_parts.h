@@ -1,5 +1,5 @@
-// The state of a bench in parts: a line, one of its stations, a device. Each part is of one moment, which
-// lines and devices give as "time_ns"; while the clock is stopped, it is the same in all parts.
+// The state of a bench in parts: a line, one of its stations, a device. Each part shows one moment, which
+// lines and devices report as "time_ns". While the clock is stopped, this time is the same in all parts.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class StatusParts {
  public:
   explicit StatusParts(Daemon& daemon) : daemon_(daemon) {}
 
-  /// Adds the members of an object, one after another. Returns false if nothing is left.
+  /// Adds the next members to an object. Returns false if nothing is left.
   bool add_next(ReplyText& text);
 
  private:
@@ -25,7 +25,7 @@ class StatusParts {
 
   Daemon& daemon_;
   Part part_ = Part::head;
-  std::size_t next_ = 0;  // line or device
+  std::size_t next_ = 0;  // the next line or device
   std::size_t next_station_ = 0;
   bool is_in_line_ = false;
 };

@@ -36,7 +36,7 @@ namespace {
 /// The condition that `run-until` waits for.
 struct Condition {
   explicit Condition(const world::World& world) : probes(world) {}
-  /// Returns true if the condition holds. A condition without a result ends the waiting too.
+  /// Returns true if the condition holds. A condition that has no value also ends the wait.
   bool is_met() {
     try {
       return world::is_true(expression, probes);

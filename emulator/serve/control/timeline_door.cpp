@@ -41,7 +41,7 @@ constexpr std::size_t kMaxMarks = 2'000;
 constexpr std::size_t kMarksAtOnce = 500;
 constexpr std::size_t kMaxBefore = 200;  // frames, and as many events, from before a moment
 
-/// Returns true for events that appear on the bar.
+/// Returns true for events that appear on the timeline bar.
 bool is_mark(std::string_view what) {
   return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
          what == "power" || what == "program";
@@ -60,7 +60,7 @@ bool only_looks(const Json& message, const std::string& word) {
   return std::find(kLooks.begin(), kLooks.end(), word) != kLooks.end();
 }
 
-/// Moves a daemon through a recording. The recording is played on first use, because the daemon is made
+/// Moves a daemon through a recording. The recording is played on first use, because the daemon is created
 /// together with its door.
 class Travel {
  public:
@@ -184,8 +184,8 @@ class Travel {
     return moments[static_cast<std::size_t>(place)];
   }
 
-  /// Collects, at each keyframe of the first pass, when frames began, the events for the bar, and the last
-  /// frames and events.
+  /// Collects, at each keyframe of the first pass, the times at which frames began, the events for the bar,
+  /// and the last frames and events.
   void collect() {
     history_.collect(daemon_.world(), daemon_.frames(), daemon_.observers().events);
     Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
@@ -260,7 +260,7 @@ class Travel {
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
-  world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls that
+  world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls it
   RecordingStops stops_{daemon_, timeline_, [this](SimTime time) { go_to(time); }};
 };
 

@@ -23,7 +23,7 @@ struct TimelineSetup {
   SimTime end{0};
   SimTime at_first{0};
 };
-/// Answers the messages for a daemon whose world is of the recording's bench and whose clock is stopped. It
+/// Answers the messages for a daemon whose world has the recording's bench and whose clock is stopped. It
 /// plays the recording once, as soon as the daemon runs, and moves to `at_first`. The handler must be called
 /// and destroyed on the daemon's thread, or after that thread has ended.
 ControlServer::Handler timeline_handler(Daemon& daemon, TimelineSetup setup);

@@ -51,7 +51,7 @@ bool is_real_register(const world::KnownDevices& known, const std::string& name)
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // the diagnostic comes when the name is looked up
+    return false;  // the lookup of the name reports the error
   }
 }
 
@@ -109,7 +109,7 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
   try {
     return probes.resolve(name);
   } catch (const world::NameError&) {
-    // A device that speaks text knows its names only while it has power.
+    // A device with a text protocol has its names only while it is powered.
     std::optional<world::ValueName> value;
     try {
       value = world::find_value(world.known(), name);
@@ -133,7 +133,7 @@ void require_accepted(Refusal refusal, const std::string& name, const std::strin
   }
 }
 
-/// Returns the register value of a number.
+/// Converts a number to a register value.
 Value value_for(const world::RegisterName& place, const WantedRegister& wanted) {
   if (!place.place.is_real()) return wanted.number.get<std::int64_t>();
   if (const auto value = value_of_number(place.place, wanted.number.get<double>())) return *value;

@@ -1,4 +1,4 @@
-// Returns the values that a debugger shows: of the names in a program, of axes, of terminals.
+// Returns the values that a debugger shows: those of the names in a program, of axes, and of terminals.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t kMaxWords = 1'000;  // words of a program that are looked up
 
-/// Returns the register that a program calls by a parameter such as "VAR32", or the word as it is.
+/// Returns the register that a program refers to as a parameter such as "VAR32", or the word unchanged.
 std::string register_of(const Device& device, const std::string& word) {
   const std::int64_t number = word.starts_with("VAR") ? parse_integer(word.substr(3)).value_or(-1) : -1;
   for (const ParameterRow& row : device.model().parameters) {
@@ -47,7 +47,7 @@ std::string register_of(const Device& device, const std::string& word) {
   return word;
 }
 
-/// Adds the value of a register, or of a device without registers.
+/// Adds the value of the register with this name, or the named value of a device without registers.
 void add_value(const Device& device, const std::string& word, Json& values) {
   if (device.named_values() != nullptr) {
     if (const auto value = device.named_values()->value_named(word))
@@ -61,7 +61,7 @@ void add_value(const Device& device, const std::string& word, Json& values) {
   values[device.name() + "." + name] = json_of(number_of(*place, read_value(*bank, *place)));
 }
 
-/// Returns the words of the device's program that may be its registers or values, each once.
+/// Returns the words of the device's program that may name registers or values, each once.
 std::vector<std::string> words_of_program(const Device& device) {
   const std::string text = device.user_program()->program_text();
   std::vector<std::string> words;

@@ -1,5 +1,5 @@
-// The basic control messages; debug_messages.h and look_messages.h have the others. Each returns its reply.
-// If one throws (MessageError or NameError), nothing has changed.
+// The basic control messages; debug_messages.h and look_messages.h have the others. Each function returns the
+// reply. A function that throws (MessageError or NameError) has changed nothing.
 #pragma once
 
 #include <functional>
@@ -35,17 +35,17 @@ Json set_message(Daemon& daemon, const Json& message);
 
 /// {"do":"input","values":{"feeder.DIN_10":1,"feeder.AIN_A":"2.5V"}}
 Json input_message(Daemon& daemon, const Json& message);
-/// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without "in" at once.
+/// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without "in", at once.
 Json turn_message(Daemon& daemon, const Json& message);
 /// {"do":"command","device":"mill","text":"MOVE X 1000"}
 Json command_message(Daemon& daemon, const Json& message);
-/// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
+/// {"do":"power","device":"feeder","to":"off"}; "to" may also be "on" or "cycle".
 Json power_message(Daemon& daemon, const Json& message);
-/// {"do":"program","device":"feeder","text":"..."}; without "text" the reply has the present program.
+/// {"do":"program","device":"feeder","text":"..."}; without "text", the reply contains the present program.
 void program_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"inject","fault":{"lost_steps":"feeder.A","one_in":50}}; the fault is as in a bench.
 Json inject_message(Daemon& daemon, const Json& message);
-/// {"do":"clear","number":1}; without a number it clears all.
+/// {"do":"clear","number":1}; without a number, it clears all faults.
 Json clear_message(Daemon& daemon, const Json& message);
 /// {"do":"list"}
 Json list_message(Daemon& daemon, const Json& message);
@@ -63,7 +63,7 @@ Json resume_message(Daemon& daemon, const Json& message);
 /// {"do":"advance","by":"250ms"}. The reply follows when simulated time has advanced that far.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply follows at the end of the
-/// first tick at which it is true, or when the time has passed; "reached" says which.
+/// first tick at which the condition is true, or when the time has passed; "reached" says which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 }  // namespace understudy::emulator::serve

@@ -8,8 +8,8 @@ namespace understudy::emulator::serve {
 
 /// Returns lines of text: time and lateness, each line of the bench with its frames per second since the
 /// previous reply, each device with its axes, registers, inputs and outputs. `before` may be empty; rates are
-/// then left out. `between_s` is the wall time between the two. Words side by side take at most this many
-/// columns. Throws ControlError if the reply is not a status.
+/// then left out. `between_s` is the wall time between the two replies. Lines of several words are at most
+/// `columns` wide. Throws ControlError if the reply is not a status.
 std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s,
                                      std::size_t columns = 100);
 
@@ -20,7 +20,8 @@ std::string get_message(const std::vector<std::string>& names);
 /// has none now.
 std::vector<std::string> watch_values(const std::string& reply);
 
-/// Returns the error in a reply that refuses, or an empty text. Throws ControlError if it is not a reply.
+/// Returns the error of a refusal, or an empty text for any other reply. Throws ControlError if it is not a
+/// reply.
 std::string why_refused(const std::string& reply);
 
 }  // namespace understudy::emulator::serve

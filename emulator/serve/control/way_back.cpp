@@ -37,7 +37,7 @@ std::optional<std::string> line_with_host(const Daemon& daemon) {
   return std::nullopt;
 }
 
-/// The frames and events before a moment, so that observers do not see those of a course that is left.
+/// The frames and events before a moment, so that observers do not see those of an abandoned course.
 struct Before {
   std::vector<world::FrameLog::Frame> frames;
   std::vector<world::Event> events;

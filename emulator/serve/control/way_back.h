@@ -10,7 +10,7 @@ namespace understudy::emulator::serve {
 /// message of a debugger calls it.
 void keep_course(Daemon& daemon);
 
-/// {"do":"continue","back":true}: back to the last stop before, or to where the course begins.
+/// {"do":"continue","back":true}: goes back to the previous stop, or to the beginning of the course.
 Json continue_back(Daemon& daemon, const Json& message);
 /// {"do":"step","what":"line","back":true}. From there, the bench takes another course: what reached it from
 /// outside after that moment is forgotten. Both throw MessageError while time runs or a host is connected.

@@ -227,7 +227,7 @@ void Daemon::pause() {
   judge_stall(wall_now());
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped
-  pacer_.moved_to(world_.now(), wall_now());  // the world may not have come that far
+  pacer_.moved_to(world_.now(), wall_now());  // the world may be behind that moment
   behind_since_.reset();
 }
 
@@ -255,7 +255,8 @@ bool Daemon::advance(SimTime duration, std::function<void()> done, std::function
   return true;
 }
 
-/// Advances tick by tick, for a slice of wall time at most. If the condition is true, the target moves here.
+/// Advances tick by tick, for a slice of wall time at most. When the condition becomes true, the target moves
+/// to the present.
 void Daemon::work_towards_condition() {
   const WallTime until = wall_now() + kWorkSlice;
   while (world_.now() < advance_target_ && wall_now() < until && !is_held()) {
@@ -274,7 +275,7 @@ bool Daemon::makes_time_go() const {
   return advance_done_ != nullptr || pacer_.speed().kind == Speed::Kind::free;
 }
 
-/// Returns the longest step in which no line sends more than it can keep.
+/// Returns the longest step in which no line sends more than it can buffer.
 SimTime Daemon::longest_step() const {
   SimTime longest = kHorizon / 4;
   if (!makes_time_go()) return longest;
@@ -340,8 +341,8 @@ std::optional<WallTime> Daemon::next_wake() const {
 }
 
 void Daemon::wait() {
-  // An advance is work in hand, not a planned moment. So is catching up: its lateness counts from its
-  // beginning, not from the simulated time that is left, which may have been a long sleep.
+  // An advance is work in progress, not a planned wake-up. So is catching up: its lateness counts from when
+  // it began, not from the remaining simulated time, which may have been a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   if (waits_for_hosts()) wake = wall_now() + kReadingTime;

@@ -33,9 +33,9 @@ namespace understudy::emulator::serve {
 
 struct DaemonOptions {
   Speed speed;
-  bool is_host_simulated = false;  // its host runs in simulated time: doors are served on demand
+  bool is_host_simulated = false;  // the host runs in simulated time: doors are served on demand
   bool strict_framing = false;
-  std::optional<SimTime> patience{};  // for the rest of a frame; empty: depends on the speed
+  std::optional<SimTime> patience{};  // the wait for the rest of a frame; empty: depends on the speed
   bool enforce_settings = true;
   DoorMaker door{};        // empty: it accepts no control messages
   std::string bench_path;  // the bench's file; empty if there is none
@@ -45,7 +45,7 @@ struct DaemonOptions {
   std::size_t record_cap_bytes = world::kRecordingCapBytes;
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
-  std::string version;  // of the program, for the recording
+  std::string version;  // the program's version, for the recording
   FileClaims files{};   // files that no snapshot may replace; the daemon adds those that it opens itself
 };
 
@@ -79,7 +79,7 @@ class Daemon {
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
   const std::vector<std::unique_ptr<TcpDoor>>& doors() const { return doors_; }
-  /// Returns the path of its door, or an empty text if it has none.
+  /// Returns the path of the daemon's door, or an empty text if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
   /// Returns the last frames on the lines.
@@ -96,8 +96,8 @@ class Daemon {
   /// progress. The patience with an incomplete frame still depends on the initial speed.
   bool set_speed(const Speed& speed);
   bool is_advancing() const { return advance_done_ != nullptr; }
-  /// Advances simulated time by `duration`, or to the end of the first tick at which `is_met` is true
-  /// (asked at the end of every tick), then calls `done`. Returns false if the clock is running, or while
+  /// Advances simulated time by `duration`, or to the end of the first tick at which `is_met` is true (it is
+  /// called at the end of every tick), then calls `done`. Returns false if the clock is running, or while
   /// another advance is in progress.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_met = {});
   /// Advances simulated time to `time` before it returns. The clock must be stopped, and no advance in
@@ -106,21 +106,21 @@ class Daemon {
     world_.advance_to(time);
     pacer_.moved_to(world_.now(), wall_now());
   }
-  /// Keeps and records that a thread of a host in simulated time has waited since `since`.
+  /// Stores and records that a thread of a simulated-time host has waited since `since`.
   void record_wait(std::size_t thread, SimTime since, const std::string& text);
   /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
-  /// Like catch_up(), but for up to a tenth of a second: for bytes that are stamped with this moment.
+  /// Like catch_up(), but takes up to a tenth of a second. For bytes that are stamped with this moment.
   void catch_up_for_bytes();
 
   /// Returns the hash of the world's bench, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
-  /// Returns all files that it uses, with its ports and its control socket.
+  /// Returns all files that the daemon uses, including its ports and its control socket.
   FileClaims files() const;
   /// Returns why the world cannot be put into another state now, or an empty text.
   std::string_view why_no_restore() const;
-  /// Puts the world into another state. Simulated time continues from there, and the lines have the hosts
-  /// that are there now. If it throws (StateError), nothing has changed.
+  /// Puts the world into another state. Simulated time continues from there, and the hosts that are connected
+  /// now stay connected. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
   /// Replaces the earlier frames and events that observers see.
   void restart_logs(std::vector<world::FrameLog::Frame> frames, std::vector<world::Event> events);
@@ -168,14 +168,14 @@ class Daemon {
   int posted_signal_ = -1;  // an eventfd
   std::mutex posted_mutex_;
   std::vector<std::function<void()>> posted_;
-  bool is_over_ = false;  // under the same mutex
+  bool is_over_ = false;  // guarded by the same mutex
   std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
   bool stopping_ = false;
   std::optional<WallTime> planned_;       // when the loop planned to wake; judged once
   std::optional<WallTime> behind_since_;  // when it began to catch up; nothing: it is up to date
 
   SimTime advance_target_{0};
-  std::function<bool()> advance_is_met_;  // may be none
+  std::function<bool()> advance_is_met_;  // may be empty
   std::function<void()> advance_done_;    // set while an advance is in progress
 };
 

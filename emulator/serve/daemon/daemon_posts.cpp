@@ -1,4 +1,4 @@
-// Work that other threads give to a daemon.
+// Work that other threads post to a daemon.
 #include <sys/eventfd.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -56,7 +56,7 @@ bool Daemon::is_over() {
   return is_over_;
 }
 
-/// Drops the posted functions. Their destruction notifies those who wait that they will never run.
+/// Drops the posted functions. Their destructors notify waiting threads that they will never run.
 void Daemon::end_posts() {
   std::vector<std::function<void()>> dropped;
   const std::lock_guard lock(posted_mutex_);

@@ -23,7 +23,7 @@ class DaemonThread {
   void start() {
     thread_ = std::thread([this] { daemon_.run(); });
   }
-  /// Runs posted calls first; after that nothing runs any more.
+  /// Runs the calls posted so far, then ends. After that nothing runs.
   void stop() {
     if (!thread_.joinable()) return;
     daemon_.post([this] { daemon_.stop(); });

@@ -12,7 +12,7 @@ class Daemon;
 class Door {
  public:
   virtual ~Door() = default;
-  /// Returns its path in the file system.
+  /// Returns the door's path in the file system.
   virtual const std::string& path() const = 0;
 };
 

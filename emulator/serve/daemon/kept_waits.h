@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::serve {
 
-/// A wait of a thread. Threads are numbered from 1, in the order in which they greeted.
+/// A wait of a thread. Threads are numbered from 1, in the order in which they greeted the bench.
 struct HostWait {
   std::size_t thread = 0;
   SimTime begin{0};
@@ -37,11 +37,11 @@ class KeptWaits {
 
   const std::deque<HostWait>& ended() const { return waits_; }
   std::vector<HostWait> under_way() const { return under_way_ ? under_way_() : std::vector<HostWait>{}; }
-  /// Returns how many old ones are no longer kept.
+  /// Returns how many old waits have been dropped.
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  std::deque<HostWait> waits_;  // by their ends
+  std::deque<HostWait> waits_;  // in the order in which they ended
   std::uint64_t dropped_ = 0;
   std::function<std::vector<HostWait>()> under_way_;
 };

@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::size_t kMaxListed = 4;
 
-/// Returns true if the station obeys a request to that address, or may obey one: a device without Modbus or
-/// without a number. This runs for each request, so it asks Modbus first: finding a number in a register
-/// takes longer.
+/// Returns true if the station obeys requests to that address, or may obey them because it has no Modbus or
+/// no number. This runs for each request, so it checks Modbus first: finding a number in a register takes
+/// longer.
 bool may_receive(const Device& device, std::uint8_t address) {
   if (device.modbus() == nullptr || device.modbus()->addressing(address) != Addressing::ignore) return true;
   const auto number = device.station_number();

@@ -122,7 +122,7 @@ void NvKeeper::claim(const world::DeviceSetup& device) {
                          ": nv: another running understudy uses this memory; expected a separate file, or a "
                          "separate folder with --nv, for each");
   }
-  // Nobody else writes this file, so files next to it come from a writer that was killed.
+  // Nobody else writes this file, so temporary files next to it were left by a writer that was killed.
   remove_left_beside(file_of(device).string(), ContentKind::nv_image);
 }
 
@@ -167,7 +167,7 @@ void NvKeeper::poll(WallTime now) {
 }
 
 std::optional<WallTime> NvKeeper::next_poll() const {
-  // News from the disk must be polled for, because nothing else wakes the daemon for it.
+  // Results of writing must be polled for, because they do not wake the daemon.
   if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
   return due_;
 }

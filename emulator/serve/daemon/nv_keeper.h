@@ -14,9 +14,10 @@
 
 namespace understudy::emulator::serve {
 
-/// Gives every device without a memory file one in `folder`, which is made if it does not exist (if `folder`
-/// is empty they have no file), and reads existing files into the settings. Throws FileError with all
-/// mistakes in the files, NvError if a file or the folder cannot be used, or std::system_error.
+/// Assigns every device without a memory file one in `folder`, and reads existing files into the settings.
+/// The folder is created if it does not exist. If `folder` is empty, these devices have no file. Throws
+/// FileError with all mistakes in the files, NvError if a file or the folder cannot be used, or
+/// std::system_error.
 void read_memories(world::Bench& bench, const std::string& folder);
 
 class NvKeeper {
@@ -48,7 +49,7 @@ class NvKeeper {
   const world::World& world_;
   std::function<void(const std::string&)> log_;
   std::vector<File> files_;
-  std::vector<pty::PortClaim> claims_;  // of the files: two daemons would undo each other's work
+  std::vector<pty::PortClaim> claims_;  // to the files: two daemons would undo each other's work
   std::optional<WallTime> due_;
   WallTime handed_over_{0};
   WallTime looked_{0};

@@ -29,12 +29,12 @@ struct Observers {
       : events(world, frames), names(world), debugger(world, events) {}
 
   world::EventLog events;
-  /// The number of restores of the world. Each makes earlier reports invalid.
+  /// The number of restores of the world. Each restore invalidates earlier reports.
   std::uint64_t restores = 0;
   /// The moment of a recording at which `what-if` began; nothing: the recording is not altered.
   std::optional<SimTime> altered_at;
   world::LookedNames names;
-  /// Counts which lines of programs have run since `counted_since`; null: nobody asked for it.
+  /// Counts which lines of programs have run since `counted_since`; null: no observer has asked for it.
   std::unique_ptr<world::ProgramCoverage> coverage;
   SimTime counted_since{0};
   void count_lines(world::World& world) {
@@ -50,7 +50,7 @@ struct Observers {
     world::WorldState state;
   };
   KeptWaits waits;
-  std::map<std::string, Kept> snapshots;  // by name; they end with the daemon
+  std::map<std::string, Kept> snapshots;  // by name; lost when the daemon ends
 };
 
 }  // namespace understudy::emulator::serve

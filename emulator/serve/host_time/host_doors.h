@@ -1,6 +1,6 @@
 // The TCP addresses of a bench for a host in simulated time. Nobody listens at them: the preloaded library
-// connects the host's socket to a local one instead, on which bytes arrive as soon as they are written. So
-// cases can run side by side with the same addresses, and any address and port number can be used.
+// connects the host's socket to a local one instead, on which bytes arrive as soon as they are written.
+// Therefore cases can run side by side with the same addresses, and any address and port number can be used.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +25,13 @@ class HostDoors {
   HostDoors(const HostDoors&) = delete;
   HostDoors& operator=(const HostDoors&) = delete;
 
-  /// Admits hosts that have connected, and takes what they have written.
+  /// Admits hosts that have connected, and reads what they have written.
   void attend();
-  /// Ends the waits of threads whose door has sent something. Returns true if there was one.
+  /// Ends the waits of threads whose door has sent something. Returns true if there were any.
   bool report_news(HostWaits& waits);
   /// Returns the next timeout of a door, such as a gateway's for an answer, or nothing.
   std::optional<SimTime> due() const;
-  /// Returns true if a thread waits for a door of the port.
+  /// Returns true if a thread is waiting for a door of the port.
   bool is_waited_for(const Port& port, const HostWaits& waits) const;
 
  private:
@@ -41,10 +41,10 @@ class HostDoors {
     std::uint64_t news = 0;  // TcpDoor::news() when the host was last notified
   };
   Daemon& daemon_;
-  std::vector<Entrance> entrances_;  // of the daemon's doors
+  std::vector<Entrance> entrances_;  // one for each of the daemon's doors
 };
 
-/// Returns a socket that listens at a path: of packets, or of a stream of bytes. Throws std::system_error.
+/// Returns a packet or stream socket that listens at a path. Throws std::system_error.
 Descriptor listen_locally(const std::string& path, int type);
 
 }  // namespace understudy::emulator::serve

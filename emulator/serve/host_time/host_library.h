@@ -1,12 +1,12 @@
-// Whether the library that puts hosts into simulated time is there, and is ours.
+// Checks that the library that puts hosts into simulated time exists and is ours.
 #pragma once
 
 #include <string>
 
 namespace understudy::emulator::serve {
 
-/// Throws NoTtyShim if hosts could not load the library, or if it is not that of this version. A host would
-/// run in real time with it, and nobody would notice before its end.
+/// Throws NoTtyShim if hosts could not load the library, or if it belongs to a different version. With a
+/// wrong library a host would run in real time, and nobody would notice until it ended.
 void require_host_library(const std::string& path);
 
 }  // namespace understudy::emulator::serve

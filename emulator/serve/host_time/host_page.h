@@ -12,14 +12,14 @@ namespace understudy::emulator::serve {
 
 class HostPage {
  public:
-  /// Makes the file. Throws std::system_error.
+  /// Creates the file. Throws std::system_error.
   explicit HostPage(const std::string& path);
   ~HostPage();
   HostPage(const HostPage&) = delete;
   HostPage& operator=(const HostPage&) = delete;
 
   void set_now(SimTime now);
-  /// Wakes the threads that wait on this thread's word (a futex).
+  /// Wakes the threads that wait on the word of this thread, which is a futex.
   void wake(int thread);
   void set_line(std::size_t line, int terminal);
   /// `address` is empty for this machine itself.

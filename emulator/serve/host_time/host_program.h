@@ -1,4 +1,5 @@
-// Checks whether a command can be started, and can load the library that puts hosts into simulated time.
+// Checks whether a command can be started, and whether it can load the library that puts hosts into simulated
+// time.
 #pragma once
 
 #include <string>

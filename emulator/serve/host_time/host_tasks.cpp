@@ -33,7 +33,7 @@ std::string_view read_small(const std::string& path, std::array<char, 512>& buff
   return size > 0 ? std::string_view(buffer.data(), static_cast<std::size_t>(size)) : std::string_view();
 }
 
-/// Returns the letter after the name, which is in parentheses and may have any characters.
+/// Returns the letter after the name, which is in parentheses and may contain any characters.
 char state_in(std::string_view stat) {
   const std::size_t end = stat.rfind(')');
   return end == std::string_view::npos || end + 2 >= stat.size() ? 'X' : stat[end + 2];
@@ -102,7 +102,7 @@ bool HostTasks::is_one_thread() const {
   return ::stat(folder_of(processes_.begin()->first).c_str(), &status) == 0 && status.st_nlink == 3;
 }
 
-/// Returns false if a thread does not sleep.
+/// Returns false if any thread is awake.
 bool HostTasks::read_tasks(Tasks& tasks, const std::set<int>& waiting) const {
   bool are_asleep = true;
   std::array<char, 512> buffer{};
@@ -121,8 +121,8 @@ bool HostTasks::read_tasks(Tasks& tasks, const std::set<int>& waiting) const {
   return are_asleep;
 }
 
-/// Looks twice: a thread that slept at both times and has not run in between slept all the time, so there was
-/// a moment at which all did.
+/// Checks twice. A thread that slept both times and has not run in between slept the whole time, so there was
+/// a moment at which all threads slept.
 bool HostTasks::are_all_asleep(const std::set<int>& waiting) const {
   Tasks before;
   Tasks after;

@@ -26,13 +26,13 @@ class HostTasks {
 
   void add(int process);
   bool knows(int process) const { return processes_.contains(process); }
-  /// Returns true if the process is there, and is not just ending.
+  /// Returns true if the process exists and is not about to end.
   bool is_alive(int process) const;
 
   /// Returns true if the host has a single thread.
   bool is_one_thread() const;
-  /// Returns true if no thread of any process can continue on its own. `waiting` are threads that are known
-  /// to wait.
+  /// Returns true if no thread of any process can continue on its own. `waiting` has the threads that are
+  /// known to wait.
   bool are_all_asleep(const std::set<int>& waiting) const;
 
   /// Describes a thread that the kernel runs: "thread 2 of my_host (1234)".

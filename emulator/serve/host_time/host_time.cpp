@@ -40,13 +40,13 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A host of several threads that is not asleep is checked again after this time, then less and less often.
+// A host with several threads that is not asleep is checked again after this time, then less and less often.
 constexpr WallTime kFirstPoll = std::chrono::microseconds(20);
 constexpr WallTime kSlowestPoll = std::chrono::milliseconds(1);
 // Time advances for this long before the control socket and signals have their turn.
 constexpr WallTime kSlice = std::chrono::milliseconds(5);
 constexpr WallTime kWatch = std::chrono::milliseconds(500);
-// A thread that has not waited for this many watches is reported.
+// A thread that has not waited during this many checks of watch_over() is reported.
 constexpr int kPollsBeforeReport = 4;
 
 Descriptor make_timer() {
@@ -222,7 +222,7 @@ void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thre
   if (what == HostAnswer::refuse) return;  // on_message() drops it
   host_time::Message message = thread.wait;
   message.what = what == HostAnswer::go ? host_time::MessageKind::go : host_time::MessageKind::cancelled;
-  // It cannot block: a thread has at most a few answers that it has not read.
+  // This cannot block, because a thread has at most a few unread answers.
   [[maybe_unused]] const ssize_t sent = send(number, &message, sizeof message, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (thread.wait.is_on_word != 0 && what == HostAnswer::go) page_.wake(thread.thread);
 }
@@ -244,8 +244,8 @@ bool HostTime::is_host_asleep() {
     ++waiting;
     if (thread.wait.has_others == 0 && !must_poll_) resting.insert(thread.thread);
   }
-  // A thread that has just ended may have woken one that waits for others too. Its end is read first: threads
-  // that exist when time advances are numbered.
+  // A thread that has just ended may have woken one that is also waiting for others. The end must be read
+  // first, because the threads that exist when time advances are numbered.
   if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread() && !has_unread_messages()) return true;
   // A thread that has sent a message also sleeps until it is answered, so this comes last.
   if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
@@ -319,7 +319,7 @@ std::optional<SimTime> HostTime::next_stop() const {
     if (may_change && stop) not_beyond(time_of(tick_at(now) + 1));
   }
   if (stop) return stop;
-  return world.next_due();  // all wait without end, and only a device could change that
+  return world.next_due();  // all threads wait indefinitely, and only a device could end that
 }
 
 bool HostTime::may_time_go() const {
@@ -336,7 +336,8 @@ void HostTime::consider() {
     if (task_ != nullptr) task_->act(daemon_.world().now());  // before the host, in every run
     const bool continues = give_to_host();
     if (!may_time_go()) return;
-    // A thread that continues may next wait for one that waits already, and no message would report that.
+    // A thread that continues may next wait for one that is already waiting, and no message would report
+    // that.
     if (continues) return poll_again();
     if (expire_timers()) return poll_again();
     for (const auto& port : daemon_.ports()) {

@@ -1,7 +1,7 @@
-// Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library answers its clocks
-// and waits, and asks here. Simulated time stops while any thread of the host can continue; when all wait, it
-// advances to whatever comes first: the end of a wait, or data on a line that a thread waits for.
-// docs/host-time.md describes the order in which bytes and time advance.
+// Puts an unmodified host into simulated time (`exec --host-time`). A preloaded library intercepts its clock
+// reads and waits, and asks this class. Simulated time stops while any thread of the host can continue; when
+// all wait, it advances to whatever comes first: the end of a wait, or data on a line that a thread waits
+// for. docs/host-time.md describes the order in which bytes and time advance.
 #pragma once
 
 #include <chrono>
@@ -100,12 +100,12 @@ class HostTime {
   Descriptor next_poll_;    // a timer
   Descriptor watch_;        // a timer
   WallTime patience_{0};    // before the next check of a host that is not asleep
-  bool must_poll_ = false;  // a signal may have woken a thread that the bench takes for waiting
+  bool must_poll_ = false;  // a signal may have woken a thread that the bench believes to be waiting
   bool was_greeted_ = false;
   int first_process_ = -1;
   std::set<int> silent_;  // processes that have become other programs, and have not greeted since
   bool has_reported_silence_ = false;
-  bool has_moved_ = true;  // since watch_over() looked last
+  bool has_moved_ = true;  // since the last watch_over()
   int idle_polls_ = 0;
   bool has_reported_spinning_ = false;
   bool has_reported_outside_ = false;

@@ -30,8 +30,8 @@ class HostTimers {
   /// Forgets the timers of a process.
   void process_ended(int process);
   std::optional<SimTime> next() const;
-  /// Returns the timers that have expired at `now`, in the order of processes and numbers. Counts those that
-  /// have a descriptor.
+  /// Returns the timers that have expired at `now`, in the order of processes and numbers. Increments the
+  /// counters of those that have a descriptor.
   std::vector<Expired> expire(SimTime now);
 
  private:
@@ -41,7 +41,7 @@ class HostTimers {
     Expired notice{};
     Descriptor counter;
   };
-  std::map<std::pair<int, std::uint32_t>, Timer> timers_;  // by process and number
+  std::map<std::pair<int, std::uint32_t>, Timer> timers_;  // keyed by process and number
 };
 
 /// Sends the signal of a timer as the kernel does.

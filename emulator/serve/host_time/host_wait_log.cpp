@@ -111,7 +111,7 @@ std::vector<HostWait> HostWaitLog::under_way(const HostWaits& waits, const Lines
     const std::size_t order = entry.first;
     const Open& open = entry.second;
     if (open.end <= open.begin) continue;
-    // It is reported when time advances again; until then it may have ended.
+    // A wait is reported when time advances again, so this one may already have ended.
     const bool still_waits = std::ranges::any_of(waits.threads(), [&](const auto& each) {
       const HostWaits::Thread& thread = each.second;
       return thread.order == order && thread.state == HostState::waiting &&

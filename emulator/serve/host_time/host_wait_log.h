@@ -62,7 +62,8 @@ class HostWaitLog {
 
   std::function<std::size_t(int)> line_of_;
   std::function<void(const HostWait&)> report_;
-  // Both by the thread's order: a new connection may have the descriptor of one that was closed.
+  // Both maps are keyed by the thread's order, because a new connection may reuse the descriptor of a closed
+  // one.
   std::map<std::size_t, Open> open_;
   std::map<std::size_t, std::size_t> numbers_;
   std::size_t next_number_ = 1;

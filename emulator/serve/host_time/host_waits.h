@@ -1,5 +1,5 @@
-// The threads of a host in simulated time, as the bench knows them: which of them wait, and for what. Pure:
-// it knows no sockets.
+// The threads of a host in simulated time, as the bench knows them: which of them are waiting, and for what.
+// Pure: no sockets.
 #pragma once
 
 #include <array>
@@ -22,15 +22,15 @@ enum class HostEvent : std::uint8_t {
   hello,   // it greets the bench
   wait,    // it waits
   cancel,  // something else has ended its wait
-  time,    // the end of its wait has come
-  line,    // something has come on a line that it waits for
+  time,    // its wait has expired
+  line,    // a line that it waits for has news
   left,    // its connection is closed
 };
 enum class HostAnswer : std::uint8_t {
   nothing,
   go,         // its wait is over
   cancelled,  // no further message about its wait will arrive
-  refuse,     // it does not keep to the protocol: the connection is closed
+  refuse,     // it violates the protocol: the connection is closed
 };
 
 struct HostStep {
@@ -42,8 +42,8 @@ inline constexpr std::size_t kHostStates = 4;
 inline constexpr std::size_t kHostEvents = 6;
 
 /// The effect of each event in each state (docs/host-time.md has it too). A wait that arrives during another
-/// one is that of a signal handler; the thread sends the first one again afterwards. The bench may have ended
-/// a wait while its thread gave it up: `cancelled` is then the last word.
+/// one comes from a signal handler; the thread sends the first one again afterwards. The bench may have ended
+/// a wait while the thread was giving it up: `cancelled` is then the last message.
 inline constexpr std::array<std::array<HostStep, kHostEvents>, kHostStates> kHostSteps = [] {
   using enum HostState;
   using enum HostAnswer;
@@ -93,14 +93,14 @@ class HostWaits {
   };
   using Report = std::function<void(int number, HostAnswer answer, const Thread& thread)>;
 
-  /// `report` is called with each answer but `nothing`.
+  /// `report` is called with each answer except `nothing`.
   explicit HostWaits(Report report) : report_(std::move(report)) {}
 
   void add(int number) { threads_[number].order = ++last_order_; }
   void remove(int number) { threads_.erase(number); }
   /// Handles a message of a thread. Messages that are not events of the table change nothing here.
   void on_message(int number, const host_time::Message& message);
-  /// Ends the waits whose end has come at simulated time `now`. Returns true if there were any.
+  /// Ends the waits that have expired at simulated time `now`. Returns true if there were any.
   bool time_is(SimTime now);
   /// Must be called when data have arrived on the line whose pseudo-terminal has this number. Returns true if
   /// a thread waited for them.

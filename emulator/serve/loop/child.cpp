@@ -27,9 +27,10 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// A group that is to end is polled at this interval, because its members need not be our children.
+// A group that was told to end is polled at this interval, because its members need not be our children.
 constexpr WallTime kLook = std::chrono::milliseconds(10);
-// A process that does not end when it is killed (it waits for a broken disk) is left behind after this time.
+// A process that does not end when it is killed (such as one that waits for a broken disk) is left behind
+// after this time.
 constexpr WallTime kAfterKilling = std::chrono::seconds(1);
 
 std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
@@ -158,8 +159,8 @@ void Child::on_end(const siginfo_t& how) {
   was_asked_ = deadline_ > WallTime{0};
 }
 
-/// Handles Ctrl-Z, which the command received: we stop as well, as if we had received it, so that the shell
-/// that started us shows its prompt.
+/// Handles Ctrl-Z, which the command received: this process stops too, as if we had received it, so that the
+/// shell that started us shows its prompt.
 void Child::on_stop() {
   if (terminal_ < 0) return;
   give_terminal_to(getpgrp());

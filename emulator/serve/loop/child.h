@@ -24,7 +24,7 @@ struct ChildError : std::runtime_error {
 struct ChildCommand {
   std::vector<std::string> words;                                // the program and its arguments
   std::vector<std::pair<std::string, std::string>> environment;  // in addition to our own, or replacing them
-  /// A descriptor for its output; the command then has no input and no terminal. -1: it has ours.
+  /// A descriptor for its output; the command then has no input and no terminal. -1: it uses ours.
   int output = -1;
 };
 
@@ -51,7 +51,7 @@ class Child {
 
   /// Returns the exit code of the command, or 128 + n if signal n ended it.
   int exit_code() const { return exit_code_; }
-  /// Returns true if it was asked to end, or ended by a signal.
+  /// Returns true if the command was asked to end, or was ended by a signal.
   bool was_ended() const { return was_asked_ || by_signal_; }
 
  private:

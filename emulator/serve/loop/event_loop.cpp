@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kMaxPieces = 64;  // in work at once
+constexpr std::size_t kMaxPieces = 64;  // the most pieces in progress at once
 
 std::uint32_t epoll_events(std::uint32_t interest) {
   return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
@@ -84,8 +84,8 @@ void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
   changed_.push_back(descriptor);
 }
 
-/// Tells the kernel the changed interests. This waits until the next poll, so that an interest that changes
-/// back, as after an immediate reply, costs nothing.
+/// Passes the changed interests to the kernel. This waits until the next poll, so that an interest that
+/// changes back, as after an immediate reply, costs nothing.
 void EventLoop::update_interests() {
   for (const int descriptor : changed_) {
     const auto it = watches_.find(descriptor);
@@ -121,7 +121,7 @@ void EventLoop::do_in_pieces(std::function<bool()> piece) { pieces_.push_back(st
 
 bool EventLoop::slice_is_over() const { return slice_end_ != WallTime::max() && wall_now() >= slice_end_; }
 
-/// Keeps the descriptors of later rank from waking the loop.
+/// Keeps the descriptors of rank `later` from waking the loop.
 void EventLoop::mute_later_ones(bool are_muted) {
   epoll_event event{};
   event.events = are_muted ? 0U : EPOLLIN;
@@ -176,12 +176,12 @@ void EventLoop::call(int descriptor, std::uint32_t events) {
   (*function)(ready);
 }
 
-/// Calls the later ones one by one. The kernel puts those that stay ready at the end of its list, so all get
-/// their turn.
+/// Calls the descriptors of rank `later` one by one. The kernel puts those that stay ready at the end of its
+/// list, so all get their turn.
 void EventLoop::call_later_ones(bool are_ready, WallTime slice) {
   slice_end_ = wall_now() + slice;
   do {
-    // With many pieces in progress, new messages wait until some are done.
+    // With many pieces of work in progress, new messages wait until some are done.
     const bool are_many = pieces_.size() >= kMaxPieces;
     if (!pieces_.empty() && (are_pieces_next_ || !are_ready || are_many)) {
       are_pieces_next_ = false;

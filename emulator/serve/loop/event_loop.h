@@ -1,5 +1,5 @@
-// Waits for descriptors and for a moment, on one thread, with epoll. Urgent descriptors (ports, signals)
-// come first in every turn; after that, requests of others get a slice of time.
+// Waits for descriptors and for a moment, on one thread, with epoll. Urgent descriptors (ports, signals) come
+// first in every turn; after that, other requests get a slice of time.
 #pragma once
 
 #include <chrono>
@@ -27,12 +27,12 @@ class EventLoop {
   /// `departed`: the other side of a socket has closed its sending half, or the connection is broken.
   enum Readiness : std::uint32_t { readable = 1, writable = 2, departed = 4 };
   /// Ready descriptors of rank `later` are called last, one after another in turn, for at most a slice of
-  /// time. So the others are checked again soon, however many there are.
+  /// time. So the urgent ones are checked again soon, however many of these there are.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::microseconds(30);
   /// A slice for when nothing can be late, as in virtual time.
   static constexpr WallTime kLongSlice = std::chrono::milliseconds(1);
-  /// Work of rank `later` does not begin within this time before something is due; it waits for that first.
+  /// Work of rank `later` does not begin within this time before something is due; it lets that go first.
   static constexpr WallTime kRoom = std::chrono::microseconds(100);
 
   /// Calls `ready` whenever the descriptor is ready for one of `interest`, or has hung up.
@@ -56,7 +56,7 @@ class EventLoop {
     int epoll = -1;  // the epoll that it is in
     std::uint32_t interest = 0;
     std::uint32_t known = 0;                                    // the interest that the kernel knows of
-    std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
+    std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside the call
   };
   void wake_at(WallTime moment);
   void update_interests();
@@ -65,7 +65,7 @@ class EventLoop {
   void call_later_ones(bool are_ready, WallTime slice);
 
   int epoll_ = -1;
-  int later_ = -1;  // another epoll, in that one
+  int later_ = -1;  // another epoll, inside `epoll_`
   int timer_ = -1;
   WallTime alarm_{0};  // the time for which the timer is or was last set
   std::map<int, Watch> watches_;

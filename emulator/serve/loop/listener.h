@@ -1,5 +1,5 @@
 // A socket on which clients arrive. When the process has no descriptors left, clients wait without busy
-// looping: the socket is checked again when a client has gone, or after a moment, because other parts may
+// looping: the socket is checked again when a client has left, or after a moment, because other parts may
 // close descriptors.
 #pragma once
 

@@ -106,7 +106,7 @@ std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
   if (speed_.rate() == 1.0) return anchor_wall_ + ahead;
   const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.rate());
   if (wall_ns > 1e18) return WallTime::max() / 2;  // in thirty years, beyond the range of the clock
-  // It is rounded up, because nothing is due a nanosecond early.
+  // Rounded up, because nothing may happen a nanosecond early.
   return anchor_wall_ + WallTime{static_cast<std::int64_t>(wall_ns) + 1};
 }
 

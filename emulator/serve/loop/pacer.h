@@ -1,4 +1,5 @@
-// Makes simulated time follow the wall clock. Pure: it is told the wall time, so tests can give it any time.
+// Makes simulated time follow the wall clock. Pure: its callers pass the wall time, so tests can use any
+// time.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ struct Speed {
   } kind = Kind::factor;
   double factor = 1.0;
 
-  /// Virtual time is bounded to this factor, so that a host's actions take some simulated time, but not
+  /// Virtual time is limited to this factor, so that a host's actions take some simulated time, but not
   /// years.
   static constexpr double kFreest = 10'000;
   /// Returns the most simulated seconds per second; 0 for `manual`.
@@ -31,8 +32,8 @@ struct Speed {
 std::optional<Speed> parse_speed(std::string_view text);
 std::string format_speed(const Speed& speed);
 
-/// Measures how late the daemon woke up for events, over the last 4,096 times; the maximum is over all
-/// times.
+/// Measures how late the daemon woke up for events, over the last 4,096 wake-ups; the maximum covers all
+/// wake-ups.
 class Lateness {
  public:
   void record(WallTime lateness);

@@ -10,8 +10,8 @@
 namespace understudy::emulator::serve {
 
 /// While it lives, signals that ask this process to end and signals about children arrive through a
-/// descriptor, and signals that it must survive (a reader that goes away) are ignored. It must be made
-/// before any other thread.
+/// descriptor, and signals that it must survive (such as SIGPIPE when a reader ends) are ignored. It must be
+/// made before any other thread.
 class ParentSignals {
  public:
   ParentSignals();

@@ -17,13 +17,13 @@ class ClientProtocol {
   using Bytes = std::vector<std::uint8_t>;
   virtual ~ClientProtocol() = default;
 
-  /// Returns true if it can take more bytes from the client; its buffer is bounded.
+  /// Returns true if the protocol can take more bytes from the client; its buffer is bounded.
   virtual bool has_room() const = 0;
   /// Returns false if the bytes do not follow the protocol; the client is then disconnected.
   [[nodiscard]] virtual bool receive_from_client(std::span<const std::uint8_t> bytes) = 0;
   /// Returns the next bytes for the line, at most `room`. Empty if there are none yet.
   virtual Bytes take_for_line(std::size_t room) = 0;
-  /// Returns the host's settings for the bytes taken last, or nothing if the client cannot tell them.
+  /// Returns the host's settings for the bytes taken last, or nothing if the protocol does not transmit them.
   virtual std::optional<pty::HostSettings> settings() const { return std::nullopt; }
   /// Return true, once, if the client flushes bytes that are not on the wire yet, or discards bytes that it
   /// has not received yet. Called after each take_for_line().
@@ -39,7 +39,8 @@ class ClientProtocol {
   /// nothing if none waits.
   virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
   virtual void give_up() {}
-  /// Returns true if no request waits, for a protocol that puts its requests on the line one after another.
+  /// Returns true if no request is waiting. Overridden by protocols that put their requests on the line one
+  /// at a time.
   virtual bool is_idle() const { return true; }
   /// The client no longer receives answers. The next waiting request is served.
   virtual void client_gone() {}

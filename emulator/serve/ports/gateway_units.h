@@ -9,14 +9,14 @@
 
 namespace understudy::emulator::serve {
 
-/// Returns the station number for `unit`: the same number if a station answers to it, or the station that
-/// 255 (or any unit) stands for; otherwise `unit`.
+/// Returns the station number for `unit`: the same number if a station answers to it, or the station to which
+/// unit 255 (or any unit) is mapped; otherwise `unit`.
 std::uint8_t station_of_unit(std::uint8_t unit, const world::GatewaySettings& settings,
                              const world::WorldLine& line);
 
-/// Returns a line for the log if a master reads by a broadcast, which no station will answer, with the
-/// stations that exist; otherwise returns an empty text. MissingStations reports a station that does not
-/// exist, as it does for every kind of host.
+/// Returns a line for the log, with the existing stations, if a master reads by broadcast, which no station
+/// answers. Otherwise returns an empty text. MissingStations reports a station that does not exist, as it
+/// does for every kind of host.
 std::string why_unanswered(std::uint8_t station, std::uint8_t function, const world::WorldLine& line);
 
 }  // namespace understudy::emulator::serve

@@ -22,7 +22,7 @@ constexpr std::size_t kMaxLength = 254;
 
 constexpr std::size_t kLongestFrame = kMaxLength + 2;  // with the checksum
 
-// A broadcast has this long to be obeyed.
+// Stations have this long to execute a broadcast.
 constexpr std::chrono::milliseconds kAfterBroadcast{100};
 
 constexpr std::uint8_t kException = 0x80;
@@ -43,7 +43,7 @@ std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
   return std::nullopt;
 }
 
-/// Returns false if the message gives a length that no message has.
+/// Returns false if the message announces a length that no message can have.
 bool is_length_possible(std::span<const std::uint8_t> received) {
   if (received.size() < kHeader) return true;
   const std::size_t length = word_at(received, 4);

@@ -17,8 +17,8 @@ namespace understudy::emulator::serve {
 
 /// The gateway's settings, and the stations on its line.
 struct GatewayRules {
-  std::chrono::milliseconds timeout{1000};  // for a station to answer
-  bool reports_timeout = true;              // by exception 11 that it has not
+  std::chrono::milliseconds timeout{1000};  // the time within which a station must answer
+  bool reports_timeout = true;              // sends exception 11 if it does not
   /// Returns the station for a unit; null: the station with that number.
   std::function<std::uint8_t(std::uint8_t unit, std::uint8_t function)> station_of{};
 };
@@ -27,8 +27,8 @@ class ModbusTcp final : public ClientProtocol {
  public:
   explicit ModbusTcp(GatewayRules rules = {}) : rules_(std::move(rules)) {}
 
-  /// Returns false if the bytes give a length that no request has, so that the beginning of the next is
-  /// unknown. Earlier requests are still served; that message and all later bytes never are.
+  /// Returns false if the bytes announce a length that no request can have, so that the beginning of the next
+  /// request is unknown. Earlier requests are still served; that message and all later bytes never are.
   [[nodiscard]] bool receive_from_client(std::span<const std::uint8_t> bytes) override;
   void receive_from_line(std::span<const std::uint8_t> bytes) override;
   std::optional<std::chrono::milliseconds> patience() const override;
@@ -54,15 +54,15 @@ class ModbusTcp final : public ClientProtocol {
 
   struct Request {
     std::uint16_t transaction = 0;
-    std::uint8_t unit = 0;     // as the client calls the station
+    std::uint8_t unit = 0;     // the client's number for the station
     std::uint8_t station = 0;  // its number on the line
     std::uint8_t function = 0;
   };
   void answer(std::span<const std::uint8_t> pdu);
 
   GatewayRules rules_;
-  Bytes received_;           // of the client: whole requests, and the beginning of one
-  bool is_refused_ = false;  // it has sent bytes that are not Modbus TCP
+  Bytes received_;           // from the client: whole requests, and the beginning of one
+  bool is_refused_ = false;  // the client has sent bytes that are not Modbus TCP
   Bytes reply_;              // from the line, as far as received
   Bytes to_client_;
   std::optional<Request> on_line_;

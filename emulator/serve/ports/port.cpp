@@ -32,7 +32,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// The kernel reports a host's close a moment before it takes effect. After this time it has.
+// The kernel reports a host's close a moment before it takes effect. After this time, it has taken effect.
 constexpr WallTime kSecondPoll = std::chrono::milliseconds(5);
 
 // The interval of checks if the kernel does not report who opens and closes a terminal.
@@ -41,17 +41,17 @@ constexpr WallTime kUnwatchedPoll = std::chrono::milliseconds(50);
 // A lost terminal is tried again after this time.
 constexpr WallTime kRecovery = std::chrono::milliseconds(100);
 
-// A host that has taken nothing for this long does not read.
+// A host that has taken nothing for this long is considered not to read.
 constexpr WallTime kStillReads = std::chrono::milliseconds(200);
 
-// This holds what the kernel holds (20,480 bytes) and one reading more, so a host that leaves loses nothing.
-// Hosts that write and leave faster than the wire carries lose the rest.
+// This is what the kernel holds (20,480 bytes) and one more read, so a host that leaves loses nothing. If
+// hosts write and leave faster than the wire carries their bytes, the rest is lost.
 constexpr std::size_t kLeftoverCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
 
-/// Takes the output of a world that runs fast and sends more at once than its line keeps. Passes on faults to
-/// guests, which have faults of their own.
+/// Takes the output of a world that runs fast and sends more at once than its line can buffer. Passes faults
+/// on to guests, which apply them in their own way.
 class Port::Overflow final : public pty::LineObserver {
  public:
   explicit Overflow(Port& port) : port_(port) { port_.world_.add_observer(port_.line_number_, *this); }
@@ -179,7 +179,8 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   }
 }
 
-/// Keeps what a host wrote before it closed. It is still served, but must not count as the next host's.
+/// Keeps what a host wrote before it closed. These bytes are still served, but must not count as the next
+/// host's input.
 void Port::keep_leftover() {
   std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
   while (!terminal_->host_present()) {
@@ -205,7 +206,7 @@ void Port::add_leftover(std::span<const std::uint8_t> bytes) {
 }
 
 /// Passes on the bytes left behind, ahead of what the next host writes, as on a wire. It loops because with
-/// instant timing the line has room again at once, and nothing would wake us for the rest.
+/// instant timing the line has room again immediately, and nothing would wake the loop for the rest.
 void Port::pass_on_leftover() {
   while (const std::size_t count = std::min(leftover_.size(), line().room())) {
     catch_up_();
@@ -277,7 +278,7 @@ std::optional<WallTime> Port::next_poll(bool clock_stands) {
   std::optional<WallTime> next;
   if (next_presence_ > WallTime{0}) next = next_presence_;
   if (is_on_demand_) return next;
-  if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected them
+  if (terminal_ && terminal_->has_presence_news()) next = WallTime{0};  // another port has collected the news
   // With a stopped clock, the timeout of an incomplete frame would never expire.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due())
     next = std::min(next.value_or(WallTime::max()), last_bytes_ + patience());
@@ -292,7 +293,7 @@ void Port::poll(WallTime now, bool clock_stands) {
     on_presence({});
     keep_watch();
   }
-  // This happens twice, because after a pause a frame that has begun waits longer.
+  // The second call is needed because a frame that has begun waits longer after the first pause.
   if (clock_stands && !is_on_demand_ && last_bytes_ > WallTime{0} && now >= last_bytes_ + patience()) {
     if (std::exchange(has_paused_, true)) last_bytes_ = WallTime{0};
     world_.nothing_more(line_number_);

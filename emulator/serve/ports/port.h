@@ -1,6 +1,6 @@
-// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest through
-// another door. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach the
-// model.
+// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest that came
+// through another door. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach
+// the model.
 #pragma once
 
 #include <sys/stat.h>
@@ -20,7 +20,7 @@ namespace understudy::emulator::serve {
 
 class Port {
  public:
-  /// The link to its pseudo-terminal; nothing: it has none, only guests.
+  /// The path of the link to the port's pseudo-terminal; nothing: the port has only guests.
   using Link = std::optional<std::string>;
   /// Ports that are served together share a `presence` watch; when it has collected something, follow_hosts()
   /// must be called for each. `catch_up` brings the world to the present moment; `log` receives messages for
@@ -35,12 +35,12 @@ class Port {
   /// From now on only attend() takes the host's bytes, and notices when the host opens or closes the port: a
   /// host in simulated time is served at the moment at which it waits.
   void serve_on_demand();
-  /// While hosts are ignored, the line stays as the world says: what hosts do does not reach it, and they get
-  /// nothing from it. Nobody can become a guest.
+  /// While hosts are ignored, the line stays as it is in the world: what hosts do does not reach it, and they
+  /// get nothing from it. Nobody can become a guest.
   void ignore_hosts(bool ignored);
-  /// Takes what the host has written, as far as there is room, and gives it the line's output.
+  /// Takes what the host has written, as far as there is room, and gives the host the line's output.
   void attend();
-  /// Returns true if a host seems to have gone, but the kernel has not released the line yet.
+  /// Returns true if a host seems to have left, but the kernel has not released the line yet.
   bool is_in_doubt() const { return terminal_ && terminal_->is_in_doubt(); }
 
   /// Passes on the bytes that the wire has delivered, and takes more bytes if the line has room.
@@ -54,7 +54,7 @@ class Port {
   std::optional<SimTime> time_until_full() const;
   /// Tells the line which hosts came and went, if the watch has collected anything about them.
   void follow_hosts();
-  /// Returns when poll() should be called even if nothing is readable: a host may have come or gone, a frame
+  /// Returns when poll() should be called even if nothing is readable: a host may have come or left, a frame
   /// is incomplete while the clock is stopped, or a lost or unplugged pseudo-terminal could not be opened
   /// again yet.
   std::optional<WallTime> next_poll(bool clock_stands);
@@ -95,14 +95,14 @@ class Port {
   const world::WorldLine& world_line() const { return world_.line(line_number_); }
   SimTime now() const { return world_.now(); }
 
-  /// Null: it has no pseudo-terminal, or is unplugged.
+  /// Returns null if the port has no pseudo-terminal or is unplugged.
   const pty::PseudoTerminal* terminal() const { return terminal_ ? &*terminal_ : nullptr; }
   /// Returns what a host opens: the link's path, or the TCP address if there is no pseudo-terminal.
   std::string place() const;
   std::size_t line_number() const { return line_number_; }
   bool host_present() const { return guest_ != nullptr || (terminal_ && terminal_->host_present()); }
   std::optional<pty::HostSettings> host_settings() const;
-  /// Its TCP addresses, as a user writes them.
+  /// Returns the port's TCP addresses, as a user writes them.
   const std::vector<std::string>& tcp_places() const { return tcp_places_; }
   void add_tcp_place(const std::string& place) { tcp_places_.push_back(place); }
 
@@ -133,24 +133,24 @@ class Port {
   std::function<void(const std::string&)> log_;
   Link link_;
   std::shared_ptr<pty::PresenceWatch> presence_;
-  std::optional<pty::PseudoTerminal> terminal_;  // none as well while it is pulled out
-  Guest* guest_ = nullptr;                       // has the line instead
+  std::optional<pty::PseudoTerminal> terminal_;  // also empty while it is pulled out
+  Guest* guest_ = nullptr;                       // if not null, it has the line
   std::optional<pty::HostSettings> guest_settings_;
   std::vector<std::string> tcp_places_;
   std::vector<std::uint8_t> leftover_;  // from hosts that have closed; at most kLeftoverCapacity
   WallTime next_presence_{0};           // when to check again who is there; 0: not needed
-  bool is_watching_ = false;            // the terminal's descriptor
+  bool is_watching_ = false;            // the terminal's descriptor is watched
   bool is_on_demand_ = false;           // the terminal's descriptor is not watched
-  bool is_pulled_out_ = false;          // by a fault
+  bool is_pulled_out_ = false;          // a fault has unplugged the port
   bool hosts_are_ignored_ = false;
   bool has_reported_ = false;  // the log has said why it cannot be plugged in again
-  struct stat access_ {};      // of the previous terminal
+  struct stat access_ {};      // the access rights of the previous terminal
   WallTime next_recovery_{0};  // when to try again to open a lost terminal; 0: it is not lost
   bool is_listening_ = true;   // the line had room when last something was handed over
   WallTime last_taken_{0};     // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
   WallTime last_bytes_{0};   // when the host's last bytes came; 0: no frame is waited for
-  bool has_paused_ = false;  // while the clock is stopped: the usual patience for a frame has passed since
+  bool has_paused_ = false;  // while the clock is stopped: patience for a frame is over
 };
 
 }  // namespace understudy::emulator::serve

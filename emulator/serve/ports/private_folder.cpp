@@ -61,7 +61,7 @@ void remove_left_overs(const std::string& beginning, std::chrono::seconds kept) 
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(beginning).parent_path(), error)) {
     const std::string path = entry.path().string();
-    // The folder with the user's number holds the control sockets, and no process owns it.
+    // The folder that is named after the user's number holds the control sockets, and no process owns it.
     if (path == beginning + std::to_string(::geteuid()) || !is_private_folder(path, beginning)) continue;
     const Descriptor lock = locked(path);
     if (lock && last_change(path) < now - kept) fs::remove_all(path, error);

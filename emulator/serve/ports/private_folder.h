@@ -7,14 +7,14 @@
 
 namespace understudy::emulator::serve {
 
-/// The beginning of the paths of private folders.
+/// The prefix of the paths of private folders.
 inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
 
 /// Files that failed runs left in such folders are removed after this time.
 inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 
-/// Removes our folders with that beginning in which nothing has changed for this long, and whose owner has
-/// ended. Folders with other names, or of other users, are left alone.
+/// Removes our folders with that prefix in which nothing has changed for this long, and whose owner process
+/// has ended. Folders with other names, or of other users, are left alone.
 void remove_left_overs(const std::string& beginning = kPrivateFolders,
                        std::chrono::seconds kept = kLeftOversKept);
 

@@ -23,7 +23,7 @@ constexpr std::string_view kSignature = "understudy";
 
 // There are no modem lines. A client that asks for them sees a device that is present and ready.
 constexpr std::uint8_t kModemReady = 0x10 | 0x20 | 0x80;  // clear to send, data set ready, carrier
-constexpr std::uint8_t kLineEmpty = 0x20 | 0x40;          // nothing waits to be sent
+constexpr std::uint8_t kLineEmpty = 0x20 | 0x40;          // nothing is waiting to be sent
 
 constexpr std::uint32_t kFastest = 4'000'000;
 constexpr std::uint8_t kSuspend = 8;
@@ -31,7 +31,7 @@ constexpr std::uint8_t kResume = 9;
 
 }  // namespace
 
-/// A command of a client. A command of another size is ignored; `size` 0 means any size.
+/// A client's command. A command of another size is ignored; `size` 0 means any size.
 struct Rfc2217::Row {
   std::uint8_t code;
   std::size_t size;
@@ -132,7 +132,7 @@ void Rfc2217::report_signature(Value value) {
   answer(0, Bytes(kSignature.begin(), kSignature.end()));
 }
 
-// These answer with the setting that is then in effect. The value 0 only asks for it.
+// These commands answer with the setting that is then in effect. The value 0 only asks for the setting.
 
 void Rfc2217::set_baud(Value value) {
   const std::uint32_t baud =
@@ -160,8 +160,8 @@ void Rfc2217::set_stop_bits(Value value) {
   answer(4, static_cast<std::uint8_t>(settings_.stop_bits));
 }
 
-/// Handles five controls; each has a code that asks and some that set. Only a break reaches the line: a port
-/// has no modem lines, and flow control hardly matters for so little output.
+/// Handles five controls; each has a code that queries it and others that set it. Only a break reaches the
+/// line: a port has no modem lines, and flow control hardly matters for so little output.
 void Rfc2217::control(Value value) {
   const std::uint8_t wish = value[0];
   struct Range {

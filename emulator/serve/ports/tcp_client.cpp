@@ -40,9 +40,9 @@ void notice_dead_peers(int socket) {
   set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 1000 * (kIdleSeconds + kProbes * kProbeSeconds));
 }
 
-/// Acknowledges what was read at once. A host that writes a frame in pieces, with Nagle's algorithm, sends
-/// the second when the first is acknowledged. The kernel delays that by 40 ms unless this is set after each
-/// reading.
+/// Acknowledges received bytes immediately. A host that writes a frame in pieces, with Nagle's algorithm,
+/// sends the second piece only when the first is acknowledged. The kernel delays the acknowledgement by 40 ms
+/// unless this is set after each read.
 void acknowledge_at_once(int socket) { set_option(socket, IPPROTO_TCP, TCP_QUICKACK, 1); }
 
 bool is_for_later() { return errno == EAGAIN || errno == EINTR; }

@@ -36,20 +36,21 @@ class TcpClient {
     foreign_bytes,    // bytes outside its protocol; it will be released
     connection_gone,  // nothing can be sent any more
   };
-  /// Reads some of the bytes it has sent.
+  /// Reads some of the bytes that the client has sent.
   ReadResult read();
-  /// Returns false if it has closed its sending half, or is ahead of the line: then nothing is read.
+  /// Returns false if nothing is read from the client now, because it has closed its sending half or is ahead
+  /// of the line.
   bool is_read() const { return !has_finished_sending_ && protocol_->has_room(); }
   /// Returns true if it has closed its sending half. It still gets the answers to its requests.
   bool has_finished_sending() const { return has_finished_sending_; }
 
-  /// Sends as much as the network accepts. Reading shows whether the client has gone.
+  /// Sends as much as the network accepts. Reading shows whether the client has left.
   void send_out();
-  /// Returns how many bytes were sent to it in all.
+  /// Returns the total number of bytes sent to the client.
   std::uint64_t sent() const { return sent_; }
   bool has_unsent() const { return !unsent_.empty(); }
 
-  // Faults. Bytes given at once are an answer if the protocol `has_messages`, otherwise a part of one.
+  // Faults. Bytes passed in one call are an answer if the protocol `has_messages`, otherwise a part of one.
   void spoil(const Spoiling& spoiling) { spoiling_ = spoiling; }
   const Spoiling& spoiling() const { return spoiling_; }
   /// Returns, once, how much later the rest of an answer is sent.

@@ -44,7 +44,7 @@ constexpr std::size_t kMaxLeft = 16'384;  // bytes from a client that has discon
 // A client that has sent everything may wait this long for its replies while another wants the line.
 constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
 
-// The longest request and the longest reply.
+// The longest request and the longest reply together.
 constexpr int kLongestExchange_bits = 2 * 256 * 11;
 
 }  // namespace
@@ -237,7 +237,7 @@ bool TcpDoor::serve_next() {
   return false;
 }
 
-/// Passes what clients have sent to the line, as far as it has room, and the line's output to the clients.
+/// Passes the clients' bytes to the line, as far as it has room, and the line's output to the clients.
 void TcpDoor::serve_line() {
   if (is_serving_) return;
   is_serving_ = true;
@@ -290,7 +290,7 @@ void TcpDoor::expire() {
   serve_line();
 }
 
-/// Takes output of the line. For a client that reads more slowly, the line keeps the rest, up to a limit. A
+/// Takes output from the line. If a client reads more slowly, the line keeps the rest, up to a limit. A
 /// gateway takes everything, but sends no further request while a reply waits to be taken.
 std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
   if (clients_.empty()) return bytes.size();
@@ -308,7 +308,7 @@ std::size_t TcpDoor::take(std::span<const std::uint8_t> bytes) {
 bool TcpDoor::has_all(const TcpClient& client) const {
   if (client.has_unsent() || client.has_rest()) return false;
   if (is_gateway()) return client.protocol().is_idle();
-  // A client that does not listen now never will.
+  // A client that does not listen now will not receive anything later either.
   return port_.room() > 0 && (port_.is_quiet() || !client.protocol().listens());
 }
 
@@ -355,7 +355,7 @@ void TcpDoor::hang_up() {
   leave({});
 }
 
-/// Leaves the line after the last client has gone.
+/// Leaves the line after the last client has left.
 void TcpDoor::leave(const ClientProtocol::Bytes& last) {
   news_ = news() + 1;
   clients_.clear();

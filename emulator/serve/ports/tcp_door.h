@@ -27,8 +27,8 @@ class TcpDoor final : private Port::Guest {
  public:
   static constexpr std::size_t kMaxMasters = 32;
 
-  /// A door on demand serves a host in simulated time: nobody listens at the address, admit() is given the
-  /// clients, their bytes are taken only by attend(), and its times are simulated.
+  /// A door on demand serves a host in simulated time: nobody listens at the address, clients are passed to
+  /// admit(), their bytes are taken only by attend(), and its times are simulated.
   enum class Service : std::uint8_t { at_once, on_demand };
   /// Adds the address to the port, which must outlive the door. Throws pty::PortError.
   TcpDoor(EventLoop& loop, Port& port, const world::TcpAddress& address,
@@ -42,7 +42,7 @@ class TcpDoor final : private Port::Guest {
 
   const world::TcpAddress& address() const { return address_; }
   const Port& port() const { return port_; }
-  /// Takes what the clients have sent, and sends them what waits for them.
+  /// Takes what the clients have sent, and sends them pending output.
   void attend();
   /// Returns when attend() has something to do although nobody sends, or nothing.
   std::optional<SimTime> due() const { return due_; }
@@ -82,7 +82,7 @@ class TcpDoor final : private Port::Guest {
   bool is_on_demand_;
   Descriptor timer_;            // ends the wait for a reply, or for a client that has sent everything
   std::optional<SimTime> due_;  // the same on demand
-  std::uint64_t news_ = 0;      // of clients that are no longer there
+  std::uint64_t news_ = 0;      // from clients that have left
   std::vector<std::unique_ptr<TcpClient>> clients_;
   std::size_t turn_ = 0;     // the client whose request is next
   Descriptor next_;          // a client that waits until a finished one has its replies

@@ -72,7 +72,7 @@ int port_of(const Descriptor& listener) {
                                           : reinterpret_cast<sockaddr_in*>(raw)->sin_port);
 }
 
-/// Returns no descriptor on failure; errno then says why.
+/// Returns no descriptor on failure; errno then has the reason.
 Descriptor listen_there(const addrinfo& place, bool is_one_of_several) {
   Descriptor listener(socket(place.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener) return {};
@@ -104,7 +104,7 @@ std::vector<Descriptor> listen_at(world::TcpAddress& address) {
     set_port(place->ai_addr, address.port);
     Descriptor listener = listen_there(*place, places.size() > 1);
     if (!listener) {
-      // A name may stand for an IPv6 address on a machine without IPv6.
+      // A name may resolve to an IPv6 address on a machine without IPv6.
       error = errno;
       const bool is_elsewhere = error == EADDRNOTAVAIL || error == EAFNOSUPPORT;
       if (is_elsewhere && places.size() > 1) continue;

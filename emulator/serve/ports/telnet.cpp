@@ -73,7 +73,7 @@ bool Reader::skip_subnegotiation() {
   return false;
 }
 
-/// Takes a subnegotiation. A command inside it breaks it off, and it is ignored.
+/// Takes a subnegotiation. A command inside it breaks off the subnegotiation, which is then ignored.
 std::optional<Command> Reader::take_subnegotiation() {
   Command command{.verb = kSubnegotiation, .option = received_[2], .body = {}};
   for (std::size_t at = 3; at + 1 < received_.size(); ++at) {

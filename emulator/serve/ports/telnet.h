@@ -29,15 +29,15 @@ enum Option : std::uint8_t { kBinary = 0, kSuppressGoAhead = 3, kComPort = 44 };
 
 struct Command {
   std::uint8_t verb = kNop;
-  std::uint8_t option = 0;  // of will, wont, do, dont and subnegotiation
-  Bytes body;               // of a subnegotiation, after its option
+  std::uint8_t option = 0;  // the option of will, wont, do, dont and subnegotiation
+  Bytes body;               // the part of a subnegotiation after its option
 };
 
 /// Splits received bytes in their order.
 class Reader {
  public:
   static constexpr std::size_t kMaxReceived = 4096;
-  static constexpr std::size_t kLongestSubnegotiation = 256;  // as it is sent; longer ones are ignored
+  static constexpr std::size_t kLongestSubnegotiation = 256;  // bytes as sent; longer ones are ignored
 
   bool has_room() const { return received_.size() < kMaxReceived; }
   void append(std::span<const std::uint8_t> bytes) {
@@ -70,7 +70,7 @@ class Options {
 
   bool we_are_binary() const { return rows_[0].ours == State::on; }
   bool they_are_binary() const { return rows_[0].theirs == State::on; }
-  /// Returns true if at least one side has agreed to it.
+  /// Returns true if at least one side has agreed to the COM port option.
   bool has_com_port() const { return rows_[2].ours == State::on || rows_[2].theirs == State::on; }
 
  private:

@@ -1,5 +1,5 @@
-// Finds the libraries that are preloaded into hosts: the one that lets those that insist on parity use a
-// pseudo-terminal (pty/tty_shim.cpp), and the one that also puts them into simulated time (pty/host_time/).
+// Finds the libraries that are preloaded into hosts: one lets hosts that insist on parity use a
+// pseudo-terminal (pty/tty_shim.cpp), the other also puts hosts into simulated time (pty/host_time/).
 #pragma once
 
 #include <stdexcept>

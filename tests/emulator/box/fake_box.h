@@ -36,7 +36,7 @@ inline std::vector<std::uint8_t> frame(std::vector<std::uint8_t> bytes) {
   return bytes;
 }
 
-/// What a capture of the line has, when a host sends these requests.
+/// Makes the contents of a capture of the line while a host sends requests.
 class FakeBox : private pty::LineObserver {
  public:
   static Capture captured(const world::Bench& bench, const Requests& requests,

@@ -15,7 +15,7 @@ inline testing::AssertionResult same_state(const Device& a, const Device& b) {
   return testing::AssertionFailure() << a.name() << "." << a.state_difference(a.save_state(), b.save_state());
 }
 
-/// Compares what they save, because a snapshot contains only these bytes.
+/// Checks the bytes that the device saves, because a snapshot contains only these.
 inline testing::AssertionResult saves(const Device& device, const std::vector<std::byte>& bytes) {
   const std::vector<std::byte> saved = device.save_state();
   if (saved == bytes) return testing::AssertionSuccess();

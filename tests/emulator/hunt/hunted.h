@@ -1,4 +1,4 @@
-// Hunts in scenarios that are texts.
+// Hunts in scenarios that are given as texts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 namespace understudy::emulator::hunt {
 
-/// A controller that counts presses of a button, and takes a bouncing contact for several.
+/// A controller that counts presses of a button, and counts a bouncing contact several times.
 inline const std::string kPresses = R"(understudy: 1
 name: one press, one part
 bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }
@@ -91,7 +91,7 @@ inline std::vector<Found> hunted(const HuntFolder& folder, const HuntOptions& op
   return all;
 }
 
-/// Runs a scenario that was written into the folder `found`. Returns what failed, or an empty text.
+/// Runs a scenario that was written to the folder `found`. Returns the failure, or an empty text.
 inline std::string failure_of(const HuntFolder& folder, const std::string& text) {
   folder.write("found/one.yaml", text);
   const auto scenarios = play::load_scenarios(models::all_models(), folder / "found/one.yaml");

@@ -1,4 +1,4 @@
-// Models that tests describe in texts.
+// Models that tests describe as texts.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace understudy::emulator::model_file {
 
-/// The models exist as long as the tests.
+/// Returns the described models, which exist as long as the tests.
 inline DescribedModels& described_models() {
   static DescribedModels described(models::all_models());
   return described;
 }
 inline ModelList with_described() { return {models::all_models(), &described_models()}; }
 
-/// The list inside the file, as after `registers: |`: its first line is line 4.
+/// Returns a model file with the list as a block after `registers: |`. The list's first line is line 4.
 inline std::string model_with(const std::string& list, const std::string& more) {
   std::string text = "understudy: 1\nmodel: one\nregisters: |\n";
   for (std::size_t begin = 0; begin < list.size();) {
@@ -54,7 +54,7 @@ inline std::string quoted_scalar(const std::string& text) {
   return made + "\"";
 }
 
-/// One device `it` of a described model; `more` is the rest of the bench.
+/// Returns a bench with one device `it` of a described model. `more` is the rest of the bench file.
 inline world::Bench bench_with(const std::string& model, const std::string& more = "") {
   return world::parse_bench(with_described(),
                             "understudy: 1\nlines: { a: { timing: instant, stations: [ { name: it, model: " +

@@ -24,7 +24,7 @@
 
 namespace understudy::emulator::page {
 
-/// Answers on a control socket: each line by a function, in its own thread.
+/// Answers each line on a control socket with a function's result, in its own thread.
 class MadeUpBench {
  public:
   using Answer = std::function<std::string(const TestJson& message)>;

@@ -80,7 +80,7 @@ inline constexpr InstructionRow kInstructions[] = {
 struct ProgramStep {
   std::string label{};
   const InstructionRow* row = nullptr;
-  std::vector<std::int64_t> operands{};  // a jump's: the step of its label
+  std::vector<std::int64_t> operands{};  // of a jump: the step of its label
 };
 
 struct Program {

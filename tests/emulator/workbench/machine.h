@@ -1,5 +1,5 @@
-// The motors of the made-up controller. They detect edges at their pulse; B counts against the motor's
-// direction. A hand wheel turns A while it follows; an output gives a pulse for every tenth of A.
+// The motors of the made-up controller. They detect edges at the exact pulse; B counts against the motor's
+// direction. A hand wheel turns A while A follows it; an output sends a pulse for every tenth pulse of A.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace understudy::emulator::workbench {
 struct Motor {
   motion::Axis axis{};
   motion::Environment environment{};
-  std::int64_t sent_pulses = 0;  // in the last tick
+  std::int64_t sent_pulses = 0;  // pulses sent in the last tick
 
   bool operator==(const Motor&) const = default;
 };
@@ -29,8 +29,8 @@ struct MotorsState {
   std::int32_t wheel_seen = 0;
   std::int32_t external_seen = 0;
   std::int64_t external_edges = 0;
-  std::int64_t compared = 0;    // pulses of the output
-  std::uint8_t low_active = 0;  // a bit for each of MotorInput: active if it is 0
+  std::int64_t compared = 0;    // the output's pulses
+  std::uint8_t low_active = 0;  // a bit for each MotorInput that is active at level 0
 
   bool operator==(const MotorsState&) const = default;
 };
@@ -40,13 +40,13 @@ class Motors {
   static constexpr std::int64_t kComparedEvery = 10;
   static constexpr std::size_t kReversed = 1;
 
-  /// The state must outlive it.
+  /// The state must outlive this object.
   explicit Motors(MotorsState& its) : state(its) {
     for (Motor& motor : state.motors) motor.axis.servo_on = true;
     state.motors[kReversed].axis.inverted = true;
   }
 
-  /// Returns what a motor meets now: zones if an input depends on the position; otherwise its level.
+  /// Updates a motor's environment: zones for inputs that depend on the position, levels for the others.
   void update_environment(const Device& device, std::size_t number) {
     struct Function {
       MotorInput input;
@@ -146,7 +146,7 @@ class Motors {
   MotorsState& state;
 
  private:
-  /// The difference of counts that wrap at 32 bits.
+  /// Returns the difference of two counts that wrap at 32 bits.
   static std::int32_t difference(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
   }
@@ -157,7 +157,7 @@ class Motors {
     state.compared += std::abs(tenth(state.motors[0].axis.travel_pulses) - tenth(before));
   }
 
-  std::array<MachineEdges, kMotorCount> edges_{};  // not state: they are set again
+  std::array<MachineEdges, kMotorCount> edges_{};  // not state: they are computed again
 };
 
 }  // namespace understudy::emulator::workbench

@@ -67,7 +67,7 @@ inline Kept factory_persistent(const RegisterMap& map) {
           .blocks = TextBlocks(kBlocks)};
 }
 
-/// At power-up, persistent registers have their stored values.
+/// Restores the stored values of the persistent registers at power-up.
 inline void recall(const Eeprom& eeprom, const RegisterMap& map, std::vector<std::uint32_t>& image) {
   std::size_t slot = 0;
   for (const RegisterRow& row : map.rows()) {

@@ -37,7 +37,7 @@ DeviceAnswer take_block(Workbench& bench, Cell cell, std::span<const std::uint16
 Value receive_errors(const Workbench& bench, Cell cell);
 DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
 
-// Its own error numbers.
+// The controller's own error numbers.
 inline constexpr int kUnknownCommand = 2;
 inline constexpr int kWrongWords = 3;
 inline constexpr int kFifoFull = 0xC1;

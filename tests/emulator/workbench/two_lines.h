@@ -15,7 +15,8 @@ namespace understudy::emulator::workbench {
 
 inline const ListedModel kWorkbenchModels[] = {&model()};
 
-/// Lines "pc" and "hmi", the settings of each after its name, and the rest of the bench.
+/// Returns a bench with the lines "pc" and "hmi". `of_line` has further settings of each line, `more` the
+/// rest of the bench.
 inline std::string two_lines_text(const std::string& of_line = "", const std::string& more = "") {
   return "understudy: 1\nlines:\n"
          "  pc: { " +

@@ -34,9 +34,9 @@ struct WorkbenchState {
   std::array<std::int32_t, kAxisCount> targets{};
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
-  std::uint8_t cause = 0;            // of the last exception
-  std::uint16_t reason = 0;          // the same in its own numbers
-  std::uint8_t program_refused = 0;  // the last one that was loaded
+  std::uint8_t cause = 0;            // the cause of the last exception
+  std::uint16_t reason = 0;          // the same as its own error number
+  std::uint8_t program_refused = 0;  // the last loaded program was refused
   MotorsState motors{};
   std::array<std::uint32_t, 2> receive_errors{};
   std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
@@ -86,7 +86,7 @@ class Workbench final : public DeviceOf<Workbench>,
     state.kept = factory_persistent(*model.registers);
   }
 
-  /// Its areas and files are persistent blocks; settings take effect at once.
+  /// A program's areas and files are persistent blocks; its settings take effect immediately.
   void load_program(std::string_view text) override {
     if (stored(absent_) != 0) {
       state.program_refused = 1;
@@ -111,7 +111,7 @@ class Workbench final : public DeviceOf<Workbench>,
     }
     for (auto& [name, lines] : read.program.files) keep("files", name, std::move(lines));
   }
-  /// A program that the language has accepted fits.
+  /// Stores a block. A program that the language has accepted always fits.
   void keep(std::string_view kind, const std::string& name, std::string text) {
     const std::string why = state.kept.blocks.put(kind, name, SharedText(std::move(text)));
     if (!why.empty()) throw std::logic_error(name + ": " + why);
@@ -159,7 +159,7 @@ class Workbench final : public DeviceOf<Workbench>,
   bool output_moves(int) const override { return false; }
   std::uint32_t output_word(int first, int count) const override {
     if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
-    // A run of them occupies three words at most.
+    // The grouped outputs of one request occupy at most three words.
     const int at = first - kFirstGroupedOutput;
     std::uint64_t words = 0;
     for (int i = 0; i < 3 && powered(); ++i) {
@@ -203,7 +203,8 @@ class Workbench final : public DeviceOf<Workbench>,
     motors_.fast_forward_to(tick, pulses);
   }
 
-  /// Positions and commands belong to a module that may be absent; positions wait for room in its FIFO.
+  /// Positions and commands belong to a module that may be absent; writes of positions are refused while its
+  /// FIFO is full.
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
@@ -244,7 +245,7 @@ class Workbench final : public DeviceOf<Workbench>,
   bool is_moving() const { return state.positions != state.targets; }
 
   WorkbenchState state;
-  RefusedRequest last_refused;  // for tests, no part of its state
+  RefusedRequest last_refused;  // for tests; not part of the state
 
  protected:
   void power_up() override { recall(state.kept.eeprom, map(), state.image); }
@@ -331,7 +332,7 @@ inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
 
-/// One number for every axis, and numbers that are counters.
+/// A parameter with one number for every axis, parameters that are counters, and one without a letter.
 inline constexpr ParameterRow kParameters[] = {
     {.first = 20, .register_name = "Speed_{}", .letter = "P", .of_each_axis = true},
     {.first = 100, .count = 125, .register_name = "D{}", .letter = "D"},

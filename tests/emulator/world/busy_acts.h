@@ -1,5 +1,5 @@
-// Random acts in a world of two Simple2-R3: those of random_events.h, and programs of any lines, homing,
-// velocity, power cuts, faults.
+// Random acts in a world of two Simple2-R3: those of random_events.h, and programs with arbitrary lines,
+// homing, velocity mode, power cuts and faults.
 #pragma once
 
 #include <functional>
@@ -60,7 +60,7 @@ class BusyActs {
     }
   }
 
-  /// Twenty lines of any commands; the last one jumps to the first.
+  /// Loads twenty lines of arbitrary commands; the last line jumps to the first.
   Doing some_program(std::size_t device) {
     std::vector<std::uint16_t> words;
     for (int line = 0; line < 20; ++line) {

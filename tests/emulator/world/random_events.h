@@ -49,8 +49,8 @@ class RandomEvents {
       case 1: return SimTime{between(0, 50'000'000)};
       case 2: return SimTime{between(0, 3'000'000'000)};
       case 3: return (kTickLength - time_ % kTickLength);                   // exactly the next tick
-      case 4: return (kTickLength - time_ % kTickLength) * 2 - SimTime{1};  // just before or after one
-      default: return SimTime{between(8'000'000, 20'000'000)};              // as a host polls
+      case 4: return (kTickLength - time_ % kTickLength) * 2 - SimTime{1};  // often near a tick
+      default: return SimTime{between(8'000'000, 20'000'000)};              // a host's polling interval
     }
   }
 
@@ -81,7 +81,7 @@ class RandomEvents {
     }
   }
 
-  /// A request with function 16: distance, speed, times and the trigger of an axis.
+  /// Returns a request with function 16 that writes an axis's distance, speed, ramp times and trigger.
   Bytes whole_move(int station) {
     const auto byte = [](std::int64_t n) { return static_cast<std::uint8_t>(n); };
     const std::int64_t first = between(0, 1) == 0 ? 0x1000 : 0x1006;

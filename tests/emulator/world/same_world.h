@@ -15,7 +15,7 @@ inline testing::AssertionResult same_state(const PlantAxis& a, const PlantAxis& 
   return testing::AssertionFailure() << first_difference(a.save(), b.save(), "machine");
 }
 
-/// Ignores what hosts have left on its lines, and how ticks were run.
+/// Ignores bytes that hosts have left on the lines, and how ticks were run.
 inline testing::AssertionResult same_state(const World& a, const World& b) {
   if (hash(a) == hash(b)) return testing::AssertionSuccess();
   return testing::AssertionFailure() << difference(a, save(a), save(b));

@@ -1,5 +1,5 @@
-// The ways to advance a world to a time, and comparisons of two worlds afterwards, for tests that they make
-// no difference.
+// Ways to advance a world to a time, and comparisons of worlds afterwards, for tests that all ways have the
+// same result.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -80,8 +80,9 @@ inline testing::AssertionResult same(World& one, World& other) {
   return testing::AssertionSuccess();
 }
 
-/// Applies the same events to both, one after another, and compares them before each event and long after the
-/// last. The `plain` world is advanced in one step. `look` is called after each event. Fails fatally.
+/// Applies the same events to both worlds, one after another, and compares the worlds before each event and
+/// long after the last. The `plain` world is advanced in one step. `look` is called after each event. Fails
+/// fatally.
 template <typename Event>
 void play_both(World& plain, World& twin, const std::vector<Event>& events, const Stepping& stepping,
                const std::string& name, const std::function<void()>& look) {

@@ -1,5 +1,5 @@
-// Executes macros in a different way than the product: as a tree of blocks, walked by nested calls, where
-// time passes when a line waits.
+// Executes macros in a different way from the product: as a tree of blocks that nested calls walk through.
+// Time passes when a line waits.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace understudy::interpreter::rs_m8194h::naive {
 
-/// The world of the random macros at a time: everything follows an arithmetic rule.
+/// The world in which random macros run: all its values follow arithmetic rules over time.
 inline bool axes_stand(std::uint32_t axes, std::int64_t now) { return (now + axes) % 4 != 0; }
 inline bool input_is_on(std::uint32_t group, std::uint32_t channel, std::int64_t now) {
   return (now / 3 + group + 2 * channel) % 5 < 2;
@@ -41,7 +41,7 @@ inline std::string plain(const Command& command) {
 struct Node {
   std::size_t line = 0;
   Command command = {};
-  std::vector<Node> body = {};   // of IF and FOR
+  std::vector<Node> body = {};   // the lines inside IF or FOR
   std::vector<Node> other = {};  // after ELSE
   bool has_else = false;
   std::size_t else_line = 0;
@@ -91,7 +91,7 @@ class Evaluator {
 
   std::array<std::int32_t, kVariableCount> variables{};
   std::array<std::uint8_t, kByteVariableCount> byte_variables{};
-  std::vector<std::pair<std::int64_t, int>> isrs;  // when, and which
+  std::vector<std::pair<std::int64_t, int>> isrs;  // the times and numbers of the ISRs
   std::vector<std::string> log;
   LineTally counts;
 

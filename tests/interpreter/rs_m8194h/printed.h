@@ -21,7 +21,7 @@ inline std::uint16_t code_of(const Fact& fact) {
   return static_cast<std::uint16_t>(std::stoul(fact.at("code"), nullptr, 16));
 }
 
-/// One parameter, as the manual allows it.
+/// The values that the manual allows for one parameter.
 struct Allowed {
   std::string name;
   int registers = 1;
@@ -34,7 +34,7 @@ struct Allowed {
   bool has_range() const { return rule == "number" && list.empty(); }
 };
 
-/// By the low byte of the codes.
+/// Returns the parameters of each command, by the low byte of its code.
 inline std::map<int, std::vector<Allowed>> allowed() {
   std::map<int, std::vector<Allowed>> all;
   for (const Fact& fact : facts("parameters")) {
@@ -78,7 +78,7 @@ inline std::vector<std::uint16_t> window_registers(const Fact& frame) {
   return registers;
 }
 
-/// All of them.
+/// Returns the registers of all frames that write to the window.
 inline std::vector<std::vector<std::uint16_t>> window_frames() {
   std::vector<std::vector<std::uint16_t>> frames;
   for (const Fact& frame : facts("frames")) {
@@ -87,7 +87,7 @@ inline std::vector<std::vector<std::uint16_t>> window_frames() {
   return frames;
 }
 
-/// Registers with a valid value for each parameter. Axes of one command differ.
+/// Returns registers with a valid value for each parameter. The axes of one command differ.
 inline std::vector<std::uint16_t> good_registers(std::uint16_t code, const std::vector<Allowed>& parameters) {
   std::vector<std::uint16_t> registers = {code};
   std::int64_t axis = 1;
@@ -107,7 +107,7 @@ inline std::vector<std::uint16_t> good_registers(std::uint16_t code, const std::
   return registers;
 }
 
-/// Returns the position of a parameter in them.
+/// Returns the position of a parameter in these registers.
 inline std::size_t place_of(const std::vector<Allowed>& parameters, std::size_t number) {
   std::size_t at = 1;
   for (std::size_t i = 0; i < number; ++i) at += static_cast<std::size_t>(parameters[i].registers);

@@ -55,7 +55,7 @@ class ScriptedMachine : public Machine {
 
   void note(const std::string& what) { log.push_back(std::to_string(now_ms) + " " + what); }
 
-  /// Made from a text in the form of listings.
+  /// Stores macros that are given as a listing.
   void store(const std::string& text) {
     ParsedListing parsed = parse_listing(text);
     for (const TextError& error : parsed.errors) ADD_FAILURE() << to_string(error) << "\n" << text;
@@ -67,8 +67,8 @@ class ScriptedMachine : public Machine {
   std::array<std::uint8_t, kByteVariableCount> byte_variables{};
   std::map<std::string, std::int32_t> readings;
   std::uint32_t moving = 0;                        // axes
-  std::vector<std::uint32_t> inputs;               // 16 * group + channel of those that are on
-  std::vector<std::pair<std::int64_t, int>> isrs;  // when, and which
+  std::vector<std::uint32_t> inputs;               // 16 * group + channel of each input that is on
+  std::vector<std::pair<std::int64_t, int>> isrs;  // the times and numbers of the ISRs
   std::int64_t now_ms = 0;
   std::vector<std::string> log;
 };

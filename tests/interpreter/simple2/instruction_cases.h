@@ -23,7 +23,7 @@ struct InstructionCase {
   std::uint8_t data2;
   std::function<void(ScriptedMachine&)> before;
   std::string calls;  // the calls to the machine
-  int line_after;     // the present line one slot later
+  int line_after;     // the current line one slot later
 };
 
 inline void as_it_is(ScriptedMachine&) {}

@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::simple2 {
 
-/// The lines of a program, from line 0.
+/// Returns a program with these lines, from line 0 on.
 inline Program program_of(const std::vector<Line>& lines) {
   Lines all{};
   for (std::size_t i = 0; i < lines.size(); ++i) all[i] = lines[i];
@@ -20,7 +20,7 @@ inline Program program_of(const std::vector<Line>& lines) {
 
 class ScriptedMachine final : public Machine {
  public:
-  // What the program sees; tests set it.
+  // The program's input, which tests set.
   std::uint16_t inputs = 0;  // bit n: DIN n
   std::uint16_t status = 0;
   std::array<std::int32_t, 256> parameters{};
@@ -29,7 +29,7 @@ class ScriptedMachine final : public Machine {
   bool cut_short_a = false;
   bool cut_short_b = false;
 
-  // What the program did.
+  // The program's output.
   std::uint8_t outputs = 0;  // bit n: DOUT n
   std::vector<std::string> calls;
 
@@ -39,7 +39,7 @@ class ScriptedMachine final : public Machine {
            calls == other.calls;
   }
 
-  /// Returns the calls since the last time: "A by 500; B by -3".
+  /// Returns the calls since the last take_calls(): "A by 500; B by -3".
   std::string take_calls() {
     std::string text;
     for (const std::string& call : calls) text += (text.empty() ? "" : "; ") + call;

@@ -1,5 +1,5 @@
-// For every form that the manual prints: a line of this form, and refused lines, each after the error's
-// number (1 syntax, 2 range), separated by bars. Derived by hand from the manual's list and its ranges.
+// For every form that the manual prints: a line of this form, and refused lines, separated by bars, each
+// after the error's number (1 syntax, 2 range). Derived by hand from the manual's list and its ranges.
 #pragma once
 
 #include <array>

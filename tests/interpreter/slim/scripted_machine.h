@@ -57,7 +57,7 @@ class ScriptedMachine : public Machine {
   double clock = 0;
   std::set<std::string> waiting;  // commands that the machine has not executed yet
   std::map<std::string, Error> refusals;
-  std::map<std::string, Outcome::Program> endings;  // what commands mean for the program
+  std::map<std::string, Outcome::Program> endings;  // the effect of commands on the program
   std::int64_t now_ms = 0;
   std::vector<std::string> log;  // "time command"
 };
@@ -78,11 +78,11 @@ struct ProgramRun {
     return start(execution, program, go.line.command->operands.data(), options);
   }
 
-  /// Runs all ticks up to and including `ms`. Skips those that next_active_ms() allows to skip, and checks
-  /// that they would not have changed anything.
+  /// Runs all ticks up to and including `ms`. Skips the ticks that next_active_ms() allows it to skip, and
+  /// checks that they would not have changed anything.
   void until(std::int64_t ms) {
     while (machine.now_ms < ms) {
-      // Only the machine knows when it would end the program's wait.
+      // Only the machine determines when the program's wait ends.
       const bool is_released = execution.hold == Hold::machine && machine.waiting.empty();
       const bool is_quiet = !is_released && next_active_ms(execution, machine.now_ms, program, options,
                                                            machine) > machine.now_ms + 1;

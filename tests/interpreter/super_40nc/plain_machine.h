@@ -1,4 +1,4 @@
-// The simplest machine that programs can run on: memory, in which nothing moves. For benchmarks and fuzz
+// The simplest machine on which programs can run: plain memory, without motion. For benchmarks and fuzz
 // targets.
 #pragma once
 

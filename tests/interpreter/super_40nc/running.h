@@ -37,7 +37,7 @@ class Running {
     StepPrograms control = programs();
     return super_40nc::scan(plc, ladder, machine, control, options);
   }
-  /// Of the step programs.
+  /// Runs ticks of the step programs and of motion.
   void tick(int count = 1) {
     for (int i = 0; i < count; ++i) {
       programs().run_slices();

@@ -1,5 +1,5 @@
 // A machine for programs under test: tests set contacts and registers, motions take as many ticks as the test
-// says, and the requests of programs are recorded.
+// sets, and the requests of programs are recorded.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -141,7 +141,7 @@ class ScriptedMachine : public Machine {
   }
 
   // --- for tests -----------------------------------------------------------------------------------
-  /// A tick of motion.
+  /// Runs one tick of motion.
   void move() {
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (left.at(i) > 0 && !holds.contains(static_cast<Area>(i))) --left.at(i);

@@ -28,7 +28,7 @@ struct RegisterFact {
   int since = 0;
 
   Access access() const { return !writable ? Access::read : readable ? Access::read_write : Access::write; }
-  /// The range that the register's words can hold.
+  /// Returns the limits of the values that the register's words can hold.
   Value lowest() const { return !is_signed ? 0 : is_32_bit ? INT32_MIN : INT16_MIN; }
   Value highest() const {
     if (is_32_bit) return is_signed ? Value{INT32_MAX} : Value{UINT32_MAX};
@@ -63,7 +63,7 @@ inline std::vector<RegisterFact> simple2_r3_registers() {
   return registers;
 }
 
-/// Returns "Aaxis_Pulse_L" and "PROG_MEM3_RegL" without the suffix of a half.
+/// Returns a name such as "Aaxis_Pulse_L" or "PROG_MEM3_RegL" without the suffix of a half.
 inline std::string without_half(const std::string& name) {
   for (const std::string tail : {"_RegL", "_RegH", "_L", "_H"}) {
     if (name.ends_with(tail)) return name.substr(0, name.size() - tail.size());

@@ -56,7 +56,7 @@ class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDev
     return checked == not_admitted ? DeviceAnswer{Refusal::failure, 7} : DeviceAnswer{Refusal::none};
   }
 
-  int whole_at = -1;  // two words from there on form one message
+  int whole_at = -1;  // two words from this address on form one message
   std::optional<Checked> not_admitted;
   bool is_low_word_first = true;
   std::vector<std::string> events;  // effects in the order in which they occurred

@@ -49,7 +49,7 @@ inline const std::string kAxisKeys =
     "follows: { VALUE: { of: SETPOINT, time_constant: 2s, every: 10ms } }\n"
     "shows: { HIGH: VALUE > 500 }\n";
 
-/// `more`: further keys of the axis, after a comma.
+/// `more` has further keys of the axis, after a comma.
 inline std::string axis_model(const std::string& more = "") {
   std::string keys = kAxisKeys;
   return model_file::model_with(kAxisList, keys.replace(keys.find('@'), 1, more));
@@ -61,7 +61,7 @@ struct OneDescribed {
         world(bench, {}, {}) {}
 
   Device& device() { return world.device(0); }
-  /// Writes a value like an external request.
+  /// Writes a value as a host's request would.
   Refusal write(std::string_view name, Value value) {
     RegisterBank& bank = *device().register_bank();
     const auto place = bank.find(name);
@@ -77,7 +77,7 @@ struct OneDescribed {
     return read_value(bank, *place);
   }
   void advance(Tick ticks) { world.advance_to(world.now() + ticks * kTickLength); }
-  /// Returns the ticks until it is no longer busy; -1 if that takes too long.
+  /// Returns the ticks until the axis is no longer busy, or -1 if that takes too long.
   Tick ticks_until_still(Tick max = 100'000) {
     for (Tick ticks = 0; ticks <= max; ++ticks) {
       if (read("STATUS.BUSY") == 0) return ticks;

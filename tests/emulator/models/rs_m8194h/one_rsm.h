@@ -29,7 +29,7 @@ struct GivenRsm {
   std::map<std::string, std::string> choices{};
 };
 
-/// The PDU of a command: FC16 to 8000.
+/// Returns the PDU of a command: FC16 to 8000.
 inline world::Bytes pdu_of(std::string_view command, bool low_word_first = false) {
   const lang::ParsedCommand parsed = lang::parse_command(command);
   EXPECT_TRUE(parsed.command) << command << ": " << (parsed.error ? parsed.error->message : "");
@@ -56,7 +56,7 @@ class OneRsm {
         world::Bytes(reply.pdu.begin(), reply.pdu.begin() + static_cast<std::ptrdiff_t>(reply.size)));
   }
   std::string ask(std::string_view pdu) { return ask(world::hex(pdu)); }
-  /// Returns the exception that a command gets; 0: none.
+  /// Returns the exception code that a command gets, or 0.
   int exception(std::string_view command) {
     const std::string reply = ask(pdu_of(command));
     return reply.starts_with("90") ? std::stoi(reply.substr(3), nullptr, 16) : 0;
@@ -81,7 +81,7 @@ class OneRsm {
               Refusal::none);
     return word;
   }
-  /// LP of the four axes.
+  /// Returns LP of the four axes.
   std::vector<Value> positions() const { return {get("LP_X"), get("LP_Y"), get("LP_Z"), get("LP_U")}; }
 
   Tick now() const { return tick_at(world_.now()); }
@@ -89,7 +89,7 @@ class OneRsm {
   bool rests() const {
     return get("DRIVING_AXIS") == 0 && get("FREE_BUFFER_SIZE") == 30 && get("I8094H_STATE") == 0;
   }
-  /// Runs until nothing moves or waits. Returns the ticks it took.
+  /// Runs until nothing moves or waits. Returns the number of ticks.
   Tick run_to_rest(Tick max = 200'000) {
     const Tick begin = now();
     do {

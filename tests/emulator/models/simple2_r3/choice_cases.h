@@ -1,4 +1,4 @@
-// Cases for tests of choices: what each option of a row must do.
+// Cases for tests of choices: the required effect of each option of a row.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 //   ═════╗                ╔════╗                ╔═════       GoHome_DIR: for GoHome_DIR 0 it is the picture's
 //      -200       0      100  120              200           mirror image that is built.
 //
-// A course is worked out by hand as legs of motion, each a closed form of time: pulse and millisecond.
+// A course is worked out by hand as legs of motion, each with a closed form over time, in pulses and
+// milliseconds.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +16,13 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The settings of these tests: one pulse a millisecond, reached in 10 ms.
+/// The settings of these tests: one pulse per millisecond, reached in 10 ms.
 struct HomingPace {
   double pulses_a_ms = 1;
   double ramp_ms = 10;
 };
 
-/// One leg, from `at` ms on, which is `gone` pulses after its `from`.
+/// One leg, which begins at `at` ms, `gone` pulses after its `from`.
 struct HomingLeg {
   enum class Does : std::uint8_t { run, slow, back, stand };
 
@@ -29,9 +30,9 @@ struct HomingLeg {
   Does does = Does::run;
   int direction = +1;
   std::int64_t from = 0;      // where the axis was last at rest
-  double gone_pulses = 0;     // of slow: from there to where slowing down began
-  double pulses_a_ms = 0;     // of slow: the speed there
-  std::int64_t distance = 0;  // of back
+  double gone_pulses = 0;     // for Does::slow: the distance from there to where slowing down began
+  double pulses_a_ms = 0;     // for Does::slow: the speed there
+  std::int64_t distance = 0;  // for Does::back
 
   double gone_after(double ms, const HomingPace& pace) const {
     const double ramp = pace.ramp_ms;
@@ -40,7 +41,7 @@ struct HomingLeg {
         if (ms < ramp) return pace.pulses_a_ms * ms * ms / (2 * ramp);
         return pace.pulses_a_ms * (ms - ramp / 2);
       case Does::slow: {
-        const double u = std::min(ms, ramp);  // a ramp takes its time from whatever speed
+        const double u = std::min(ms, ramp);  // a ramp takes the same time from any speed
         return gone_pulses + pulses_a_ms * (u - u * u / (2 * ramp));
       }
       case Does::back: {  // appendix A, too short for the speed: a triangle of both ramps
@@ -63,7 +64,7 @@ struct HomingLeg {
 inline HomingLeg run_leg(Tick at, int direction, std::int64_t from) {
   return {.at = at, .direction = direction, .from = from};
 }
-/// The same run slows down `gone` pulses after `from`.
+/// Makes the leg in which this run slows down, from `gone` pulses after `from` on.
 inline HomingLeg slow_leg(Tick at, int direction, std::int64_t from, double gone, double pulses_a_ms = 1) {
   return {.at = at,
           .does = HomingLeg::Does::slow,
@@ -72,18 +73,18 @@ inline HomingLeg slow_leg(Tick at, int direction, std::int64_t from, double gone
           .gone_pulses = gone,
           .pulses_a_ms = pulses_a_ms};
 }
-/// Runs against the direction, back to the edge.
+/// Makes the leg against the direction, back to the edge.
 inline HomingLeg back_leg(Tick at, std::int64_t from, std::int64_t distance) {
   return {.at = at, .does = HomingLeg::Does::back, .direction = -1, .from = from, .distance = distance};
 }
-/// Stopped at once.
+/// Makes a leg at standstill.
 inline HomingLeg stand_leg(Tick at, std::int64_t place) {
   return {.at = at, .does = HomingLeg::Does::stand, .from = place};
 }
 
 struct HomingCourse {
   std::vector<HomingLeg> legs;
-  Tick end = 0;  // the first millisecond in which it is over
+  Tick end = 0;  // the first millisecond after the course
   bool found = true;
   HomingPace pace{};
 
@@ -104,14 +105,14 @@ struct HomingAxis {
   std::optional<world::PulseSpan> home = world::PulseSpan{100, 120};
   std::optional<std::int64_t> behind = -200;
   std::optional<std::int64_t> ahead = 200;
-  Value speed_rpm = 20;  // at 3000 pulses per revolution one pulse a millisecond
+  Value speed_rpm = 20;  // one pulse per millisecond, at 3000 pulses per revolution
   Value time_10ms = 1;
   Value resolution = 3000;
   bool home_assigned = true;
   bool limits_assigned = true;
 
   int number() const { return axis == 'A' ? 0 : 1; }
-  int sign() const { return reversed ? -direction : direction; }  // of the plant's positions
+  int sign() const { return reversed ? -direction : direction; }  // the sign of the plant's positions
   int input_of(int din_of_a) const { return din_of_a + 5 * number(); }
   int ahead_input() const { return input_of(direction > 0 ? 2 : 3); }
   int behind_input() const { return input_of(direction > 0 ? 3 : 2); }
@@ -246,7 +247,7 @@ inline void expect_courses(HomingSimple2& machine, const std::vector<HomingCours
   }
 }
 
-/// All variants of the same machine: both axes, both directions, either sense of the motor.
+/// Returns all variants of the machine: both axes, both directions, both senses of the motor.
 inline std::vector<HomingAxis> every_build_of(HomingAxis machine) {
   std::vector<HomingAxis> builds;
   for (const char axis : {'A', 'B'}) {

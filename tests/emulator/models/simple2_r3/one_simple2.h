@@ -66,7 +66,7 @@ class OneSimple2 {
     set(name(axis, "AccTime"), acc);
     set(name(axis, "DecTime"), dec);
   }
-  /// One pulse a millisecond, ramps of 10 ms: s(t) = t^2/20 up to 10 ms, then t - 5.
+  /// Sets one pulse per millisecond and ramps of 10 ms: s(t) = t^2/20 up to 10 ms, then t - 5.
   void set_one_pulse_a_tick(char axis, Value pulses) {
     set(name(axis, "Resoultion"), 3000);
     set_move(axis, pulses, 20, 1, 1);
@@ -109,7 +109,7 @@ class OneSimple2 {
   world::World world_;
 };
 
-/// Returns one with both servos on.
+/// A device with both servos on.
 struct ReadySimple2 : OneSimple2 {
   explicit ReadySimple2(const Given& given = {}) : OneSimple2(given) {
     set("ALL_SVON", 1);

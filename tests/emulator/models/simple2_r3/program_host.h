@@ -1,8 +1,9 @@
 // A host that writes a program into a Simple2-R3, starts it and watches it, all by Modbus requests.
 //
-// A program started at tick 10 has its first slot at 12 and a line every 2 ms. A move given in slot k is at
-// its beginning in tick k; one of P pulses at one a millisecond with ramps of 10 ms ends in tick k + P + 10,
-// after that tick's slot. The slot that finds it ended still belongs to the line that waits.
+// A program that is started at tick 10 has its first slot at 12, and then one line every 2 ms. A move that
+// begins in slot k is at its start position in tick k. A move of P pulses at one pulse per millisecond with
+// ramps of 10 ms ends in tick k + P + 10, after that tick's slot. The slot that finds it ended still belongs
+// to the line that waits.
 #pragma once
 
 #include <array>
@@ -12,10 +13,10 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// Every firmware that differs according to the manual, and those in between.
+/// Every firmware that differs according to the manual, and the versions between them.
 inline constexpr Firmware kVersions[] = {139, 140, 141, 142, 150, 151, 152};
 
-/// For a course: never.
+/// In a course: never.
 inline constexpr Tick kNone = -1;
 
 /// The ticks in which a program's outputs come on, and in which it ends.
@@ -53,7 +54,7 @@ struct ProgramHost {
     return words.size() < 2 ? 0 : static_cast<std::int32_t>(words[0] | std::uint32_t{words[1]} << 16);
   }
 
-  /// Sets both axes to one pulse a millisecond: 3000 pulses per revolution, 20 RPM, ramps of 10 ms.
+  /// Sets both axes to one pulse per millisecond: 3000 pulses per revolution, 20 RPM, ramps of 10 ms.
   void set_pace() {
     write_32(0xF002, 3000);
     write_32(0xF004, 3000);

@@ -14,7 +14,7 @@ inline constexpr int kAlarmInput = 0;
 inline constexpr int kUpperInput = 2;
 inline constexpr int kLowerInput = 3;
 inline constexpr int kHomeInput = 4;
-inline constexpr Value kVelocity_mrpm = 20'000;  // a pulse a millisecond
+inline constexpr Value kVelocity_mrpm = 20'000;  // one pulse per millisecond
 inline constexpr Value kOtherVelocity_mrpm = 10'000;
 inline constexpr Value kDuty = 50;
 inline constexpr Value kOtherDuty = 30;
@@ -26,7 +26,7 @@ inline std::int64_t sum(const Pulses& pulses) {
   return std::accumulate(pulses.begin(), pulses.end(), std::int64_t{0});
 }
 
-/// Axis A, always at one pulse a millisecond, with an encoder that the test turns.
+/// Axis A, always at one pulse per millisecond, with an encoder that the test turns.
 class Rig : public OneSimple2 {
  public:
   explicit Rig(const Given& given) : OneSimple2(given) {
@@ -43,7 +43,7 @@ class Rig : public OneSimple2 {
 
   const AxisState& axis() { return static_cast<const Simple2R3&>(device()).state().axes[0]; }
 
-  /// The pulses of each tick.
+  /// Returns the pulses of each tick.
   Pulses watch(Tick ticks) {
     Pulses pulses;
     for (Tick i = 0; i < ticks; ++i) {
@@ -132,7 +132,7 @@ inline void bring_into(Rig& rig, Activity activity, Phase phase) {
 
 // --- events ------------------------------------------------------------------------------------------
 
-/// The input that an event changes.
+/// Returns the input that an event changes.
 inline int input_of(Phase phase, Event event) {
   if (event == Event::alarm || event == Event::alarm_gone) return kAlarmInput;
   if (event == Event::limit_gone) return kUpperInput;
@@ -181,7 +181,7 @@ int for_each_cell(Activity activity, Visit visit) {
                    ", event " + std::to_string(e));
       const Transition& row = *reaction_row(activity, phase, event);
       Choices choices;
-      // Gives these modes a servo that is off.
+      // With this option, the servo can be off in these modes.
       if (phase == Phase::servo_off && activity != Activity::position) choices["mode_after_stop"] = "stays";
       visit(phase, event, choices, row.outcome);
       for (const OtherOutcome& other : {row.other, row.another}) {

@@ -1,10 +1,10 @@
 // A whole dialogue with a SLIM as a script, compared line by line:
 //   > ?PE          is typed
-//   < 100          is said next
+//   < 100          is the next reply
 //   @ 250          this many milliseconds pass
 //   IN3 = 1        a terminal gets a level
 //   off, on        the power
-// At the end nothing more may have been said. Lines that begin with # are remarks.
+// At the end, no further reply may be left. Lines that begin with # are remarks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -124,7 +124,7 @@ class DialogueScript {
 
 using Choices = std::map<std::string, std::string>;
 
-/// The same script as it runs with one option and, if that is not tested elsewhere, with the default.
+/// Plays a script with the given options.
 inline void play(const Choices& choices, const std::string& script) {
   SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->first + ": " + choices.begin()->second);
   DialogueScript(1, choices).play(script);

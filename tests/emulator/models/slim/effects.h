@@ -19,7 +19,7 @@
 namespace understudy::emulator::models::slim {
 
 struct Effect {
-  std::string_view syntax;  // of the row in kCommands
+  std::string_view syntax;  // that of the row in kCommands
   std::string_view steps;
   int modules = 4;
 };
@@ -36,7 +36,7 @@ inline std::vector<std::string> steps_of(std::string_view text) {
   }
 }
 
-/// The steps that a name stands for; `line` is the text after it.
+/// Returns the steps that a name means; `line` is the text after the name.
 inline std::string meaning_of(const std::string& name, const std::string& line) {
   const std::string map = "TX=0; TY=1; TZ=2; TW=3; ";
   const std::string off = "HOFF; T1HOFF; T2HOFF; T3HOFF; @2; ";
@@ -47,14 +47,14 @@ inline std::string meaning_of(const std::string& name, const std::string& line) 
     for (int i = 0; i < 31; ++i) steps += "CHG P4; ";
     return steps;
   }
-  // Conditions that refuse a motion: a motor without control, a pause.
+  // Conditions in which a motion is refused: a motor without control, a pause.
   const std::string halted = line + " -> ERR 9; {new}; TAPZ; " + line + " -> ERR 6; ";
   if (name == "moves") return "{new}; " + off + halted;
-  if (name == "moves_axis") {  // by its letter: also if no module has it
+  if (name == "moves_axis") {  // by its letter, even if no module has it
     return "{new}; " + line + " -> ERR 4; {new}; " + map + off + line + " -> ERR 9; {new}; " + map +
            "TAPZ; " + line + " -> ERR 6; ";
   }
-  if (name == "moves_path") {  // also while a speed or an acceleration of the path differs
+  if (name == "moves_path") {  // even while a speed or an acceleration of the path differs
     return meaning_of("moves_axis", line) + "{new}; " + map + "T1PR3=50; " + line + " -> ERR 7; {new}; " +
            map + "T1PR2=50; " + line + " -> ERR 7; ";
   }
@@ -64,7 +64,7 @@ inline std::string meaning_of(const std::string& name, const std::string& line) 
   return "";
 }
 
-/// Without names, except "{new}": a device with factory settings.
+/// Replaces the names with their steps, except "{new}", which means a device with factory settings.
 inline std::vector<std::string> expanded(std::string_view text) {
   std::vector<std::string> steps;
   for (const std::string& step : steps_of(text)) {
@@ -82,7 +82,7 @@ inline std::vector<std::string> expanded(std::string_view text) {
   return steps;
 }
 
-/// The line that a step types; nothing if it types none.
+/// Returns the line that a step types, or an empty text if it types none.
 inline std::string typed_by(const std::string& step) {
   const bool types = step[0] != '@' && step[0] != '<' && step[0] != '{' && step != "off" && step != "on" &&
                      step.find(" = ") == std::string::npos && step.find(" is ") == std::string::npos;
@@ -90,7 +90,7 @@ inline std::string typed_by(const std::string& step) {
   return step.substr(0, step.find(" -> "));
 }
 
-/// Like dialogue_script.h.
+/// Converts a step to the form of dialogue_script.h.
 inline std::string script_of(const std::string& step) {
   if (step[0] == '@') return "@ " + step.substr(1);
   if (step[0] == '<' || step == "off" || step == "on" || step.find(" = ") != std::string::npos) return step;

@@ -1,9 +1,10 @@
-// The manual's first list: the effect of each form, and what refuses it. Calculated by hand:
+// The manual's first list: the effect of each form, and the conditions that refuse it. Calculated by hand:
 //   A move at VM 1000 RPM = 166667 pulses/s with VA 10000 RPM/s = 1666667 pulses/s2, from the first tick
 //   after its command on. 10000 pulses take 2 sqrt(10000 / 1666667) = 0.1549 s, 100000 take 0.6 + 0.1 = 0.7
-//   s, and from 0.3 s of the latter on it slows down within 0.1 s and 8333 pulses: 41667 + 8333 = 50000. A
-//   jog at VJ 100 RPM = 16667 pulses/s that is ended after 0.1 s has run for 0.099 s, and 1650 pulses: its
-//   ramps are alike.
+//   s, and if the latter is stopped after 0.3 s, it slows down within 0.1 s and 8333 pulses: 41667 + 8333 =
+//   50000. A jog at VJ 100 RPM = 16667 pulses/s that is ended after 0.1 s has run for 0.099 s and 1650
+//   pulses, because its two ramps are equal.
+//
 //   ?ST: 1 servo on, 2 moving, 4 program, 8 pause, 16 homed, 32 error, 128 jog, 256 buffer not empty.
 #pragma once
 
@@ -40,7 +41,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"TpJGR",
      "T2JGR; @100; T2JG0; @50; ?T2PE -> -1650; {moves T2JGR}; {new}; T5JGR -> ERR 5; TX=2; "
      "T2JGR -> ERR 4"},
-    // Also for a module that is assigned to an axis.
+    // This also works for a module that is assigned to an axis.
     {"TpJG0", "T1JGF; @100; TX=1; T1JG0; @50; ?T1PE -> 1650; ?T1ST -> 1; T5JG0 -> ERR 5"},
     {"FT n",
      "FT 500; @5; ?MD -> 3; JG0; @5; ?MD -> 0; FT 0 -> ERR 2; FT 20001 -> ERR 2; {moves FT 20000}; "
@@ -57,7 +58,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     // --- motor control
     {"HON", "HOFF; @2; ?ST -> 0; HON; @2; ?ST -> 1; MA 5; @20; ?PE -> 5; {queued HON}"},
     {"TpHON", "T1HOFF; @2; ?T1ST -> 0; ?ST -> 1; T1HON; @2; ?T1ST -> 1; T5HON -> ERR 5; TX=1; T1HON"},
-    // In order: the earlier move is completed, the later one is refused.
+    // Commands are executed in order: the earlier move is completed, the later one is refused.
     {"HOFF", "MR 10000; HOFF; MR 5 -> ERR 9; @200; ?PE -> 10000; ?ST -> 32; {queued HOFF}"},
     {"TpHOFF",
      "T2JGF; @20; T2IN1 = 1; T2HOFF; T2JG0; @50; ?T2ST -> 0; T2MA 5 -> ERR 9; ?ST -> 1; "
@@ -85,17 +86,17 @@ inline constexpr Effect kOneMotorEffects[] = {
      "P4 is 1; OUTP 16 -> ERR 2; {queued OUTP 1}"},
     {"ISET Pn", "{full}; ISET P1; @1; P1 is 1; ISET P5 -> ERR 2; {new}; {runs}; ISET P2; @1; P2 is 1"},
     {"ICLR Pn", "SET P1; @1; {full}; ICLR P1; @1; P1 is 0; ICLR P0 -> ERR 2"},
-    // A period of 100 ms, of which it is on for 30.
+    // A period of 100 ms, with the output on for 30 ms.
     {"PWM Pn,f,duty",
      "PWM P1,10,30; @15; P1 is 1; @30; P1 is 0; @70; P1 is 1; @30; P1 is 0; "
      "PWM P1,10,101 -> ERR 2; {queued PWM P1,10,30}"},
-    // Half way, after 77 ms.
+    // Half of the way, after 77 ms.
     {"P1SET Pn,x", "P1SET P3,5000; MA 10000; @70; P3 is 0; @15; P3 is 1; {queued P1SET P3,5}"},
     {"P2SET Pn,x",
      "P1SET P2,9000; P2SET P3,5000; MA 10000; @70; P3 is 0; @15; P3 is 1; P2 is 0; @70; P2 is 1; "
      "{queued P2SET P3,5}"},
     {"P1CLR Pn,x", "SET P3; P1CLR P3,5000; MA 10000; @70; P3 is 1; @15; P3 is 0; {queued P1CLR P3,5}"},
-    // Only once: on the way back it does not switch.
+    // It switches only once, not on the way back.
     {"P2CLR Pn,x",
      "OUTP 15; P2CLR P4,5000; MA 10000; @70; P4 is 1; @15; P4 is 0; @90; SET P4; MA 0; @200; "
      "P4 is 1; {queued P2CLR P3,5}"},

@@ -123,9 +123,9 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     {"WDN",
      "TW=0; PG; T1MR 100000; WMR 10000; WDN; OUT \"W\"; .; G; @152; @10; < W; {stored WDN}; {new}; PG; "
      "WDN; .; G; @2; ?ERR -> 4"},
-    // If 50 applies from the beginning: 2 + 0.05 s. If it applies from 45 at 0.5 s on: the path decelerates
-    // to 50
-    // within 0.05 s and 3.75, to 0 within another 0.05 s and 1.25, and the 50 in between take 1.1 s more.
+    // If 50 applies from the beginning: 2 + 0.05 s. If it applies from position 45 at 0.5 s on, the path
+    // decelerates to 50 within 0.05 s and 3.75, to 0 within another 0.05 s and 1.25, and the 50 in between
+    // take 1.1 s more.
     {"TVM=f32",
      "{map}; TVM=50; ?TVM -> 50; ?T3PR3 -> 50; 2MA 100,0; @2044; ?ST -> 259; @12; ?PE -> 100; "
      "TVM=0 -> ERR 2; {new}; {map}; 2MA 100,0; @501; TVM=50; @1093; ?ST -> 259; @12; ?PE -> 100; "
@@ -137,7 +137,7 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     {"CM 1",
      "{map}; CM 1; 2MR 50,0; 2MR 0,50; @300; ?ST -> 771; @793; ?ST -> 771; @12; ?PE -> 50; ?T1PE -> 50; "
      "?ST -> 1; {new}; {runs}; CM 1 -> ERR 3"},
-    // A right angle is more than 89 degrees; 90 are not.
+    // A right angle is more than 89 degrees, but not more than 90.
     {"CM 2",
      "{map}; CM 2; PR7=89; 2MR 50,0; 2MR 0,50; @1194; ?ST -> 259; @12; ?ST -> 1; PR7=90; 2MR 50,0; "
      "2MR 0,50; @1107; ?ST -> 1; ?PE -> 100; {new}; {runs}; CM 2 -> ERR 3"},

@@ -1,5 +1,5 @@
-// A chain of three modules at round speeds, with an option that the bench has chosen, and dialogues with it.
-// Each dialogue also runs without skipped ticks, and on a device that is saved and restored at each line.
+// Dialogues with a chain of three modules at round speeds, with an option that the bench selects. Each
+// dialogue also runs without skipped ticks, and on a device that is saved and restored at each line.
 #pragma once
 
 #include <sstream>
@@ -25,7 +25,7 @@ class MotionScript : public DialogueScript {
 
   bool output(int number) { return device().terminals()->output(terminal(0, kFirstOutput + number - 1)); }
 
-  /// Returns how long it moves from now on.
+  /// Returns how long the motion continues from now on.
   Tick finish_ms() {
     const auto busy = [&] {
       const Chain& chain = device().state().chain;

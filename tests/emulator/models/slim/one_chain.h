@@ -1,4 +1,4 @@
-// A chain of eight modules on a bench, and the closed forms that it is compared with.
+// A chain of eight modules on a bench, and the closed forms with which it is compared.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline Tick ticks_of(double seconds) { return static_cast<Tick>(std::ceil(second
 struct OneChain {
   Chain chain;
   Tick tick = 0;
-  std::array<std::int64_t, kModules> sent{};  // as they were sent, in all
+  std::array<std::int64_t, kModules> sent{};  // all pulses so far, as they were sent
 
   explicit OneChain(const ChainOptions& options = {}) : chain(options) {
     for (int module = 0; module < kModules; ++module) chain.settings().set_linked(module, true);
@@ -77,7 +77,7 @@ struct OneChain {
     }
     return true;
   }
-  /// Returns the tick in which everything was done.
+  /// Returns the tick in which all motion was finished.
   Tick finish(Tick max = 200'000) {
     for (const Tick last = tick + max; !all_done() && tick < last;) step();
     return tick;

@@ -42,7 +42,7 @@ inline constexpr double kSlope = 5000 * 4000 / 60.0 / 0.5;
 inline constexpr double kTolerance_ms = 3;
 
 inline double pps_of(double rpm) { return rpm * 4000 / 60; }
-/// The time of a trapezoid, or of a triangle if the distance is too short.
+/// Returns the time of a trapezoid, or of a triangle if the distance is too short.
 inline double move_s(double distance, double speed) {
   return distance >= speed * speed / kSlope ? distance / speed + speed / kSlope
                                             : 2 * std::sqrt(distance / kSlope);
@@ -54,7 +54,7 @@ inline Places positions(const OneSuper40nc& one) {
   return {one.get("D8117"), one.get("D8217"), one.get("D8317"), one.get("D8417")};
 }
 
-/// The test switches "X3" from outside and writes everything else as a host; "T0" is the contact.
+/// Switches a contact: "X3" from outside, everything else by a host's write. "T0" means the contact.
 inline void put(OneSuper40nc& one, const std::string& contact, bool on) {
   if (contact[0] == 'X') {
     one.input(contact, on ? 1 : 0);
@@ -76,7 +76,7 @@ void each_state(OneSuper40nc& one, const std::vector<std::string>& contacts, Loo
   }
 }
 
-/// Returns how long a step program stayed at one of its lines, in ticks.
+/// How long a step program stayed at one of its lines, in ticks.
 struct Lap {
   Value step = 0;
   std::vector<Places> course{};
@@ -121,7 +121,7 @@ inline std::vector<Lap> expect_legs(OneSuper40nc& one, int program, const std::v
   return found;
 }
 
-/// Returns the ticks until a contact is ON, and how many it stays ON.
+/// The ticks until a contact is ON, and how many ticks it stays ON.
 struct Pulse {
   Tick before = 0;
   Tick lasts = 0;
@@ -133,7 +133,7 @@ inline Pulse pulse_of(OneSuper40nc& one, const std::string& contact, Tick at_mos
   return pulse;
 }
 
-/// A program that ends at once.
+/// Runs a program that ends immediately.
 inline void run_through(OneSuper40nc& one, const char* contact) {
   one.set(contact, 1);
   one.run(6);

@@ -91,7 +91,7 @@ class OneSuper40nc {
     world_.receive(line, frame);
     world_.advance_to(world_.now() + std::chrono::milliseconds(200));
   }
-  /// Returns what was received since then, without its checksum.
+  /// Returns the frame received since the last send_raw(), without its checksum.
   std::string came(std::size_t line) {
     const auto output = world_.line(line).line.output();
     const world::Bytes bytes(output.begin(), output.end());

@@ -1,4 +1,4 @@
-// Checks that a play distinguishes the options of a choice: those of docs/fidelity/proofs/MODEL/.
+// Checks that a proof, a play in docs/fidelity/proofs/MODEL/, distinguishes the options of a choice.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace understudy::emulator::play {
 
 struct Proof {
-  std::string id;       // of its choice
+  std::string id;       // the choice's id
   std::string comment;  // above the play
   std::vector<Scenario> cases;
 };
@@ -22,9 +22,8 @@ std::vector<Proof> proofs_in(const std::string& text, const std::string& path);
 ///  - it asks a question and explains it;
 ///  - it has one case for each option of the row, in the row's order, and each passes;
 ///  - the outcomes of the cases differ (outcome_hash.h);
-///  - and only because of the choice. The first case runs without its expectations, with one option after
-///  another,
-///    and still has different outcomes; and the other cases do exactly the same.
+///  - they differ only because of the choice: the first case, run without its expectations and with one
+///    option after another, still has different outcomes, and the other cases do exactly the same.
 std::vector<std::string> diagnostics_of_proof(const ChoiceRow& row, const Proof& proof);
 
 }  // namespace understudy::emulator::play

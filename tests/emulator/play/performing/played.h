@@ -1,4 +1,4 @@
-// Scenarios as texts, run in tests.
+// Runs scenarios that tests give as texts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::play {
 
-/// One Simple2-R3 at 19200 baud, with the steps, one per line.
+/// Returns a scenario with one Simple2-R3 at 19200 baud and the steps, one per line.
 inline std::string scenario_text(const std::string& steps, const std::string& more = "") {
   return "understudy: 1\n"
          "name: test\n"
@@ -27,7 +27,7 @@ inline Scenario scenario_of(const std::string& steps, const std::string& more = 
   return parse_scenarios(models::all_models(), scenario_text(steps, more), "test.yaml").front();
 }
 
-/// The result of a scenario without branches.
+/// Returns the result of a scenario without branches.
 inline ScenarioResult played(const std::string& steps, const std::string& more = "",
                              const RunOptions& options = {}) {
   const Scenario scenario = scenario_of(steps, more);
@@ -44,14 +44,14 @@ inline bool has_passed(const ScenarioResult& result) {
   return result.verdict == ScenarioResult::Verdict::passed && !result.failure;
 }
 
-/// Runs it, and expects it to pass.
+/// Runs the steps, and expects them to pass.
 inline ScenarioResult passing(const std::string& steps, const std::string& more = "") {
   ScenarioResult result = played(steps, more);
   EXPECT_TRUE(has_passed(result)) << steps << why(result);
   return result;
 }
 
-/// Runs it, and expects it to fail at the last step that ran.
+/// Runs the steps, and expects them to fail at the last step that ran.
 inline Failure failing(const std::string& steps, const std::string& more = "") {
   const ScenarioResult result = played(steps, more);
   EXPECT_EQ(result.verdict, ScenarioResult::Verdict::failed) << steps;
@@ -64,14 +64,15 @@ inline Failure failing(const std::string& steps, const std::string& more = "") {
 }
 
 // The manual's example: 32000 pulses at 200 RPM (10,666.67 pulses per second), ramps of 50 ms, 3050 ms in
-// all.
+// total.
 inline const std::string kServoOn = "  - write: { feeder.Aaxis_SVON: 1 }\n";
 inline const std::string kExampleMove =
     "  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5, "
     "feeder.Aaxis_DecTime: 5, feeder.Aaxis_Move_INC: 1 }\n";
-// Both begin with an idle line. The first request is executed at 5.333 ms, and its reply ends at 9,916,666
-// ns. The second request starts 2,005,209 ns later, has 21 characters (12,031,250 ns) and is executed 750 us
-// after them, at 24,703,125 ns, so the move starts with tick 25. Its reply ends at 29,286,458 ns.
+// Both of these writes begin with an idle line. The first request is executed at 5.333 ms, and its reply ends
+// at 9,916,666 ns. The second request starts 2,005,209 ns later, has 21 characters (12,031,250 ns) and is
+// executed 750 us after its end, at 24,703,125 ns, so the move starts with tick 25. Its reply ends at
+// 29,286,458 ns.
 inline constexpr Tick kExampleBegins = 25;
 
 }  // namespace understudy::emulator::play

@@ -1,4 +1,4 @@
-// A folder with a bench of two controllers and the other files that scenarios name; reads scenarios in it.
+// A folder with a bench of two controllers and the other files that scenarios name. Reads scenarios in it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class ScenarioFolder {
   std::vector<Scenario> parse(const std::string& text) const {
     return parse_scenarios(models::all_models(), text, path("scenario.yaml"));
   }
-  /// Reads a scenario of steps only, which begin in its fourth line.
+  /// Reads a scenario that has only steps, which begin in its fourth line.
   Steps steps(const std::string& steps) const { return parse(scenario_of(steps)).front().steps; }
   static std::string scenario_of(const std::string& steps) {
     return "understudy: 1\nbench: feeder.yaml\nsteps:\n" + steps;

@@ -67,7 +67,7 @@ struct DaemonRig {
     return ask(Json{{"do", "get"}, {"names", {name}}}.dump())["values"][name].get<std::int64_t>();
   }
 
-  /// Returns whether both devices are in their initial state.
+  /// Returns true if both devices are in their initial state.
   bool is_untouched() {
     for (std::size_t i = 0; i < 2; ++i) {
       const auto fresh = make_device(*bench.devices[i].model, bench.devices[i].settings);

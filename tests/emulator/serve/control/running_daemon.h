@@ -18,14 +18,14 @@ struct Running {
   explicit Running(Speed speed = {.kind = Speed::Kind::manual})
       : rig(speed), thread([this] { rig.daemon.run(); }) {}
   ~Running() {
-    // It takes its signals from a descriptor; they are blocked in every thread.
+    // The daemon reads its signals from a descriptor; they are blocked in every thread.
     kill(getpid(), SIGTERM);
     thread.join();
     sigset_t term;
     sigemptyset(&term);
     sigaddset(&term, SIGTERM);
     const timespec now{};
-    sigtimedwait(&term, nullptr, &now);  // it may still be pending
+    sigtimedwait(&term, nullptr, &now);  // the signal may still be pending
   }
   Json ask(const std::string& message) {
     return Json::parse(ask_control(rig.folder.path + "/control", message));

@@ -1,5 +1,5 @@
-// A line that is only reachable over TCP: a world, its port and a door, driven by the test. Time passes 50
-// times as fast as real time, so its timeouts take milliseconds.
+// A line that is only reachable over TCP: a world, its port and a door, driven by the test. Simulated time
+// passes 50 times as fast as real time, so its timeouts take milliseconds.
 #pragma once
 
 #include <arpa/inet.h>
@@ -23,7 +23,7 @@
 
 namespace understudy::emulator::serve {
 
-inline constexpr WallTime kDoorPatience = std::chrono::seconds(20);  // of a failing test
+inline constexpr WallTime kDoorPatience = std::chrono::seconds(20);  // how long a failing test waits
 inline constexpr const char* kOneFeeder =
     "understudy: 1\nlines: { a: { timing: instant, stations: [ { name: feeder, model: simple2-r3 } ] } }\n";
 

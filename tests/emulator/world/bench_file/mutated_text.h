@@ -1,4 +1,4 @@
-// Damage to a file: it is cut short, a byte is changed, pieces are moved, repeated or lost.
+// Damages a text: cuts it short, changes a byte, or moves, repeats or removes pieces.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ inline void try_every_beginning(const std::string& whole, const TryText& try_tex
   }
 }
 
-/// Replaces each byte in turn, `times` over, by bytes that mean something in YAML and by bytes that are not
-/// text.
+/// Replaces each byte in turn, `times` times, with bytes that mean something in YAML and with bytes that are
+/// not text.
 inline void try_every_byte(const std::string& whole, std::mt19937& random, int times,
                            const TryText& try_text) {
   static const std::string kBytes("\0\n\t:-[}\"|&*!#$\x80\xFF", 16);
@@ -31,8 +31,8 @@ inline void try_every_byte(const std::string& whole, std::mt19937& random, int t
   }
 }
 
-/// Makes one to four changes: a piece is lost, repeated elsewhere, or put over another; or one of `words` is
-/// inserted.
+/// Makes one to four changes: removes a piece, repeats it elsewhere, or puts it over another; or inserts one
+/// of `words`.
 inline std::string with_pieces_moved(std::string text, std::mt19937& random,
                                      std::span<const std::string> words) {
   const int changes = 1 + static_cast<int>(random() % 4);

@@ -1,4 +1,4 @@
-// Removes the columns from diagnostics about files, for tests of their words.
+// Removes the columns from diagnostics about files, for tests of their wording.
 #pragma once
 
 #include <regex>

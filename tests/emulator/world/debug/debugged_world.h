@@ -25,12 +25,13 @@ struct DebuggedWorld {
     if (!program.empty()) world.load_program(0, program);
   }
 
-  /// Advances until the next stop, for that long at most. Returns the stop's text; empty if there was none.
+  /// Advances until the next stop, for at most `ms`. Returns the stop's text, or an empty text if there was
+  /// none.
   std::string run(std::int64_t ms) {
     world.advance_to(world.now() + std::chrono::milliseconds(ms));
     return debugger.take_stop() ? debugger.stop()->text : std::string();
   }
-  /// Returns where a step ends.
+  /// Steps, and returns where the step ended.
   std::string step(StepKind kind, const std::string& program = "", std::int64_t ms = 1000) {
     debugger.begin_step(kind, 0, program);
     const std::string text = run(ms);

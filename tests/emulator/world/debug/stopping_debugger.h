@@ -1,4 +1,4 @@
-// Observes random courses, and stops them wherever it can.
+// Observes random courses, and stops them wherever possible.
 #pragma once
 
 #include "emulator/world/debug/breakpoint.h"
@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-/// A debugger whose breakpoints stop at many lines, and which steps on from each.
+/// A debugger whose breakpoints stop at many lines, and which steps from each stop.
 struct StoppingDebugger {
   explicit StoppingDebugger(World& of)
       : world(of), frames(of, 64), events(of, frames), debugger(of, events) {}

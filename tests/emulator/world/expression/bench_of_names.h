@@ -45,7 +45,7 @@ class BenchOfNames : public NameResolver, public ValueSource {
   std::int32_t handle_of(const std::string& name) const { return resolve(name).handle; }
 
  private:
-  // The resolver chooses the handles: here they are neither dense nor from 0.
+  // Handles may have any numbers; here they are not dense and do not begin at 0.
   static constexpr std::int32_t kFirstHandle = 7;
   static std::int32_t handle_of(std::size_t index) {
     return kFirstHandle + 3 * static_cast<std::int32_t>(index);
@@ -55,7 +55,7 @@ class BenchOfNames : public NameResolver, public ValueSource {
   mutable std::map<std::string, int> reads_;
 };
 
-/// The names that the tables of the tests use.
+/// Returns the names that the tests' tables use.
 inline BenchOfNames a_feeder() {
   return BenchOfNames({{"a", 5},
                        {"b", 0},

@@ -1,4 +1,4 @@
-// Two Simple2-R3 on one line of 19200 baud 8E1, and a host that sends a frame every 100 ms.
+// Two Simple2-R3 on one line at 19200 8E1, and a host that sends a frame every 100 ms.
 #pragma once
 
 #include <gtest/gtest.h>

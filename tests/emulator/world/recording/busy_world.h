@@ -28,7 +28,7 @@ class BusyWorld {
     begin();
   }
 
-  /// Hosts connect, write valid and invalid frames, at once or in pieces, and disconnect; inputs, power,
+  /// Hosts connect, write valid and invalid frames, whole or in pieces, and disconnect; inputs, power,
   /// faults, registers and programs change; time advances in irregular steps.
   void play(int events) {
     for (int i = 0; i < events; ++i) {
@@ -47,7 +47,7 @@ class BusyWorld {
   }
 
   World& world() { return world_; }
-  /// Returns the recording, ended.
+  /// Ends the recording and returns it.
   std::string finish() {
     recorder_->finish();
     return text_;

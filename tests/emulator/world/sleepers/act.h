@@ -11,12 +11,12 @@
 namespace understudy::emulator::world::sleepers {
 
 struct Act {
-  std::string words;  // its name in the description of a course
+  std::string words;  // its description in a course
   std::function<void(World&)> carry_out;
-  SimTime before{0};  // since the act before it
+  SimTime before{0};  // time since the previous act
 };
 
-// Each of these does nothing if the world lacks the target or refuses it.
+// Each of these acts does nothing if the world lacks the target or refuses the act.
 Act write_act(const std::string& name, Value value);
 Act assign_act(const std::string& name, double value);
 Act command_act(const std::string& text);

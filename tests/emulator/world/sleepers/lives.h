@@ -1,4 +1,4 @@
-// All lives, one for each controller.
+// All classes derived from Life, one for each controller.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ std::unique_ptr<Life> life_of_simple2();
 std::unique_ptr<Life> life_of_super_40nc();
 std::unique_ptr<Life> life_of_rs_m8194h();
 std::unique_ptr<Life> life_of_slim();
-/// A controller that a file describes; a different one for each course.
+/// For a controller that a file describes; each course has a different one.
 std::unique_ptr<Life> life_of_imported();
 
 }  // namespace understudy::emulator::world::sleepers

@@ -1,5 +1,5 @@
-// The tests' own model with a text protocol: it repeats what it is sent, and sends something unrequested at a
-// tick. It is so small that all its behaviour can be seen here.
+// The tests' own model with a text protocol: it repeats what it receives, and can send an unsolicited line at
+// a given tick. It is so small that this table describes all of its behaviour.
 //
 //   SAY WORDS    WORDS
 //   AT TICK      nothing now; "TICK n" at that tick
@@ -275,7 +275,7 @@ inline Bench echo_bench(pty::Timing timing = pty::Timing::wire, DeviceSettings s
   return bench;
 }
 
-/// All controllers, and this one.
+/// Returns all models, including this one.
 inline ModelList models_and_echo_box() {
   static const std::vector<ListedModel> models = [] {
     std::vector<ListedModel> list(models::all_models().begin(), models::all_models().end());

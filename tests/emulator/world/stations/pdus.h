@@ -15,7 +15,7 @@ namespace understudy::emulator::world {
 using Bytes = std::vector<std::uint8_t>;
 using Words = std::vector<std::uint16_t>;
 
-/// "01 03 D5" as bytes; spaces do not matter.
+/// Converts text such as "01 03 D5" to bytes; spaces do not matter.
 inline Bytes hex(std::string_view text) {
   Bytes bytes;
   std::string digits;
@@ -29,7 +29,7 @@ inline Bytes hex(std::string_view text) {
   return bytes;
 }
 
-/// Bytes as "01 03 D5".
+/// Converts bytes to text such as "01 03 D5".
 template <typename Range>
 std::string text(const Range& bytes) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -70,7 +70,7 @@ inline Bytes write_request(std::size_t address, const Words& words) {
   return pdu;
 }
 
-/// The PDU of the reply, as text.
+/// Returns the PDU of the reply, as text.
 inline std::string answer(Device& device, const Bytes& pdu) {
   const ModbusReply reply = serve(device, pdu);
   return text(Bytes(reply.pdu.begin(), reply.pdu.begin() + static_cast<std::ptrdiff_t>(reply.size)));

@@ -21,7 +21,7 @@ inline void expect_same_machine(const PlantSetup& here, const PlantSetup& there)
   EXPECT_EQ(here.drive.has_value(), there.drive.has_value());
 }
 
-/// What names request from a device.
+/// Compares the properties of a device that names can refer to.
 inline void expect_same_device(const Device& here, const Device& there) {
   EXPECT_EQ(here.name(), there.name());
   EXPECT_EQ(&here.model(), &there.model());

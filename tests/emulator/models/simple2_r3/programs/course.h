@@ -1,6 +1,6 @@
-// The whole course of a program, next to the one worked out by hand.
+// Compares the whole course of a program with the one worked out by hand.
 //
-// A course is everything that can be seen from outside, ms by ms, from the slot of the first line on (ms 0):
+// A course is everything that is visible from outside, ms by ms, from the slot of the first line (ms 0) on:
 //
 //   run  stop          PROG_MAIN_RunTime_Status          +D3  -D3        DOUT_3
 //   L7                 PROG_MAIN_NowLine                 C1=5            Counter1_Value
@@ -8,13 +8,13 @@
 //   +alarmA +readyA +homingA +homeA +servoA +upperA +lowerA              the other bits of STATUS
 //   cordA=0            Cord_A changed with the axis at rest
 //
-// and, where the expected course asks for them,
+// and, if the expected course asks for them,
 //
 //   A=1600             Cord_A at this ms, on the way
 //   PROG_MEM3=-5       any register by its name; from then on every change of it is reported
 //
-// What is seen at ms t is how the device stands when tick t is over; what is given to it at ms t is there
-// when tick t begins. A table of expectations has one line for each ms, and remarks after ';':
+// An entry for ms t shows the device at the end of tick t; an input at ms t is present when tick t begins. A
+// table of expectations has one line for each ms, and remarks after ';':
 //
 //   1004   L6 -D1      ; ms since the start
 //   +84    L9 +moveA@0 ; ms after the last line without '+': 1088
@@ -41,15 +41,15 @@ struct Deed {
 Deed input_goes(Tick at, int number, bool on);
 /// DIN `number` is on from ms `from` to before `to`.
 std::vector<Deed> input_is_on(Tick from, Tick to, int number);
-/// Writes by a Modbus frame.
+/// Writes a register with a Modbus frame.
 Deed host_writes(Tick at, std::string_view name, Value value);
 
 struct Play {
   std::string listing;                                // a file of this folder
   Given given{};                                      // the device and the machine around it
-  std::vector<std::pair<std::string, Value>> host{};  // writes these before
+  std::vector<std::pair<std::string, Value>> host{};  // values that it writes first
   std::vector<std::vector<Deed>> deeds{};
-  std::function<std::int64_t(Tick ms)> encoder_a{};  // counts, as the device finds them in each tick
+  std::function<std::int64_t(Tick ms)> encoder_a{};  // the encoder's count in each tick
   Value first_line = 0;
   Tick until = 0;  // the last ms that is checked
 };

@@ -19,7 +19,7 @@ Course course_of_table(std::string_view table);
 /// "  1004  -D1 L6\n", for all ms from `from` on, `count` lines at most.
 std::string to_string(const Course& course, Tick from, int count);
 
-/// Returns the first ms in which they differ; -1 if there is none.
+/// Returns the first ms in which the courses differ, or -1 if they are equal.
 Tick first_difference(const Course& a, const Course& b);
 
 }  // namespace understudy::emulator::models::simple2_r3
