@@ -97,7 +97,7 @@ box::CaptureSettings capture_settings(const BoxBench& box, const CompareArgument
     settings.every = parse_duration(arguments.every);
     if (!settings.every || settings.every->count() == 0)
       throw UsageError("--every: " + quoted(arguments.every) +
-                       " is not a time between requests; expected one like 20ms");
+                       " is not an interval; expected a duration such as 20ms");
   }
   if (arguments.sample_rate > 0) settings.sample_rate = arguments.sample_rate;
   return settings;
@@ -110,7 +110,7 @@ BoxBench read_box_bench(ModelList models, const std::string& command, const Comp
   const auto tolerance = parse_duration(arguments.tolerance);
   if (!tolerance || *tolerance > std::chrono::seconds(10))
     throw UsageError("--tolerance: " + quoted(arguments.tolerance) +
-                     " is not a duration; expected one like 1ms");
+                     " is not a duration; expected one such as 1ms");
   box.bench = world::load_bench(models, arguments.bench);
   box.settings.line = require_line(box.bench, command, arguments.line);
   box.settings.tolerance = *tolerance;
@@ -119,7 +119,7 @@ BoxBench read_box_bench(ModelList models, const std::string& command, const Comp
   if (!arguments.inputs.empty()) {
     const auto text = read_text_argument(arguments.inputs);
     if (!text)
-      throw FileError(arguments.inputs + ": inputs: " + text.why + "; expected a file of changes of inputs");
+      throw FileError(arguments.inputs + ": inputs: " + text.why + "; expected a file of input changes");
     box.settings.inputs = box::parse_input_log(box.bench, *text, arguments.inputs);
   }
   box.reading = capture_settings(box, arguments);
@@ -146,7 +146,7 @@ void StationFilter::require_some(const std::string& path) const {
   if (has_kept_) return;
   std::string numbers;
   for (const int number : others_) numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
-  throw FileError(path + ": all requests are to station " + numbers + ", which line " +
+  throw FileError(path + ": all requests are for station " + numbers + ", which line " +
                   quoted(box_.bench.lines[box_.settings.line].name) +
                   " of the bench does not have; expected a capture of " +
                   (only_ ? "station " + std::to_string(*only_) : std::string("one of its stations")));
@@ -180,7 +180,7 @@ box::CaptureNotes take_exchanges(ModelList models, const BoxBench& box, const st
 box::CaptureNotes follow_exchanges(const BoxBench& box, const std::string& path, const ExchangeTaker& take) {
   box::FollowedFile followed(path, is_interrupted);
   const std::string head = followed.head();
-  if (head.empty()) throw FileError(path + ": capture: has not begun; expected a capture that grows");
+  if (head.empty()) throw FileError(path + ": capture: is still empty; expected a capture that has begun");
   if (const std::string why = is_another_kind(head, ContentKind::capture); !why.empty())
     throw FileError({path, 1, 1}, "capture: " + why);
   std::istream file(&followed);
@@ -218,19 +218,20 @@ std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
   if (!notes.begins_at_power_up || notes.knows_beginning) texts.push_back("read as " + notes.format);
   if (!notes.beyond_the_line.empty())
     texts.push_back("from " + notes.beyond_the_line +
-                    " on, what differs is undecidable, since it is not repeated");
-  if (notes.is_side_inferred) texts.emplace_back("the host was told from the controller by their frames");
+                    " on, differences are undecidable, because it is not repeated");
+  if (notes.is_side_inferred)
+    texts.emplace_back("the host's and the controller's bytes were distinguished by their frames");
   add(notes.bytes_of_no_frame, "byte belongs to no frame", "bytes belong to no frame");
   add(notes.unasked, "reply follows no request", "replies follow no request");
-  add(notes.elsewhere, "request is to a station that the bench does not have",
-      "requests are to stations that the bench does not have");
+  add(notes.elsewhere, "request is for a station that the bench does not have",
+      "requests are for stations that the bench does not have");
   add(notes.restored_requests, "request was lost, but its reply repeats it",
       "requests were lost, but their replies repeat them");
   if (notes.lost_requests != 0)
     texts.push_back(
         "from " + std::to_string(notes.lost_requests) +
-        (notes.lost_requests == 1 ? " lost request on, what differs" : " lost requests on, what differs") +
-        " is undecidable, since it may have written");
+        (notes.lost_requests == 1 ? " lost request on, differences" : " lost requests on, differences") +
+        " are undecidable, because it may have written");
   return texts;
 }
 

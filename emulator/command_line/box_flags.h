@@ -12,24 +12,24 @@ namespace understudy::emulator::command_line {
 /// Adds the flags of a stage with real controllers, except its ports.
 inline void add_stage_flags(CLI::App& command, OnArguments& on) {
   command.add_flag("--allow-writes", on.allow_writes,
-                   "Also send what only changes values [nothing but reads is sent]");
+                   "Also send requests that only change values [only reads are sent]");
   command.add_flag("--allow-memory", on.allow_memory,
-                   "Also send what changes memory; it includes --allow-writes");
+                   "Also send requests that change memory; implies --allow-writes");
   command.add_flag("--allow-outputs", on.allow_outputs,
-                   "Also send what may switch an output; it includes --allow-writes");
+                   "Also send requests that may switch an output; implies --allow-writes");
   command.add_flag("--allow-motion", on.allow_motion,
-                   "Also send what may move an axis, and everything else. KEEP CLEAR OF THE MACHINE");
+                   "Also send requests that may move an axis, and all others. KEEP CLEAR OF THE MACHINE");
   command
       .add_option("--envelope", on.envelope,
-                  "File of limits for targets, speeds and distances; what is beyond them is not sent")
+                  "File with limits for targets, speeds and distances; requests outside them are not sent")
       ->check(kNotEmpty);
   command
       .add_option("--rig", on.rig,
-                  "Command for what needs the machine, called as `COMMAND input feeder.DIN_2 on`")
+                  "Command that acts on the machine, called as `COMMAND input feeder.DIN_2 on`")
       ->check(kNotEmpty);
-  command.add_flag("--ask", on.ask, "Ask the person at the terminal for what needs the machine");
+  command.add_flag("--ask", on.ask, "Ask the person at the terminal to act on the machine");
   command.add_flag("--plan", on.plan, "Print every request, and send nothing");
-  command.add_option("--reply-timeout", on.timeout, "How long to wait for a reply of a real controller")
+  command.add_option("--reply-timeout", on.timeout, "How long to wait for a reply from a real controller")
       ->capture_default_str();
 }
 
@@ -49,12 +49,13 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
                   "NV image to write, BOX.nv.json; the photograph is BOX.photo.json next to it")
       ->required()
       ->check(kNotEmpty);
-  command.add_option("--station", photograph.station, "Station to ask [the model's factory number]");
+  command.add_option("--station", photograph.station,
+                     "Station number of the controller [the model's factory setting]");
   command.add_option("--firmware", photograph.firmware, "The controller's firmware version [newest]")
       ->check(kNotEmpty);
-  command.add_option("--modules", photograph.modules, "Modules of the chain to ask [those of PN50]");
+  command.add_option("--modules", photograph.modules, "Number of modules to read in the chain [as in PN50]");
   command.add_option("--timeout", photograph.timeout, "How long to wait for a reply")->capture_default_str();
-  command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes minutes");
+  command.add_flag("--arrays", photograph.arrays, "SLIM: also read NS(0) to RS(2000), which takes minutes");
 }
 
 /// Adds the flag for the controller's name in evidence.
@@ -70,7 +71,7 @@ inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
   command.add_option("--model", probe.model, "The controller's model")->required()->check(kNotEmpty);
   command.add_option("-o,--output", probe.output, "Evidence to write: FILE.json")->check(kNotEmpty);
   add_box_name(command, probe.box);
-  command.add_option("--station", probe.station, "Station to ask [that of the proofs]");
+  command.add_option("--station", probe.station, "Station number of the controller [that of the proofs]");
   command.add_option("--proofs", probe.proofs, "Folder of proofs [the one that comes with this program]")
       ->check(kNotEmpty);
   add_stage_flags(command, probe.on);
@@ -79,13 +80,14 @@ inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
 inline void add_capture_flags(CLI::App& command, CompareArguments& compare) {
   command
       .add_option("--pattern", compare.pattern,
-                  "What the lines of a log look like: '{time} {dir} {hex}', and {*} for anything")
+                  "Format of a log's lines, such as '{time} {dir} {hex}'; {*} matches anything")
       ->check(kNotEmpty);
-  command.add_option("--every", compare.every, "The time between requests, for a log without times: 20ms")
+  command
+      .add_option("--every", compare.every, "Time between requests, for a log without times, such as 20ms")
       ->check(kNotEmpty);
   command
       .add_option("--sample-rate", compare.sample_rate,
-                  "Samples in a second, for a decode that counts samples: 1000000")
+                  "Samples per second, for a decoder's log that counts samples, such as 1000000")
       ->check(CLI::PositiveNumber);
 }
 
@@ -98,12 +100,12 @@ inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
       ->check(kNotEmpty);
   command.add_option("--from", compare.from, "NV image of the controller's memory at the beginning")
       ->check(kNotEmpty);
-  command.add_option("--tolerance", compare.tolerance, "How much times may differ")->capture_default_str();
+  command.add_option("--tolerance", compare.tolerance, "How far apart times may be")->capture_default_str();
   command.add_flag("--power-up", compare.power_up,
                    "Time 0 of the captures is the controller's power-up, so its whole state is known");
   command
       .add_option("--inputs", compare.inputs,
-                  "What the inputs did: a file with lines such as '0.250 feeder.DIN_2 on'")
+                  "File with the changes of the inputs, in lines such as '0.250 feeder.DIN_2 on'")
       ->check(kNotEmpty);
   add_capture_flags(command, compare);
 }
@@ -117,7 +119,7 @@ inline void add_compare_looks(CLI::App& command, CompareArguments& compare) {
           ->check(kNotEmpty);
   command
       .add_flag("--follow", compare.follow,
-                "Follow a capture that grows: report each difference at once, until Ctrl-C")
+                "Follow a growing capture: report each difference immediately, until Ctrl-C")
       ->excludes(format)
       ->excludes(report);
 }
@@ -125,7 +127,7 @@ inline void add_compare_looks(CLI::App& command, CompareArguments& compare) {
 inline void add_tap_flags(CLI::App& command, TapArguments& tap) {
   command
       .add_option("PORT", tap.ports,
-                  "One adapter that hears both directions, or two that hear one each: "
+                  "One adapter that receives both directions, or two that receive one each: "
                   "/dev/ttyUSB0[,SPEED[,8E1]], rtu://HOST:PORT [19200,8E1]")
       ->required()
       ->expected(1, 2)
@@ -155,7 +157,7 @@ inline void add_certificate_flags(CLI::App& command, CertificateArguments& certi
       command.add_flag("--verify", certificate.verify, "Verify the certificate FILE, signed in FILE.sig");
   command
       .add_option("--signers", certificate.signers,
-                  "Keys that you trust, a line for each: NAME ssh-ed25519 AAAA... (see ssh-keygen)")
+                  "Keys that you trust, one per line: NAME ssh-ed25519 AAAA... (see ssh-keygen)")
       ->check(kNotEmpty)
       ->needs(verify);
   command

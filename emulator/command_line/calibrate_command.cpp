@@ -102,11 +102,13 @@ void print_unexplained_calibration(const BoxBench& box, const std::vector<box::C
   const box::Exchange& exchange = capture.exchanges[found.exchange];
   std::printf("no options explain %s:%zu, at %s\n", capture.path.c_str(), exchange.place,
               format_duration(exchange.at).c_str());
-  std::printf("the furthest: %s\n", hypothesis_text(box.bench, found.explanations.front()).c_str());
+  std::printf("the options that agree longest: %s\n",
+              hypothesis_text(box.bench, found.explanations.front()).c_str());
   if (found.contradictory) {
     const auto [first, second] = *found.contradictory;
     std::printf(
-        "%s and %s contradict each other: each is explained alone, but not both; were they made of the same "
+        "%s and %s contradict each other: options explain each alone, but not both; were they captured from "
+        "the same "
         "controller, with the same settings?\n",
         captures[first].path.c_str(), captures[second].path.c_str());
     return;

@@ -104,7 +104,7 @@ bool verify_files(const std::vector<box::CertifiedFile>& files, const std::strin
 
 int verify_certificate(const CertificateArguments& arguments) {
   if (arguments.evidence.size() != 1)
-    throw UsageError("certificate: --verify takes one certificate; expected --verify FILE.json");
+    throw UsageError("certificate: --verify needs exactly one certificate; expected --verify FILE.json");
   if (arguments.signers.empty())
     throw UsageError(
         "certificate: --verify needs the keys that you trust; expected --signers FILE with lines such as "
@@ -121,7 +121,7 @@ int verify_certificate(const CertificateArguments& arguments) {
           (file == signature ? "one made by `ssh-keygen -Y sign`" : "a file of keys that you trust"));
   const box::CommandAnswer answer = box::run_command(kVerify, {arguments.signers, signature, path});
   if (answer.exit_code == kNoProgram)
-    throw FileError("ssh-keygen: is not installed; expected the one of OpenSSH");
+    throw FileError("ssh-keygen: is not installed; expected the program from OpenSSH");
   const std::string message = one_line(answer.output);
   if (answer.exit_code == kUnknownKey) {
     std::printf("%s: NOT VERIFIED: no key in %s has signed it (%s)\n", path.c_str(),
@@ -129,7 +129,7 @@ int verify_certificate(const CertificateArguments& arguments) {
     return kExitFailed;
   }
   if (answer.exit_code != 0) {
-    std::printf("%s: NOT VERIFIED: the signature does not fit (%s)\n", path.c_str(), message.c_str());
+    std::printf("%s: NOT VERIFIED: the signature does not match (%s)\n", path.c_str(), message.c_str());
     return kExitFailed;
   }
   const bool is_good = verify_files(files, path);

@@ -124,7 +124,7 @@ std::string CaptureComparison::text() const {
             (remedy.section.empty() ? "" : "  (" + one_line(remedy.section) + ")") + "\n";
   if (remedies.empty())
     text += has_searched ? "    no other option of a single choice agrees with it\n"
-                         : "    it comes so late that no other options were tried\n";
+                         : "    it is so late in the capture that no other options were tried\n";
   for (const auto& [kind, counts] : by_kind_) {
     const std::size_t different = counts[index_of(Verdict::different)];
     const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});

@@ -245,7 +245,7 @@ void print_status(const Json& status) {
   std::printf("simulated time %s, speed %s%s\n", status.at("simulated_time").get<std::string>().c_str(),
               status.at("speed").get<std::string>().c_str(),
               status.at("paused").get<bool>() ? ", paused" : "");
-  std::printf("lateness p50 %.1f us, p99 %.1f us, max %.1f us over %llu wakes, %llu slips\n",
+  std::printf("lateness p50 %.1f us, p99 %.1f us, max %.1f us over %llu wake-ups, %llu slips\n",
               lateness.at("p50_us").get<double>(), lateness.at("p99_us").get<double>(),
               lateness.at("max_us").get<double>(), lateness.at("wakes").get<unsigned long long>(),
               lateness.at("slips").get<unsigned long long>());

@@ -41,7 +41,7 @@ inline constexpr std::array kControlWords{
     ControlWord{"run-until", "Advance simulated time until a condition is true, while the clock is stopped",
                 "CONDITION", "Such as 'feeder.STATUS.4 == 0'"},
     ControlWord{"pause", "Stop simulated time", nullptr, nullptr},
-    ControlWord{"resume", "Let simulated time run again", nullptr, nullptr},
+    ControlWord{"resume", "Resume simulated time", nullptr, nullptr},
     ControlWord{"step", "Advance simulated time by ticks, or a program by a step, while the clock is stopped",
                 "WHAT",
                 "Number of ticks [1]; or instruction, line, over, out or stand, with DEVICE, program=NAME, "
@@ -49,8 +49,8 @@ inline constexpr std::array kControlWords{
     ControlWord{"break", "Set, list or delete breakpoints and logpoints", "WHAT",
                 "DEVICE LINE, instruction=N program=NAME, write=NAME by=WHO or on=EVENT; when=CONDITION, "
                 "nth=N, log=TEXT; delete N, or delete all; without words, list them"},
-    ControlWord{"continue", "Let simulated time run on after a stop", "WITHIN", "within=10s; or back"},
-    ControlWord{"stack", "Show where a device's programs are, and their callers", "DEVICE",
+    ControlWord{"continue", "Continue simulated time after a stop", "WITHIN", "within=10s; or back"},
+    ControlWord{"stack", "Show the current lines of a device's programs, and their callers", "DEVICE",
                 "Name of the device"},
     ControlWord{"source", "Print the text whose line numbers breakpoints and stacks use", "DEVICE",
                 "Name of the device"},

@@ -141,11 +141,11 @@ void RecordedScenario::find_recording() {
     if (entry.path().extension() != ".jsonl") continue;
     if (!recording_.empty())
       throw dap::RequestError(
-          "scenario: there are several; expected a file with one, or `run --record` and then "
+          "scenario: the file has several cases; expected one, or `run --record` and then "
           "one of its recordings");
     recording_ = entry.path().string();
   }
-  if (recording_.empty()) throw dap::RequestError("scenario: it left no recording; expected one");
+  if (recording_.empty()) throw dap::RequestError("scenario: the run made no recording; expected one");
 }
 
 }  // namespace understudy::emulator::command_line

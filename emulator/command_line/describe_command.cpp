@@ -116,7 +116,7 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
   if (sheet->rows.empty() && *format == SheetFormat::table) {
     const bool has_window = arguments.what == "commands" && model.window != nullptr;
     const std::string more = has_window
-                                 ? " of text; its window takes those that `instructions` lists, such as " +
+                                 ? " of text; its window accepts those that `instructions` lists, such as " +
                                        std::string(model.window->example())
                                  : "";
     std::printf("%s has no %s%s\n", arguments.model.c_str(), arguments.what.c_str(), more.c_str());

@@ -55,7 +55,7 @@ void use_private_places(Serving& serving, const ExecArguments& arguments, serve:
 
 void require_host_time(const ExecArguments& arguments) {
   if (arguments.has_speed)
-    throw UsageError("--host-time: the host's waits decide how fast time goes; expected no --speed");
+    throw UsageError("--host-time: the host's waits decide how fast time passes; expected no --speed");
 }
 
 /// Prints the verdicts of the scenario and returns its exit code.
@@ -172,7 +172,7 @@ int execute_repeatedly(ModelList models, const ExecArguments& arguments, int tim
   if (!arguments.host.host_time)
     throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
   if (!arguments.serve.nv.empty())
-    throw UsageError("--repeat: each run would begin with the memory of the run before; expected no --nv");
+    throw UsageError("--repeat: each run would begin with the memory of the previous run; expected no --nv");
   serve::PrivateFolder folder;
   Courses courses;
   int first_failure = kExitWell;

@@ -27,7 +27,7 @@ constexpr FindingRule kFindingRules[] = {
     {"scenario", "A scenario file asks for something impossible."},
     {"steps", "An included file of steps asks for something impossible."},
     {"program", "The model does not accept the text of a program."},
-    {"capture", "A controller replied differently than the bench."},
+    {"capture", "A controller replied differently from the bench."},
     {"file", "The file cannot be read, or has an unknown format."},
 };
 

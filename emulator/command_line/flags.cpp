@@ -108,7 +108,7 @@ struct CommandLine {
   void add_serve(CLI::App& command) {
     add_serving_flags(command, serve);
     command
-        .add_option("--page", serve.page, "Show the bench in a browser as well, on this port [any free port]")
+        .add_option("--page", serve.page, "Also show the bench in a browser, on this port [any free port]")
         ->expected(0, 1)
         ->default_str("0");
     command.callback(
@@ -281,7 +281,7 @@ struct CommandLine {
     command.add_option("FILE", coverage.files, "Files that --coverage has written: FILE.info")->required();
     command.add_option("-o,--output", coverage.output, kCoverageHelp)->check(kNotEmpty);
     command.add_option("--coverage-min", coverage.min_percent,
-                       "Fail if fewer of the programs' lines have run, in per cent");
+                       "Fail if less than this percentage of the programs' lines has run");
     command.callback([this] {
       coverage.version = UNDERSTUDY_VERSION;
       chosen = [this] { return add_coverage(coverage); };
@@ -368,12 +368,12 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"photograph", "Read everything that a real controller reports, into an NV image",
      &CommandLine::add_photograph},
-    {"probe", "Play proofs with a real controller, to learn which options of choices it has",
+    {"probe", "Play proofs on a real controller, to find out which options of choices it has",
      &CommandLine::add_probe},
     {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
     {"calibrate", "Find the choices with which a bench replies like a real controller",
      &CommandLine::add_calibrate},
-    {"certificate", "Say what was measured on a real controller, in a form to sign, or verify that",
+    {"certificate", "Make a certificate of measurements on a real controller, or verify one",
      &CommandLine::add_certificate},
     {"tap", "Listen on a line with one or two adapters, and write a capture", &CommandLine::add_tap},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},

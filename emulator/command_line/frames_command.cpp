@@ -50,12 +50,12 @@ int follow_frames(const FramesArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
     throw UsageError("ctl frames: --every: " + understudy::quoted(arguments.every) +
-                     " is not a time; expected 10ms or more");
+                     " is not a valid interval; expected 10ms or more");
   }
   if (arguments.last < 0 || arguments.last > kMaxAtOnce) {
     throw UsageError("ctl frames: --last: expected 0 to " + std::to_string(kMaxAtOnce));
   }
-  if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (no end) or more");
+  if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (no limit) or more");
   const int times = arguments.once ? 1 : arguments.times;
   const std::string path = choose_daemon(arguments.which);
   Json message{{"do", "frames"}, {"last", arguments.last}};

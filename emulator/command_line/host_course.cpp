@@ -202,7 +202,7 @@ std::optional<serve::WallTime> parse_timeout(const std::string& text) {
   const auto timeout = parse_duration(text);
   if (!timeout || *timeout <= SimTime{0}) {
     throw UsageError("--timeout: " + understudy::quoted(text) +
-                     " is not a time to wait; expected one such as 30s");
+                     " is not a duration; expected one such as 30s");
   }
   return timeout;
 }
@@ -212,7 +212,7 @@ void require_variables(const world::Bench& bench) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
       throw UsageError("exec: the lines " + understudy::quoted(bench.lines[j].name) + " and " +
-                       understudy::quoted(bench.lines[i].name) + " would both be " +
+                       understudy::quoted(bench.lines[i].name) + " would both have the variable " +
                        variable_of(bench.lines[i].name) + "; expected names that differ more");
     }
   }

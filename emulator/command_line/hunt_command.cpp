@@ -73,7 +73,7 @@ play::Shard shard_of_hunt(const HuntArguments& arguments) {
   if (arguments.shard.empty()) return {};
   if (const auto parsed = play::parse_shard(arguments.shard)) return *parsed;
   throw UsageError("--shard: " + quoted(arguments.shard) +
-                   " is not a part; expected I/N such as 1/4, I up to N");
+                   " is not a shard; expected I/N such as 1/4, with I up to N");
 }
 
 /// Throws FileError if the file, or one of its plays, has no hunt plan.
@@ -84,7 +84,7 @@ void require_plans(const std::string& file, const std::vector<std::string>& with
                     "; expected it in each play, or once for the whole file");
   }
   throw FileError(file +
-                  ": hunt: is missing; expected `hunt:` with what may happen, as in "
+                  ": hunt: is missing; expected `hunt:` with possible disturbances, as in "
                   "`hunt: { may: [ inject: { drop: feeder } ] }`");
 }
 

@@ -18,8 +18,9 @@ inline void add_import_flags(CLI::App& command, ImportArguments& import) {
   add("-o,--output", import.output, "Model file to write [NAME.yaml next to the list]");
   add("--name", import.name, "Name of the model [that of the list]");
   add("--columns", import.columns, "Headings (or letters) of columns: address=Reg,name=B [by synonyms]");
-  add("--addresses", import.addresses, "What addresses count: wire, from_one, modicon (40001) [guessed]");
-  add("--table", import.table, "Table of rows without one: holding, input, coil or discrete [holding]");
+  add("--addresses", import.addresses,
+      "How addresses are counted: wire, from_one, modicon (40001) [guessed]");
+  add("--table", import.table, "Table for rows that name none: holding, input, coil or discrete [holding]");
   add("--encoding", import.encoding, "Encoding of the list: utf-8, utf-16, latin-1, big5, gbk [guessed]");
 }
 

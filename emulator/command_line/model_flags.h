@@ -19,8 +19,9 @@ inline void add_describe_flags(CLI::App& command, DescribeArguments& describe) {
   command.add_option("--format", describe.format, "Output format: table, csv, json or markdown")
       ->capture_default_str();
   command
-      .add_option("--evidence", describe.evidence,
-                  "Of choices: show what `calibrate -o` and `probe -o` have measured in these files")
+      .add_option(
+          "--evidence", describe.evidence,
+          "For choices: show the measurements in these files, written by `calibrate -o` or `probe -o`")
       ->check(kNotEmpty);
 }
 

@@ -48,7 +48,7 @@ SimTime timeout_of(const OnArguments& arguments) {
   if (timeout && *timeout >= std::chrono::milliseconds(1) && *timeout <= std::chrono::minutes(1))
     return *timeout;
   throw UsageError("--reply-timeout: " + quoted(arguments.timeout) +
-                   " is not a duration; expected one like 300ms");
+                   " is not a duration; expected one such as 300ms");
 }
 
 Hazards allowed_by(const OnArguments& arguments) {
@@ -105,7 +105,7 @@ void require_flags_of_boxes(const RunArguments& arguments) {
   for (const auto& [is_given, flag] : others) {
     if (is_given)
       throw UsageError(std::string(flag) +
-                       ": needs the truths of a simulated controller; expected it without --on");
+                       ": needs the internal state of a simulated controller; expected it without --on");
   }
 }
 

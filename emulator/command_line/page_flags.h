@@ -21,7 +21,7 @@ inline void add_page_flags(CLI::App& command, PageArguments& page) {
   command.add_option("--host", page.hosts, "Name that browsers may use for this machine, besides localhost")
       ->check(kNotEmpty)
       ->allow_extra_args(false);
-  command.add_flag("--read-only", page.read_only, "Let browsers look, but change nothing");
+  command.add_flag("--read-only", page.read_only, "Let browsers read, but change nothing");
   command.add_option("--web", page.folder, "Serve the page's files from this folder, while you work on them")
       ->check(kNotEmpty);
 }

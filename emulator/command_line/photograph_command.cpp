@@ -57,14 +57,15 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout < std::chrono::milliseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: " + quoted(arguments.timeout) +
-                     " is not a duration; expected one like 300ms");
+                     " is not a duration; expected one such as 300ms");
   if (arguments.station && !model.rtu)
-    throw UsageError("--station: " + std::string(model.name) + " has no station number; expected no number");
+    throw UsageError("--station: " + std::string(model.name) +
+                     " has no station number; expected no --station");
   if (arguments.station && (*arguments.station < 0 || *arguments.station > 247))
     throw UsageError("--station: expected 0 to 247");
   if (arguments.modules && (*arguments.modules < 1 || *arguments.modules > model.max_modules))
     throw UsageError("--modules: " + std::string(model.name) + " has " +
-                     (model.max_modules == 0 ? "no modules; expected no number"
+                     (model.max_modules == 0 ? "no modules; expected no --modules"
                                              : "at most " + std::to_string(model.max_modules) +
                                                    "; expected 1 to " + std::to_string(model.max_modules)));
   return {.station = arguments.station,
@@ -118,7 +119,7 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
               photo.values.size(), photo.refused.size(), photo.exchanges.size(),
               in_milliseconds(latencies.min).c_str(), in_milliseconds(latencies.max).c_str(),
               in_milliseconds(latencies.median).c_str());
-  if (photo.is_echoing) std::printf("the adapter echoes: on a bench, the line has `echo: on`\n");
+  if (photo.is_echoing) std::printf("the adapter echoes: a bench needs `echo: on` for the line\n");
   for (const auto& [name, why] : photo.left_out)
     std::printf("not in the image, %s: %s\n", one_line(name).c_str(), one_line(why).c_str());
   const std::size_t entries = photo.image.registers.size() + photo.image.reals.size();

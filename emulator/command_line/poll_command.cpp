@@ -238,15 +238,15 @@ Context connect(const PollArguments& arguments) {
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: " + quoted(arguments.timeout) +
-                     " is not a duration; expected one like 500ms");
+                     " is not a duration; expected one such as 500ms");
   // This is checked here, because libmodbus would print its own diagnostics.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
-                     " is not a speed of a serial port; expected one like 9600, 19200 or 115200");
+                     " is not a speed of a serial port; expected one such as 9600, 19200 or 115200");
   }
   if (arguments.stop_bits != 1 && arguments.stop_bits != 2) throw UsageError("--stop-bits: expected 1 or 2");
   if (arguments.station < 0 || arguments.station > 247) throw UsageError("--station: expected 0 to 247");
-  if (arguments.times < 0) throw UsageError("--times: expected a number of rounds, or 0 for no end");
+  if (arguments.times < 0) throw UsageError("--times: expected a number of rounds, or 0 for no limit");
   Context context(modbus_new_rtu(arguments.port.c_str(), arguments.baud, parity, 8, arguments.stop_bits));
   if (!context || modbus_set_slave(context.get(), arguments.station) != 0) {
     throw UsageError("poll: " + std::string(modbus_strerror(errno)) +
@@ -398,7 +398,7 @@ int poll_port(ModelList models, const PollArguments& arguments) {
   if (!polled.every.empty()) {
     const auto parsed = parse_duration(polled.every);
     if (!parsed)
-      throw UsageError("--every: " + quoted(polled.every) + " is not a duration; expected one like 500ms");
+      throw UsageError("--every: " + quoted(polled.every) + " is not a duration; expected one such as 500ms");
     every = *parsed;
   }
   const Context context = connect(polled);

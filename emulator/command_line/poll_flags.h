@@ -13,11 +13,11 @@ inline void add_poll_flags(CLI::App& command, PollArguments& poll) {
   command.add_option("ITEM", poll.items,
                      "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
   command
-      .add_option("--command", poll.commands,
-                  "Send this command, by the name that the model gives it, before the items")
+      .add_option("--command", poll.commands, "Command to send before the items, by its name in the model")
       ->check(kNotEmpty)
       ->allow_extra_args(false);
-  command.add_option("--station", poll.station, "Station to ask [the model's factory number, or 1]");
+  command.add_option("--station", poll.station,
+                     "Station number of the device [the model's factory setting, or 1]");
   command.add_option("--model", poll.model, "Model whose register names to use")->check(kNotEmpty);
   command
       .add_option(

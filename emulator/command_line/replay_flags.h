@@ -26,18 +26,18 @@ inline void add_replay_flags(CLI::App& command, ReplayArguments& replay) {
                          "Write the traffic on the lines to this file: FILE.pcapng for Wireshark, any "
                          "other name for a text log");
   CLI::Option* const report =
-      command.add_option("--report", replay.report, "Write a report on it to this file, as HTML");
+      command.add_option("--report", replay.report, "Write a report on the recording to this file, as HTML");
   for (CLI::Option* const file : {trace, trace_also, capture, report}) file->check(kNotEmpty);
   trace_also->delimiter(',');
   CLI::Option* const page = command.add_option(
       "--page", replay.page,
       "Open the recording in a browser, at the time of --until if given, on this port [any free port]");
   page->expected(0, 1)->default_str("0")->excludes(trace, trace_also, capture, report);
-  CLI::Option* const story =
-      command.add_option("--export", replay.story,
-                         "Write its page to this file, as HTML that needs neither a server nor a network");
-  CLI::Option* const picture = command.add_option("--picture", replay.picture,
-                                                  "Write a picture of it to this file: FILE.svg or FILE.png");
+  CLI::Option* const story = command.add_option(
+      "--export", replay.story,
+      "Write the recording's page to this file, as HTML that needs neither a server nor a network");
+  CLI::Option* const picture = command.add_option(
+      "--picture", replay.picture, "Write a picture of the recording to this file: FILE.svg or FILE.png");
   command.add_option("--panel", replay.panel, "What --picture shows: timeline, axes, path or bus [timeline]")
       ->check(kNotEmpty);
   for (CLI::Option* const file : {story, picture}) {

@@ -67,13 +67,14 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
                    "Run in real time over real ports, with libmodbus as the host");
   command
       .add_option("--on", run.on.on,
-                  "LINE=PORT: play the scenarios with a real controller at this port, instead of the bench's "
+                  "LINE=PORT: play the scenarios on a real controller at this port, instead of the bench's "
                   "devices on that line; can be given for several lines. PORT is as for photograph")
       ->allow_extra_args(false)
       ->check(kNotEmpty);
   add_stage_flags(command, run.on);
-  command.add_flag("--dialogue", run.dialogue,
-                   "With --on: after the scenario's steps, take more from standard input, as lines of JSON");
+  command.add_flag(
+      "--dialogue", run.dialogue,
+      "With --on: after the scenario's steps, read more steps from standard input, as lines of JSON");
   command.add_option("--report", run.report, "Write a report on all scenarios to this file, as HTML")
       ->check(kNotEmpty);
   command
@@ -88,7 +89,7 @@ inline void add_run_flags(CLI::App& command, RunArguments& run) {
   command.add_flag("--lint", run.lint, kLintHelp);
   command.add_option("--coverage", run.coverage, kCoverageHelp)->check(kNotEmpty);
   command.add_option("--coverage-min", run.coverage_min,
-                     "Fail if fewer of the programs' lines have run, in per cent");
+                     "Fail if less than this percentage of the programs' lines has run");
   command.add_option("--device-coverage", run.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
   add_case_flags(command, run);
 }
@@ -110,8 +111,10 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
   command.add_flag(
       "--unguided", hunt.unguided,
       "Draw each course independently, instead of building on courses that reached something new");
-  command.add_flag("--plan", hunt.plan, "Print what may happen as JSON, and play no course");
-  command.add_option("--corpus", hunt.corpus, "Keep such courses in this file, and start from those in it")
+  command.add_flag("--plan", hunt.plan, "Print the possible disturbances as JSON, and play no course");
+  command
+      .add_option("--corpus", hunt.corpus,
+                  "Store courses that reached something new in this file, and start from those in it")
       ->check(kNotEmpty);
   command.add_option("--coverage", hunt.coverage, kCoverageHelp)->check(kNotEmpty);
   command.add_option("--device-coverage", hunt.device_coverage, kDeviceCoverageHelp)->check(kNotEmpty);
@@ -134,7 +137,7 @@ inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
   command.add_flag("--tty-shim", exec.host.tty_shim,
                    "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
   command.add_flag("--host-time", exec.host.host_time,
-                   "Run the command in simulated time as well; implies --tty-shim");
+                   "Run the command in simulated time too; implies --tty-shim");
   command.add_option("--repeat", exec.repeat,
                      "Run it this many times, and compare the recordings (with --host-time)");
   command.add_flag_callback(

@@ -33,7 +33,7 @@ play::Shard shard_of(const RunArguments& arguments) {
   const auto parsed = play::parse_shard(arguments.shard);
   if (!parsed) {
     throw UsageError("--shard: " + understudy::quoted(arguments.shard) +
-                     " is not a part; expected I/N such as 1/4, I up to N");
+                     " is not a shard; expected I/N such as 1/4, with I up to N");
   }
   return *parsed;
 }

@@ -71,7 +71,7 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   device.settings.address = arguments.station;
   if (arguments.station && !device.model->line.station_numbers) {
     throw UsageError("--station: " + std::string(device.model->name) +
-                     " has no station number; expected none");
+                     " has no station number; expected no --station");
   }
   device.settings.modules = arguments.modules.value_or(0);
   if (arguments.modules == 0) throw UsageError("--modules: 0 is too few; expected 1 or more");
@@ -292,7 +292,7 @@ void print_ready(const serve::Daemon& daemon) {
                 place.c_str());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw pty::PortError("standard output cannot be written; expected it to take the `ready` lines");
+    throw pty::PortError("standard output cannot be written; expected a place for the `ready` lines");
   }
 }
 

@@ -77,11 +77,10 @@ class Adapter {
 
   std::string summary() const {
     std::string text = one_line(name_.place) + ": " + std::to_string(bytes_) + " bytes, " +
-                       std::to_string(found_) + " frames of Modbus";
-    if (dropped_ != 0) text += ", " + std::to_string(dropped_) + " bytes of no frame";
+                       std::to_string(found_) + " Modbus frames";
+    if (dropped_ != 0) text += ", " + std::to_string(dropped_) + " bytes outside frames";
     if (found_ == 0 && bytes_ != 0)
-      text += "; if the line does not speak text, check the speed and framing (" + pty::to_string(settings_) +
-              ")";
+      text += "; unless it is a text line, check the speed and framing (" + pty::to_string(settings_) + ")";
     return text;
   }
 
@@ -92,7 +91,7 @@ class Adapter {
       if (name.is_modbus_tcp())
         throw UsageError(
             "tap: " + quoted(port) +
-            ": a gateway does not pass on what others ask; expected a serial port, or a capture of "
+            ": a gateway does not pass on other masters' requests; expected a serial port, or a capture by "
             "tcpdump");
       return name;
     } catch (const box::PortNameError& error) {

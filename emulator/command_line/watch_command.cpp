@@ -138,9 +138,9 @@ int watch(const WatchArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
     throw UsageError("ctl watch: --every: " + understudy::quoted(arguments.every) +
-                     " is not a time; expected 10ms or more");
+                     " is not a valid interval; expected 10ms or more");
   }
-  if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (no end) or more");
+  if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (no limit) or more");
   const std::string path = choose_daemon(arguments.which);
   Shown shown(arguments.names);
   // An error is reported before the terminal is changed: no daemon, or no such name.

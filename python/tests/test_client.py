@@ -433,7 +433,7 @@ def test_a_program_is_debugged(bench):
     bench.delete_break(number)
     assert bench.breaks() == [] and bench.go_on(within="50ms") is None
     bench.delete_break()
-    with pytest.raises(understudy.Refused, match="no routine runs"):
+    with pytest.raises(understudy.Refused, match="no routine is running"):
         bench.step_program("out")
 
 

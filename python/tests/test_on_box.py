@@ -61,7 +61,7 @@ def test_a_refusal_is_told(box):
             real["Aaxis_Pulse"] = "fast"
         with pytest.raises(understudy.NotTellable, match="needs a rig or a person"):
             real.input({"device.DIN_2": "on"})
-        with pytest.raises(understudy.NotTellable, match="'snapshot' needs the truths"):
+        with pytest.raises(understudy.NotTellable, match="'snapshot' needs the internal state"):
             real.snapshot("a")
 
 
@@ -109,7 +109,7 @@ def test_the_plugin_asks_a_real_controller(pytester, box):
     pytest_on = ["-p", "understudy.pytest_plugin", "-rs", f"--understudy-on=line={box.port}"]
     reads = pytester.runpytest_subprocess(*pytest_on)
     reads.assert_outcomes(passed=1, skipped=3, failed=1)
-    reads.stdout.fnmatch_lines(["*it is sent only with --allow-*", "*'snapshot' needs the truths*"])
+    reads.stdout.fnmatch_lines(["*it is sent only with --allow-*", "*'snapshot' needs the internal state*"])
     moves = pytester.runpytest_subprocess(*pytest_on, "--understudy-allow=motion")
     moves.assert_outcomes(passed=2, skipped=2, failed=1)
     assert os.path.exists(box.port)

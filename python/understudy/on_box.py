@@ -82,7 +82,7 @@ class BoxConnection:
     def ask(self, do: str, **fields: Any) -> Dict[str, Any]:
         act = ACTS.get(do)
         if act is None:
-            raise NotTellable(f"{do!r} needs the truths of a simulated controller")
+            raise NotTellable(f"{do!r} needs the internal state of a simulated controller")
         return {"ok": True, **act(self, fields)}
 
     def step(self, step: Dict[str, Any]) -> Dict[str, Any]:

@@ -256,9 +256,9 @@ TEST_F(Compare, RefusesWhatItCannotReadInOneLine) {
   } cases[] = {
       {{"compare", text, "--bench", plain_}, "text.txt:2: 'zz' is not a byte; expected a line"},
       {{"compare", other_station, "--bench", plain_},
-       "all requests are to station 7, which line 'line' of the bench does not have; expected a capture of "
+       "all requests are for station 7, which line 'line' of the bench does not have; expected a capture of "
        "station 1"},
-      {{"compare", text, "--bench", plain_, "--every", "soon"}, "is not a time between requests"},
+      {{"compare", text, "--bench", plain_, "--every", "soon"}, "is not an interval"},
       {{"compare", text, "--bench", plain_, "--format", "xml"}, "is not a format"},
       {{"compare", plain_, "--bench", plain_}, "capture: is a bench; expected a capture"},
       {{"compare", text, text, "--bench", plain_, "--follow"}, "--follow follows one capture"},

@@ -231,7 +231,7 @@ TEST_F(HostCampaign, RefusesWhatDoesNotFit) {
       {nothing, {"no-such-program"}, {}, 127, "exec: no-such-program: cannot be started; expected a program"},
       {nothing, {"true"}, {"--with", "x.yaml"}, 2, "exec: --with: is not for the cases of a scenario"},
       {nothing, {"true"}, {"--nv", "."}, 2, "exec: --nv: is not for the cases of a scenario"},
-      {nothing, {"true"}, {"--timeout", "soon"}, 2, "--timeout: 'soon' is not a time to wait"},
+      {nothing, {"true"}, {"--timeout", "soon"}, 2, "--timeout: 'soon' is not a duration"},
       {nothing, {"true"}, {"--hash"}, 2, "--hash: no two runs in real time are the same"},
   };
   for (const Row& row : rows) {

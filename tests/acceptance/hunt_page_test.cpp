@@ -63,7 +63,7 @@ TEST_F(HuntPage, AFileWithoutAHuntIsRefused) {
                 "steps: [ advance: 1ms ]\n");
   const Finished finished = in_shell("understudy hunt plain.yaml");
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_NE(finished.errors.find("plain.yaml: hunt: is missing; expected `hunt:` with what may happen"),
+  EXPECT_NE(finished.errors.find("plain.yaml: hunt: is missing; expected `hunt:` with possible disturbances"),
             std::string::npos)
       << finished.errors;
 }

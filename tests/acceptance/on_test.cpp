@@ -238,7 +238,7 @@ TEST(RunOn, RefusesFlagsThatNeedTruths) {
   const PrivateFolder folder;
   const Finished on = run_on(folder, scenario("  - say: nothing\n"), "/dev/null", {"--lint"});
   EXPECT_EQ(on.exit_code, 2);
-  EXPECT_TRUE(has(on.errors, "--lint: needs the truths of a simulated controller")) << on.errors;
+  EXPECT_TRUE(has(on.errors, "--lint: needs the internal state of a simulated controller")) << on.errors;
 }
 
 TEST(Probe, MeasuresAnOptionByReads) {
@@ -249,7 +249,8 @@ TEST(Probe, MeasuresAnOptionByReads) {
   const Finished probed =
       understudy({"probe", served->port(), "--model", "simple2-r3", "-o", folder / "evidence.json"});
   EXPECT_EQ(probed.exit_code, 0) << probed.output << probed.errors;
-  EXPECT_TRUE(has(probed.output, "measured     box.version_encoding: bcd  (the model's default is another)"))
+  EXPECT_TRUE(
+      has(probed.output, "measured     box.version_encoding: bcd  (the model's default is different)"))
       << probed.output;
   const Finished described = understudy(
       {"describe", "simple2-r3", "choices", "--evidence", folder / "evidence.json", "--format", "csv"});

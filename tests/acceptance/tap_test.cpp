@@ -121,12 +121,12 @@ TEST(Tap, WritesWhatOneOrTwoAdaptersHear) {
       EXPECT_TRUE(tap.only_reads(host.path()));
       for (int i = 0; i < 9; ++i) converse(host, second);
       const std::string summary = tap.end();
-      EXPECT_TRUE(has(summary, std::to_string(is_alone ? 18 : 9) + " frames of Modbus")) << summary;
+      EXPECT_TRUE(has(summary, std::to_string(is_alone ? 18 : 9) + " Modbus frames")) << summary;
       EXPECT_FALSE(host.has_heard_something() || box.has_heard_something());
       const json report = compared(capture, bench_in(folder));
       EXPECT_EQ(report["exchanges"], 9) << report;
       EXPECT_EQ(report["different"], 0) << report;
-      EXPECT_TRUE(has(report["notes"].dump(), "told from the controller by their frames")) << report;
+      EXPECT_TRUE(has(report["notes"].dump(), "were distinguished by their frames")) << report;
     }
   }
 }
@@ -160,7 +160,7 @@ TEST(Tap, SaysWhenItHearsNoFrame) {
   wire.say({0x55, 0x00, 0x55});
   pause();
   const std::string summary = tap.end();
-  EXPECT_TRUE(has(summary, ": 3 bytes, 0 frames of Modbus")) << summary;
+  EXPECT_TRUE(has(summary, ": 3 bytes, 0 Modbus frames")) << summary;
   EXPECT_TRUE(has(summary, "check the speed and framing (9600 8N1)")) << summary;
 }
 
@@ -174,7 +174,7 @@ TEST(Tap, RefusesWhatItCannotDoInOneLine) {
     std::string what;
   } cases[] = {
       {{folder / "none", "-o", to}, 3, "No such file or directory; expected a serial port"},
-      {{"modbus-tcp://127.0.0.1:502", "-o", to}, 2, "a gateway does not pass on what others ask"},
+      {{"modbus-tcp://127.0.0.1:502", "-o", to}, 2, "a gateway does not pass on other masters' requests"},
       {{wire.path() + ",fast", "-o", to}, 2, "'fast' is not a speed"},
       {{wire.path(), "-o", folder / "heard.pcap"}, 2, "expected .pcapng"},
       {{wire.path(), "-o", bench_in(folder)}, 3, "it is a bench; expected a capture to replace"},

@@ -256,7 +256,7 @@ TEST_F(ServedWorkbench, TakesCommandsByNameFromPoll) {
   EXPECT_NE(full.errors.find("poll: STOP: "), std::string::npos) << full.errors;
   EXPECT_EQ(
       run({WORKBENCH_BINARY, "describe", "workbench", "commands"}).output,
-      "workbench has no commands of text; its window takes those that `instructions` lists, such as MOVE "
+      "workbench has no commands of text; its window accepts those that `instructions` lists, such as MOVE "
       "X 1000\n");
 }
 

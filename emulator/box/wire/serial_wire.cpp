@@ -61,7 +61,7 @@ void SerialWire::set_line(const pty::LineSettings& settings) {
   const auto* const speed = std::ranges::find(kSpeeds, settings.baud, &SpeedRow::baud);
   if (speed == kSpeeds.end())
     throw WireError(one_line(path_) + ": " + std::to_string(settings.baud) +
-                    " is not a speed of a serial port; expected one like 9600, 19200 or 115200");
+                    " is not a speed of a serial port; expected one such as 9600, 19200 or 115200");
   termios port{};
   tcgetattr(port_.get(), &port);
   cfmakeraw(&port);

@@ -49,7 +49,7 @@ ReplyTask coverage_message(Daemon& daemon, Json message) {
   const std::size_t only = is_of_one ? require_device(daemon, message) : 0;
   if (is_of_one && daemon.world().device(only).user_program() == nullptr) {
     throw MessageError("device: " + daemon.world().device(only).name() +
-                       " takes no program; expected a device that does");
+                       " runs no programs; expected a device that does");
   }
   Observers& observers = daemon.observers();
   if (flag_or_false(message, "again") || observers.coverage == nullptr) observers.count_lines(daemon.world());

@@ -134,7 +134,7 @@ const Device& require_program(Daemon& daemon, const Json& message) {
   const Device& device = daemon.world().device(require_device(daemon, message));
   require_power(device);
   if (device.user_program() == nullptr)
-    throw MessageError(device.name() + " runs no program; expected a device that does");
+    throw MessageError(device.name() + " runs no programs; expected a device that does");
   return device;
 }
 
@@ -250,7 +250,7 @@ void step_message(Daemon& daemon, const Json& message, const ControlServer::Repl
   });
   if (!begun) {
     debugger.end_step();
-    throw MessageError("within: is beyond the end of simulated time; expected less");
+    throw MessageError("within: is beyond the end of simulated time; expected a shorter time");
   }
 }
 

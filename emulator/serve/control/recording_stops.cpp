@@ -40,7 +40,8 @@ SimTime RecordingStops::now() const { return daemon_.world().now(); }
 Json RecordingStops::resume(const Json& message) {
   require_keys(message, {"do", "within", "back"});
   if (is_way_back(message)) {
-    if (message.contains("within")) throw MessageError("within: cannot be combined with back; expected one");
+    if (message.contains("within"))
+      throw MessageError("within: cannot be combined with back; expected one of them");
     go_back([this](SimTime until) { return play_on(until); }, [](const world::DebugStop&) { return true; });
     return time_and_stop(daemon_);
   }
@@ -74,7 +75,7 @@ Json RecordingStops::step(const Json& message) {
   const std::size_t depth = stop != nullptr ? stop->depth : SIZE_MAX;
   const world::StepKind kind = wanted.kind;
   if (kind == world::StepKind::out && depth == 0)
-    throw MessageError("no routine runs; expected a program that was called");
+    throw MessageError("no routine is running; expected a step within a called routine");
   if (kind != world::StepKind::instruction) wanted.kind = world::StepKind::line;
   debugger().begin_step(wanted.kind, wanted.device, wanted.program);  // throws if there is no such program
   debugger().end_step();

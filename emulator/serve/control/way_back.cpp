@@ -63,7 +63,7 @@ void require_way_back(const Daemon& daemon) {
         "back: nothing has happened since debugging began; expected `continue` or `step` first");
   if (!course->is_whole())
     throw MessageError("back: more than " + std::to_string(world::RecentCourse::kMaxEvents) +
-                       " events have come since debugging began; expected a recording");
+                       " events have occurred since debugging began; expected a recording");
 }
 
 std::optional<world::DebugStop> stop_of(const world::Debugger& debugger) {

@@ -28,7 +28,9 @@ void require_host_library(const std::string& path) {
     refuse(std::string("cannot be read: ") + std::strerror(errno) + "; expected a file that hosts may read");
   struct statvfs system {};
   if (::fstatvfs(file.get(), &system) == 0 && (system.f_flag & ST_NOEXEC) != 0)
-    refuse("is where no program may run (noexec), so no host can load it; expected another file system");
+    refuse(
+        "is on a file system where no program may run (noexec), so no host can load it; expected another "
+        "one");
   std::string text;
   if (S_ISREG(status.st_mode)) {
     std::ifstream stream(path, std::ios::binary);

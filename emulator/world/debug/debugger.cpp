@@ -43,7 +43,7 @@ void require_word(const std::string& word, const std::vector<std::string>& known
 void require_program(const Device& device) {
   if (!device.powered()) throw BreakpointError(device.name() + " has no power; expected it to be on");
   if (device.user_program() == nullptr || device.model().language == nullptr)
-    throw BreakpointError(device.name() + " runs no program; expected a device that does");
+    throw BreakpointError(device.name() + " runs no programs; expected a device that does");
 }
 
 BreakpointError unknown_program(const std::string& name, const ProgramLines& lines) {
@@ -266,7 +266,7 @@ void Debugger::begin_at(Step& step, const std::string& program) const {
     step.depth = place ? place->callers.size() : 0;
   }
   if (step.kind == StepKind::out && step.depth == 0)
-    throw BreakpointError("no routine runs; expected a program that was called");
+    throw BreakpointError("no routine is running; expected a step within a called routine");
 }
 
 void Debugger::end_step() {

@@ -241,7 +241,7 @@ def case_language(model):
         assert not adapter.events, adapter.events
         adapter.ask("stepOut", threadId=number)
         stopped = adapter.event("stopped")
-        assert "no routine runs" in stopped["text"], stopped
+        assert "no routine is running" in stopped["text"], stopped
         adapter.ask("disconnect")
         assert served.ctl("break") == "", "its breakpoints are gone"
 

@@ -214,7 +214,7 @@ for (const model of Object.keys(LANGUAGES)) {
     assert.ok(parseFloat(await value(dc, "time")) < parseFloat(at_behind));
     await stops_at(dc, dc.stepInRequest(thread), "step", program, behind);
     assert.equal(await value(dc, "time"), at_behind);
-    assert.match((await stop_after(dc, dc.stepOutRequest(thread))).text, /no routine runs/);
+    assert.match((await stop_after(dc, dc.stepOutRequest(thread))).text, /no routine is running/);
     await dc.disconnectRequest();
   });
 

@@ -154,7 +154,7 @@ TEST(DebugMessages, RefuseWhatMakesNoSense) {
   EXPECT_EQ(debugged.error_of({{"do", "step"}, {"what", "back"}, {"device", "feeder"}}),
             "what: 'back' is unknown; expected instruction, line, over, out or stand");
   EXPECT_EQ(debugged.error_of({{"do", "step"}, {"what", "out"}, {"device", "feeder"}}),
-            "no routine runs; expected a program that was called");
+            "no routine is running; expected a step within a called routine");
   EXPECT_EQ(debugged.error_of({{"do", "continue"}}),
             "'within' is missing, and the speed is manual; expected a duration");
   EXPECT_NE(debugged.error_of({{"do", "continue"}, {"within", 5}}), "");
