@@ -21,7 +21,7 @@ using emulator::world::World;
 void set(emulator::Device& device, std::string_view name, emulator::Value value) {
   const auto found = device.register_bank()->find(name);
   if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
-    throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
+    throw CannotRun(std::string(name) + " does not accept " + std::to_string(value));
   }
 }
 

@@ -135,7 +135,7 @@ emulator::world::Bench bench_of(std::size_t devices, Activity activity) {
 void set(emulator::Device& device, std::string_view name, emulator::Value value) {
   const auto found = device.register_bank()->find(name);
   if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
-    throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
+    throw CannotRun(std::string(name) + " does not accept " + std::to_string(value));
   }
 }
 
@@ -151,7 +151,7 @@ void load(emulator::Device& device, const std::string& text) {
     if (emulator::write_words(*device.register_bank(), emulator::Table::holding,
                               static_cast<std::uint16_t>(kFirstCell + first),
                               std::span(cells).subspan(first, count)) != emulator::Refusal::none) {
-      throw CannotRun("the device does not take its program");
+      throw CannotRun("the device does not accept its program");
     }
   }
   set(device, "PROG_MAIN_RunTime_START", 0);

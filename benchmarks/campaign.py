@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Measures what a case of a campaign costs, and whether memory use grows with the number of cases.
+"""Measures the cost of a case in a campaign, and whether memory use grows with the number of cases.
 
 benchmarks/campaign.py UNDERSTUDY [CASES [ROUNDS]]
 
-Plays CASES (5000) of examples/campaign on two threads, with and without files of results, by turns.
+Plays CASES (5000) of examples/campaign on two threads, alternately with and without result files.
 """
 import os
 import pathlib
@@ -14,7 +14,7 @@ import tempfile
 
 SCENARIO = pathlib.Path(__file__).resolve().parents[1] / "examples/campaign/move.yaml"
 ALL = 100_000
-PROCESSOR_S = 240.0  # for all cases: two minutes on two cores
+PROCESSOR_S = 240.0  # seconds for all cases: two minutes on two cores
 RESULTS_BAR = 1.25
 MEMORY_BAR = 1.25
 
@@ -47,15 +47,15 @@ def main(understudy, cases=5000, rounds=5):
             f"a case: {each_ms:.3f} ms of processor time with results as lines, in a database and as JUnit;"
             f" {ALL} of them {each_ms * ALL / 1000:.1f} s, {each_ms * ALL / 2000:.1f} s on two free cores"
         )
-        verdict(f"{ALL} cases, in {PROCESSOR_S:.0f} s of processor time", each_ms * ALL / 1000 / PROCESSOR_S, 1)
+        verdict(f"{ALL} cases, relative to {PROCESSOR_S:.0f} s of processor time", each_ms * ALL / 1000 / PROCESSOR_S, 1)
         verdict(
-            "a case with results, against one without",
+            "a case with results, relative to one without",
             statistics.median(b / a for a, b in zip(plain, with_results)),
             RESULTS_BAR,
         )
         few, many = (play(understudy, count, *results)[1] for count in (cases // 10, 4 * cases))
         print(f"memory: {few} KiB for {cases // 10} cases, {many} KiB for {4 * cases}")
-        verdict("memory of forty times the cases", many / few, MEMORY_BAR)
+        verdict("memory for forty times as many cases", many / few, MEMORY_BAR)
 
 
 if __name__ == "__main__":

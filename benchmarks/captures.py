@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures `compare`: an hour of a line, and the memory that a much longer capture takes.
+"""Measures `compare`: an hour of a line's capture, and the memory that a much longer capture needs.
 
 usage: captures.py PROGRAM [HOURS]
 """

@@ -79,9 +79,9 @@ void compare_with_one(World& all, Tick& done) {
     in_crowd.push_back(tick_ns(all, done, kTicksOfAll));
     ratios.push_back(in_crowd.back() / alone.back());
   }
-  std::printf("a device's tick: %.1f ns alone, %.1f ns among %zu; median of %d rounds of each in turns\n",
+  std::printf("a device's tick: %.1f ns alone, %.1f ns among %zu; medians of %d alternating rounds\n",
               median(alone), median(in_crowd), kDevices, kRounds);
-  print_verdict("a device's tick among 1000, against its own alone", median(ratios), kCrowdBar);
+  print_verdict("a device's tick among 1000, relative to its tick alone", median(ratios), kCrowdBar);
 }
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
@@ -101,7 +101,7 @@ void run(int seconds) {
   const auto run_tick = [&] {
     const std::uint64_t run_before = world->ticks_run();
     world->advance_to(time_of(++tick));
-    if (world->ticks_run() == run_before) throw CannotRun("a crowd that is not busy");
+    if (world->ticks_run() == run_before) throw CannotRun("the devices are not busy");
   };
 
   compare_with_one(*world, tick);
@@ -127,12 +127,12 @@ void run(int seconds) {
   std::printf("%zu busy devices in one world, %d seconds of each loop; load average %.1f\n", kDevices,
               seconds, load[0]);
   std::printf("%-28s %10s %10s %10s %10s\n", "microseconds", "p50", "p99", "p99.9", "max");
-  print_row("a tick's work, at a stretch", unpaced_us);
+  print_row("a tick's work, back to back", unpaced_us);
   print_row("a tick's work, at 1 kHz", ours.work_us);
   print_row("lateness of a bare loop", bare.lateness_us);
   print_row("lateness with the devices", ours.lateness_us);
-  print_verdict("p99.9 of lateness against the bare loop's, median of the pairs of seconds", median(ratios),
-                kLatenessBar);
+  print_verdict("p99.9 of lateness, relative to the bare loop's, median over pairs of seconds",
+                median(ratios), kLatenessBar);
 }
 
 }  // namespace

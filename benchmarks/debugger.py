@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""debugger.py EXECUTABLE [ROUNDS]: the answers of the debug adapter while 15 stations run in real time, replies that a host
-loses to logpoints, and what an hour of a program costs before and after there were breakpoints.
+"""Measures how fast the debug adapter answers while 15 stations run in real time, how many replies a host loses because
+of logpoints, and the cost of an hour of a program before and after it had breakpoints.
+
+usage: debugger.py EXECUTABLE [ROUNDS]
 """
 import json
 import os
@@ -13,8 +15,8 @@ import tempfile
 import time
 
 STATIONS = 15
-ANSWER_MS = 5  # at most, 99 of 100
-COST = 1.01  # at most, of the time without breakpoints: median of the pairs
+ANSWER_MS = 5  # the limit for 99 of 100 answers
+COST = 1.01  # the limit, relative to the time without breakpoints: median over the pairs
 READING_S = 5
 REPLY_S = 1
 
@@ -98,7 +100,7 @@ def judge(what, value, limit, unit=""):
 
 
 def answers(executable, folder):
-    """Times each request. The bench runs on meanwhile, in real time."""
+    """Times each request while the bench runs in real time."""
     with Served(executable, folder, STATIONS) as served:
         adapter = Adapter(executable)
         adapter.ask("initialize", adapterID="understudy")
@@ -132,7 +134,7 @@ def crc(frame):
 
 
 def replies(executable, folder):
-    """A host reads as fast as it can, while a logpoint prints at every pass of a program."""
+    """Counts the replies that a host loses. It reads as fast as it can while a logpoint prints at every pass of a program."""
     with Served(executable, folder, 1) as served:
         served.ask("break", device="m1", line=1, log="now {m1.PROG_VAR0}")
         port = os.open(served.port, os.O_RDWR | os.O_NOCTTY)
@@ -159,7 +161,8 @@ def replies(executable, folder):
 
 
 def cost(executable, folder, rounds):
-    """An hour of a program: before any breakpoint, and after one was set and deleted; in turns, in two daemons."""
+    """Compares an hour of a program before any breakpoint with one after a breakpoint was set and deleted, alternately in two
+    daemons."""
     with Served(executable, folder, 1, "--speed", "manual") as plain:
         other = os.path.join(folder, "other")
         os.mkdir(other)
@@ -176,7 +179,7 @@ def cost(executable, folder, rounds):
                     times[served] = served.processor_seconds() - begin
                 ratios.append(times[debugged] / times[plain])
             print(f"an hour of a program: {times[plain]:.2f} s of processor time")
-            judge("after breakpoints, to without", statistics.median(ratios), COST)
+            judge("an hour after breakpoints were deleted, relative to one without", statistics.median(ratios), COST)
 
 
 def main(executable, rounds="9"):

@@ -110,7 +110,7 @@ void print_hour(std::span<const double> bare) {
   std::printf("a move of an hour: %.0f us, %llu of %lld ticks run one by one\n",
               all_ns / static_cast<double>(bare.size()) * static_cast<double>(kHour) / 1000,
               static_cast<unsigned long long>(last.ticks_run), static_cast<long long>(kHour));
-  print_verdict("a move of an hour in bare loops for each tick", median(ratios), kHourBar);
+  print_verdict("a move of an hour, per tick, relative to a bare loop", median(ratios), kHourBar);
 }
 
 void run() {
@@ -124,9 +124,9 @@ void run() {
     bare.push_back(bare_tick());
     for (const auto& contestant : all) contestant->run_round();
   }
-  std::printf("a world of one device, both axes and a program at work; median of %d rounds of %lld ticks\n",
+  std::printf("a world of one device, both axes and a program busy; medians of %d rounds of %lld ticks\n",
               kRounds, static_cast<long long>(kTicks));
-  std::printf("%-24s %10s %12s %12s %18s\n", "", "ns a tick", "bare loops", "ticks run", "simulated s/s");
+  std::printf("%-24s %10s %12s %12s %18s\n", "", "ns/tick", "x bare loop", "ticks run", "simulated s/s");
   std::printf("%-24s %10.2f\n", "bare loop", median(bare));
   double busy = 0;  // bare loops
   for (const auto& contestant : all) {
@@ -138,7 +138,8 @@ void run() {
     if (contestant->activity() == Activity::positions) busy = median(ratios);
   }
   print_hour(bare);
-  print_verdict("a tick in bare loops, both axes in position moves and a program running", busy, kTickBar);
+  print_verdict("a tick, both axes in position moves and a program running, relative to a bare loop", busy,
+                kTickBar);
 }
 
 }  // namespace

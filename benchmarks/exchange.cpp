@@ -83,7 +83,7 @@ class Contestant {
     host_.exchange(request_, reply_);
     alarm(0);
     const bool is_right = std::equal(reply_.begin(), reply_.begin() + 3, question.reply.begin());
-    if (!is_right || !pty::rtu_crc_ok(reply_)) throw CannotRun("a wrong reply came from " + port);
+    if (!is_right || !pty::rtu_crc_ok(reply_)) throw CannotRun("wrong reply from " + port);
     process_.stop();
   }
   ~Contestant() { process_.carry_on(); }
@@ -155,7 +155,7 @@ void run(const Question& question, const Processors& processors, const std::stri
   const Contestant& floor = *sides[echo];
   std::printf("%s of %s: %d rounds of %d exchanges each; load average %.1f\n", question.name, question.model,
               rounds, kExchanges, load[0]);
-  std::printf("microseconds, and in brackets the ratio to echo, the median over the rounds\n");
+  std::printf("microseconds; in parentheses, the ratio to echo (median over the rounds)\n");
   std::printf("%-12s %18s %18s %18s %12s %12s\n", "", "p50 of a block", "p99 of a block", "processor/request",
               "p50 of all", "p99 of all");
   for (std::size_t i = 0; i < kSides; ++i) {
@@ -169,10 +169,10 @@ void run(const Question& question, const Processors& processors, const std::stri
   const auto judge = [&](const std::string& what, double found, double bar) {
     print_verdict((question.name + (": " + what)).c_str(), found, bar);
   };
-  judge("p50 against echo", ratio(own.p50, floor.p50), 1.10);
-  judge("p99 against echo", ratio(own.p99, floor.p99), 1.25);
-  judge("processor time of a request against libmodbus", ratio(own.processor, sides[libmodbus]->processor),
-        1.00);
+  judge("p50 relative to echo", ratio(own.p50, floor.p50), 1.10);
+  judge("p99 relative to echo", ratio(own.p99, floor.p99), 1.25);
+  judge("processor time per request, relative to libmodbus",
+        ratio(own.processor, sides[libmodbus]->processor), 1.00);
 }
 
 void run(const std::string& executable, int rounds) {

@@ -29,7 +29,7 @@ Nanoseconds Host::exchange(std::span<const std::uint8_t> request, std::span<std:
   }
   for (std::size_t filled = 0; filled < reply.size();) {
     const ssize_t size = read(descriptor_, reply.data() + filled, reply.size() - filled);
-    if (size <= 0) throw CannotRun("a reply did not come");
+    if (size <= 0) throw CannotRun("a reply did not arrive");
     filled += static_cast<std::size_t>(size);
   }
   return now() - start;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures hosts in simulated time (exec --host-time): the cost of a wait, a host that polls every 20 ms, a campaign
-of hosts that run 10 s each; and that `exec` without it is as fast as `serve`, which knows nothing of simulated hosts.
+of hosts that run 10 s each; and that `exec` without it is as fast as `serve`, which has no support for simulated hosts.
 
 benchmarks/host_time.py UNDERSTUDY [WAITS]
 
-Needs a C compiler and libmodbus. The figures are those of an idle machine: run it alone.
+Needs a C compiler and libmodbus. The limits are for an idle machine: run it alone.
 """
 import os
 import statistics
@@ -118,7 +118,7 @@ def main(understudy, waits=20000):
         subprocess.run([understudy, "exec", f"{folder}/campaign.yaml", "--host-time", "--jobs", "2", "--", f"{folder}/host",
                         "100", "100", "1"], stdout=subprocess.DEVNULL, check=True)
         a_minute = 60 * (waits // 40) / (time.monotonic() - begin)
-        verdict(f"runs of 10 s with 100 polls: {a_minute:.0f} a minute", a_minute >= RUNS_A_MINUTE, f"at least {RUNS_A_MINUTE}")
+        verdict(f"runs of 10 s with 100 polls: {a_minute:.0f} per minute", a_minute >= RUNS_A_MINUTE, f"at least {RUNS_A_MINUTE}")
         pairs = [(with_exec(understudy, folder, waits), with_serve(understudy, folder, waits)) for _ in range(ROUNDS)]
         without = statistics.median(one / other for one, other in pairs)
         verdict(f"an exchange with exec in real time: {without:.3f} times one with serve, {1e6 * pairs[0][0] / waits:.0f} us",

@@ -5,8 +5,8 @@
     benchmarks/hunts.py BUILD_FOLDER --rate 20000
 
 Each fault is hunted with each seed, with guidance and without, until it is found. Then its mended twin is hunted for a
-number of courses, with seed 0. Prints the table of docs/hunt.md. With --rate, it measures how long courses of one
-simulated second take, and as many cases of a campaign that do the same.
+number of courses, with seed 0. Prints the table of docs/hunt.md. With --rate, measures how long courses of one simulated
+second take, and as many cases of a campaign that does the same.
 """
 
 import argparse
@@ -51,7 +51,7 @@ class Fault:
 
 
 def hunt(build, fault, kind, flags, limit=None):
-    """Hunts until something is found, or to the end. Returns seconds, course and text of the finding, or None."""
+    """Hunts until something is found, or until the hunt ends. Returns its seconds, course and text, or None."""
     with tempfile.TemporaryDirectory() as folder:
         scenario, command = fault.of_kind(kind, folder)
         words = [str(build / "understudy"), "hunt"] + scenario + flags + ["--found", folder] + command
@@ -86,7 +86,7 @@ def middle(values):
     return statistics.median(values) if values else float("nan")
 
 
-# A second of a controller with a program, and something that happens in it.
+# A second of a controller with a program, and a disturbance in that second.
 RATE = """understudy: 1
 name: a second
 bench: {{ lines: {{ rs485: {{ stations: [ {{ name: feeder, model: simple2-r3 }} ] }} }} }}
@@ -125,7 +125,7 @@ def measure_rate(build, courses):
             subprocess.run([build / "understudy", *words], check=True, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL)
             seconds = time.monotonic() - begin
-            print(f"{name}: {courses} courses in {seconds:.1f} s, {courses / seconds * 60:.0f} a minute")
+            print(f"{name}: {courses} courses in {seconds:.1f} s, {courses / seconds * 60:.0f} per minute")
 
 
 def main():
@@ -137,7 +137,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", nargs="*", default=[])
     parser.add_argument("--guidance", choices=["both", "guided", "unguided"], default="both")
-    parser.add_argument("--rate", type=int, help="measure so many courses")
+    parser.add_argument("--rate", type=int, help="measure this many courses")
     given = parser.parse_args()
     if given.rate:
         return measure_rate(given.build, given.rate)

@@ -57,9 +57,10 @@ void run(const std::string& executable, int seconds) {
   const Host host(server.port());
   const Shares silent = measure("a silent host", server.process(), timer_loop, seconds);
   server.start_long_move();
-  measure("a silent host, an axis moves", server.process(), timer_loop, seconds);
-  print_verdict("idle without a host, against the timer loop", closed.understudy / closed.timer_loop, kBar);
-  print_verdict("idle with a silent host, against the timer loop", silent.understudy / silent.timer_loop,
+  measure("a silent host, a moving axis", server.process(), timer_loop, seconds);
+  print_verdict("idle without a host, relative to the timer loop", closed.understudy / closed.timer_loop,
+                kBar);
+  print_verdict("idle with a silent host, relative to the timer loop", silent.understudy / silent.timer_loop,
                 kBar);
 }
 

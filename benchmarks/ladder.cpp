@@ -93,9 +93,9 @@ int run() {
     each.push_back(ns);
     ratios.push_back(ns / bare);
   }
-  std::printf("a scan of %zu mixed steps, inputs changing: %.2f ns a step, %.1f us in all\n", steps,
+  std::printf("a scan of %zu mixed steps, changing inputs: %.2f ns per step, %.1f us in total\n", steps,
               median(each), median(each) * static_cast<double>(steps) / 1000);
-  print_verdict("a step, in steps that only load and combine a cell", median(ratios), 4.0);
+  print_verdict("a step, relative to one that only loads and combines a cell", median(ratios), 4.0);
   return 0;
 }
 

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""lines.py EXECUTABLE [SECONDS]: benches of 1, 10, 100 and 1,000 lines with a device each, with at most 4,096 files open:
-the time until all are ready, memory, processor time at rest, and a request to each of at most twenty drawn lines.
+"""Measures benches of 1, 10, 100 and 1,000 lines with a device each and at most 4,096 open files: the time until all are
+ready, memory, processor time at rest, and a request to each of at most twenty randomly chosen lines.
+
+usage: lines.py EXECUTABLE [SECONDS]
 """
 import os
 import random
@@ -11,8 +13,8 @@ import tempfile
 import time
 
 FILES = 4096
-MEMORY_PER_LINE_KB = 40  # at most, between 1 and 1,000 lines
-AT_REST = 0.001  # of a processor, at most, with 1,000 lines
+MEMORY_PER_LINE_KB = 40  # the limit, between 1 and 1,000 lines
+AT_REST = 0.001  # the limit with 1,000 lines, as a share of a processor
 
 
 def bench_of(lines):

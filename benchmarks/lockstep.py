@@ -1,6 +1,6 @@
-"""Measures what a step of 1 ms in lockstep costs from Python:
+"""Measures the cost of a step of 1 ms in lockstep from Python.
 
-Prints the median of twenty rounds in microseconds; `limit` is what it may cost.
+Prints the median of twenty rounds in microseconds; `limit` is the highest acceptable cost.
 """
 import statistics
 import time

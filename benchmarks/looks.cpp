@@ -111,7 +111,7 @@ void run() {
   Daemon daemon(bench, options, [](const std::string&) {});
   const double slice_us =
       std::chrono::duration<double, std::micro>(emulator::serve::EventLoop::kLaterSlice).count();
-  std::printf("%-46s %9s %9s %9s %9s %8s\n", "", "p50 us", "p99 us", "worst us", "whole us", "bytes");
+  std::printf("%-46s %9s %9s %9s %9s %8s\n", "", "p50 us", "p99 us", "max us", "total us", "bytes");
   double longest = 0;
   const auto judge = [&](const std::string& what, const std::string& message) {
     const Cost cost = cost_of(daemon, message);
@@ -120,7 +120,7 @@ void run() {
                 percentile(cost.longest_us, 0.99), percentile(cost.longest_us, 1.0), median(cost.all_us),
                 cost.bytes);
   };
-  judge("look, 120 names spelt out", R"({"do":"look","names":)" + names_of_a_page() + "}");
+  judge("look, 120 names in full", R"({"do":"look","names":)" + names_of_a_page() + "}");
   judge("look, 120 names by their number", R"({"do":"look","look":1,"frames":0,"events":0})");
   judge("the same with status", R"({"do":"look","look":1,"status":true})");
   judge("status", R"({"do":"status"})");
@@ -140,7 +140,7 @@ void run() {
     judge("get, a page of " + std::string(device), R"({"do":"get",)" + of);
     judge("choices " + std::string(device), R"({"do":"choices",)" + of);
   }
-  print_verdict("the longest piece against the time of a piece", longest / slice_us, kBar);
+  print_verdict("the longest piece, relative to the time limit of a piece", longest / slice_us, kBar);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ void planning(bool short_moves) {
       ratios.push_back(samples.back() / bare_ns);
     }
     std::printf("%-36s %10.1f\n", family.name, median(samples));
-    print_verdict("  in bare ticks", median(ratios), family.bar);
+    print_verdict("  relative to a bare tick", median(ratios), family.bar);
   }
 }
 
@@ -183,7 +183,7 @@ void ticking() {
       ratios.push_back(ours.back() / bare.back());
     }
     std::printf("%8zu %12.2f %12.2f %24.2f\n", axes, median(bare), median(ours), median(watched));
-    print_verdict("  an axis's tick, in bare ticks", median(ratios), 3);
+    print_verdict("  an axis's tick, relative to a bare tick", median(ratios), 3);
   }
 }
 
@@ -255,7 +255,7 @@ void simulated_time() {
     }
   });
   keep(pulses);
-  std::printf("\nfour axes to and fro: %.0f simulated seconds a second\n",
+  std::printf("\nfour axes back and forth: %.0f simulated seconds per second\n",
               static_cast<double>(kSimulated) / kTicksPerSecond / wall_s);
 }
 

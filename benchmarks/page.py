@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures what the live page costs a bench of fifteen stations, and how soon it reports a change.
+"""Measures the cost of the live page for a bench of fifteen stations, and how soon it reports a change.
 
 usage: page.py UNDERSTUDY [ROUNDS [SECONDS]]
 
 A bench runs and a host talks to it all the time, alternately with and without a page and a browser that watches
-everything, each time with a separate daemon. Prints ratios: the daemon's processor time, the time of a host's
-exchange and the daemon's own lateness with the page against without it, and how long it takes from before a register is
-written to its event at the browser.
+everything, each time with a separate daemon. Prints ratios between runs with and without the page: the daemon's
+processor time, the time of a host's exchange, and the daemon's lateness. Also prints the time from before a register is
+written until its event arrives at the browser.
 """
 import base64
 import json
@@ -222,7 +222,7 @@ def main():
     time.sleep(0.5)
     delays, lost = [], 0
     for value in range(1000, 1100):
-        begin = time.monotonic()  # before the exchange, in which the register changes
+        begin = time.monotonic()  # before the exchange that changes the register
         host.exchange(struct.pack(">BBHH", 2, 6, 0x8000, value), 8)
         at = visit.time_of(value, begin + 2)
         if at is None:
@@ -237,17 +237,17 @@ def main():
         print(f"{what:44} {with_it:9.3f} {without:9.3f} {with_it / without if without else float('nan'):7.3f}")
 
     print(f"{'':44} {'with':>9} {'without':>9} {'ratio':>7}")
-    line("daemon's processor time, % of one", statistics.median(shares[True]), statistics.median(shares[False]))
+    line("daemon's time, % of one processor", statistics.median(shares[True]), statistics.median(shares[False]))
     for name, rank in (("median", 0.5), ("99th percentile", 0.99)):
         at = {works: sorted(all_)[int(rank * len(all_))] * 1e6 for works, all_ in exchanges.items()}
         line(f"an exchange, {name}, us", at[True], at[False])
     for name, rank in (("median", 0), ("99th percentile", 1), ("worst", 2)):
         line(f"lateness of ticks, {name}, us", *(statistics.median(half[rank] for half in late[works]) for works in (True, False)))
-    print(f"{looks} looks at the browser")
+    print(f"{looks} updates at the browser")
     # A change that was never reported counts as later than all others.
     ranked = sorted(delays) + [float("inf")] * lost
     print(f"change to event at the browser: median {ranked[len(ranked) // 2] * 1000:.1f} ms, 99th percentile "
-          f"{ranked[int(len(ranked) * 0.99)] * 1000:.1f} ms, of {len(ranked)}, {lost} never told (bar: median below 50 ms)")
+          f"{ranked[int(len(ranked) * 0.99)] * 1000:.1f} ms, of {len(ranked)}, {lost} never reported (bar: median below 50 ms)")
     if lost:
         print("NOT MET: each change has an event")
 

@@ -101,16 +101,17 @@ int main() {
   const double without = snapshot(false);
   const double with = snapshot(true);
   std::printf("snapshot: %.1f us, with 700 KB of files %.1f us\n", without, with);
-  print_verdict("snapshot with 700 KB of files against 100 us", with / 100, 1.00);
+  print_verdict("snapshot with 700 KB of files, relative to 100 us", with / 100, 1.00);
   const Handing of_register = handing(false);
   const Handing of_file = handing(true);
-  std::printf("handing a memory over: %.1f us, after a change of a file %.1f us; its file's text: %.1f us\n",
-              of_register.over_us, of_file.over_us, of_register.image_us);
-  print_verdict("handing over against making the text", of_file.over_us / of_register.image_us, 0.10);
+  std::printf(
+      "passing a memory to the writer: %.1f us, after a change of a file %.1f us; making its text: %.1f us\n",
+      of_register.over_us, of_file.over_us, of_register.image_us);
+  print_verdict("passing it on, relative to making the text", of_file.over_us / of_register.image_us, 0.10);
   const double one = reading(1);
   const double two = reading(2);
   const double four = reading(4);
   std::printf("reading an image: 1 MB %.1f ms, 2 MB %.1f ms, 4 MB %.1f ms\n", one / 1000, two / 1000,
               four / 1000);
-  print_verdict("4 MB against four times 1 MB", four / (4 * one), 1.50);
+  print_verdict("4 MB, relative to four times 1 MB", four / (4 * one), 1.50);
 }

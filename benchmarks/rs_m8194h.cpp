@@ -97,7 +97,7 @@ std::unique_ptr<World> make_world(std::size_t devices, const std::string& progra
 /// Throws if the world does not do the work that should be measured.
 void expect_busy(World& world, emulator::Value driving) {
   for (std::size_t d = 0; d < world.device_count(); ++d) {
-    if (get(world.device(d), "DRIVING_AXIS") != driving) throw CannotRun("axes stand that should move");
+    if (get(world.device(d), "DRIVING_AXIS") != driving) throw CannotRun("axes are at rest that should move");
   }
 }
 
@@ -131,12 +131,13 @@ void measure_ticks() {
   expect_busy(*stream, kThreeAxes);
   std::printf("a tick: bare %.1f ns, moves and a macro %.0f ns, among %zu %.0f ns, a stream %.0f ns\n",
               median(bare), median(of_moves), kCrowd, median(in_crowd), median(of_stream));
-  print_verdict("four axes in moves and a macro, in bare loops", median(moves_in_bare), kMovesBar);
-  print_verdict("a stream of three axes, two actions, in bare loops", median(stream_in_bare), kStreamBar);
-  print_verdict("a device's tick among 1,000, against its own alone", median(crowd_ratios), kCrowdBar);
+  print_verdict("four axes in moves and a macro, relative to a bare loop", median(moves_in_bare), kMovesBar);
+  print_verdict("a stream of three axes, two actions, relative to a bare loop", median(stream_in_bare),
+                kStreamBar);
+  print_verdict("a device's tick among 1,000, relative to its tick alone", median(crowd_ratios), kCrowdBar);
   const double simulated = 1e6 / median(of_moves);  // a tick is a millisecond
-  std::printf("busy: %.0f simulated seconds a second\n", simulated);
-  print_verdict("3,000 simulated seconds a second against those", kBusyBar / simulated, 1.00);
+  std::printf("busy: %.0f simulated seconds per second\n", simulated);
+  print_verdict("3,000 simulated seconds per second, relative to that rate", kBusyBar / simulated, 1.00);
 }
 
 void measure_rest() {
@@ -151,7 +152,7 @@ void measure_rest() {
     ratios.push_back(all_ns.back() / loop_ns);
   }
   std::printf("an hour at rest: %.0f us\n", median(all_ns) * static_cast<double>(kHour) / 1000);
-  print_verdict("an hour at rest in bare loops for each tick", median(ratios), kRestBar);
+  print_verdict("an hour at rest, per tick, relative to a bare loop", median(ratios), kRestBar);
 }
 
 /// Returns all macros, each with as many lines as fit.
@@ -179,14 +180,14 @@ void measure_memory() {
   const auto many = make_busy(kMany, kMoves, 15);
   const double each = (heap_bytes() - before) / kMany;
   std::printf("memory of a device: %.0f KiB\n", each / 1024);
-  print_verdict("a device against 256 KiB", each / kBytesBar, 1.00);
+  print_verdict("a device, relative to 256 KiB", each / kBytesBar, 1.00);
   const auto full = make_world(1, full_macros());
   full->advance_to(time_of(kWarmUp));
   const double usual_us = snapshot_us(*first, "VAR500");
   const double full_us = snapshot_us(*full, "VAR500");
   std::printf("snapshot and restore: %.0f us, with every macro full %.0f us\n", usual_us, full_us);
-  print_verdict("snapshot and restore against 150 us", usual_us / kSnapshotBar_us, 1.00);
-  print_verdict("with every macro full against 500 us", full_us / kFullSnapshotBar_us, 1.00);
+  print_verdict("snapshot and restore, relative to 150 us", usual_us / kSnapshotBar_us, 1.00);
+  print_verdict("with every macro full, relative to 500 us", full_us / kFullSnapshotBar_us, 1.00);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ double measure_suite(const std::string& folder) {
               played.simulated_s / each_s);
   print_verdict("the suite's processor time, in 2000ths of its simulated time",
                 each_s / played.simulated_s / kSuiteBar, 1);
-  print_verdict("the suite recorded, against not recorded", median(ratios), kRecordingBar);
+  print_verdict("the suite with recordings, relative to without", median(ratios), kRecordingBar);
   return 1000 * each_s / static_cast<double>(played.scenarios);
 }
 
@@ -136,7 +136,7 @@ void measure_start(const std::string& folder, double scenario_ms) {
         }));
   }
   std::printf("reading, checking and starting a scenario: %.3f ms\n", median(starts_ms));
-  print_verdict("starting a scenario, against a whole one of the suite", median(starts_ms) / scenario_ms,
+  print_verdict("starting a scenario, relative to running one of the suite", median(starts_ms) / scenario_ms,
                 kStartBar);
 }
 
@@ -160,7 +160,7 @@ void measure_snapshots() {
       "a snapshot of a busy world of one device: %zu bytes; with its restore %.1f us, making the world "
       "%.1f us\n",
       bytes, median(both_us), median(made_us));
-  print_verdict("a snapshot and its restore, against making the world", median(both_us) / median(made_us),
+  print_verdict("a snapshot and its restore, relative to making the world", median(both_us) / median(made_us),
                 kSnapshotBar);
 }
 

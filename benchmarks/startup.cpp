@@ -46,7 +46,8 @@ void measure(const Start& start, int starts) {
   }
   std::printf("%-24s %8.2f %8.2f   /bin/true %8.2f %8.2f\n", start.name.c_str(), median(ours),
               percentile(ours, 0.9), median(others), percentile(others, 0.9));
-  print_verdict((start.name + " against /bin/true, median of the pairs").c_str(), median(ratios), start.bar);
+  print_verdict((start.name + ", relative to /bin/true, median over the pairs").c_str(), median(ratios),
+                start.bar);
 }
 
 void run(const std::string& executable, int starts) {

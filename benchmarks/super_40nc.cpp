@@ -85,8 +85,8 @@ void measure_ticks() {
   }
   std::printf("a tick, PLC, C on a path of three axes and U in a DRV: %.0f ns alone, %.0f ns among %zu\n",
               median(alone), median(in_crowd), kCrowd);
-  print_verdict("a tick against 1 us", median(alone) / 1000 / kTickBar_us, 1.00);
-  print_verdict("a device's tick among 200, against its own alone", median(ratios), kCrowdBar);
+  print_verdict("a tick, relative to 1 us", median(alone) / 1000 / kTickBar_us, 1.00);
+  print_verdict("a device's tick among 200, relative to its tick alone", median(ratios), kCrowdBar);
 }
 
 void measure_settled() {
@@ -99,8 +99,8 @@ void measure_settled() {
     seconds.push_back(std::chrono::duration<double>(processor_time_here() - before).count());
   }
   const double simulated = static_cast<double>(kHour) / 1000 / median(seconds);
-  std::printf("settled and standing: %.0f simulated seconds a second\n", simulated);
-  print_verdict("20,000 simulated seconds a second against those", kSettledBar / simulated, 1.00);
+  std::printf("settled and at rest: %.0f simulated seconds per second\n", simulated);
+  print_verdict("20,000 simulated seconds per second, relative to that rate", kSettledBar / simulated, 1.00);
 }
 
 /// Fills all path files and recipes.
@@ -140,13 +140,13 @@ void measure_memory() {
   const double of_full = heap_bytes() - before_full;
   std::printf("memory of a device: %.0f KiB, with every file and recipe full %.0f KiB\n", each / 1024,
               of_full / 1024);
-  print_verdict("a device against 512 KiB", each / kBytesBar, 1.00);
-  print_verdict("a full one against 2 MiB", of_full / kFullBytesBar, 1.00);
+  print_verdict("a device, relative to 512 KiB", each / kBytesBar, 1.00);
+  print_verdict("a full device, relative to 2 MiB", of_full / kFullBytesBar, 1.00);
   const double empty_us = snapshot_us(*first, "D1");
   const double full_us = snapshot_us(*full, "D1");
   std::printf("snapshot and restore: %.0f us, full %.0f us\n", empty_us, full_us);
-  print_verdict("snapshot and restore against 200 us", empty_us / kSnapshotBar_us, 1.00);
-  print_verdict("of a full one against 1 ms", full_us / kFullSnapshotBar_us, 1.00);
+  print_verdict("snapshot and restore, relative to 200 us", empty_us / kSnapshotBar_us, 1.00);
+  print_verdict("of a full device, relative to 1 ms", full_us / kFullSnapshotBar_us, 1.00);
 }
 
 }  // namespace

@@ -76,12 +76,12 @@ std::string port_in(const std::string& folder) {
     if (std::filesystem::exists(link)) return link;
     usleep(1000);
   }
-  throw CannotRun(link + " does not come");
+  throw CannotRun(link + " does not appear");
 }
 
 struct Folder {
   Folder() {
-    if (mkdtemp(path.data()) == nullptr) throw CannotRun("no folder is to be had");
+    if (mkdtemp(path.data()) == nullptr) throw CannotRun("a temporary folder cannot be created");
   }
   ~Folder() { std::filesystem::remove_all(path); }
   Folder(const Folder&) = delete;
@@ -101,7 +101,7 @@ double block(const Process& process, const Host& host, const Read& read) {
   alarm(0);
   process.stop();
   if (reply[1] != read.request[1] || reply[2] != read.bytes || !pty::rtu_crc_ok(reply))
-    throw CannotRun(std::string("a wrong reply came to ") + read.what);
+    throw CannotRun(std::string("wrong reply to ") + read.what);
   return static_cast<double>(used.count()) / 1000 / kExchanges;
 }
 
@@ -134,7 +134,7 @@ void run(const Controller& controller, const Processors& processors, int rounds)
     }
     std::printf("%s, %-14s understudy %6.2f, libmodbus %6.2f\n", controller.name, read.what.c_str(),
                 median(own), median(theirs));
-    print_verdict((std::string(controller.name) + ": " + read.what + " against libmodbus").c_str(),
+    print_verdict((std::string(controller.name) + ": " + read.what + ", relative to libmodbus").c_str(),
                   median(ratios), 1.00);
   }
   ours.carry_on();
@@ -147,7 +147,7 @@ void run(int rounds) {
   pin_to(processors.client);
   const emulator::Model* const mill = emulator::find_model(emulator::models::all_models(), "super-40nc");
   if (mill == nullptr) throw CannotRun("there is no super-40nc");
-  std::printf("%d rounds of %d exchanges each; microseconds of processor time a request\n", rounds,
+  std::printf("%d rounds of %d exchanges each; microseconds of processor time per request\n", rounds,
               kExchanges);
   run({"the tests' controller", workbench::model(), {0x1000, 2000}, {0x0064, 125}}, processors, rounds);
   run({"SUPER-40NC", *mill, {2000, 700}, {7200, 125}}, processors, rounds);  // M8000 on, D8100 on

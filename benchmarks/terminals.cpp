@@ -75,7 +75,7 @@ double compare(const char* what, World& with, World& without) {
     times.push_back(is_first ? one : other);
     ratios.push_back(is_first ? one / other : other / one);
   }
-  std::printf("%-24s %8.1f ns a tick with them, %6.3f times that without\n", what, median(times),
+  std::printf("%-24s %8.1f ns per tick with terminals, %6.3f times that without\n", what, median(times),
               median(ratios));
   return median(ratios);
 }
@@ -83,7 +83,7 @@ double compare(const char* what, World& with, World& without) {
 void run() {
   const auto with = make_world(workbench::model());
   const auto without = make_world(model_without_groups());
-  const double ratio = compare("nobody looks on", *with, *without);
+  const double ratio = compare("no observer", *with, *without);
   {
     const auto signals = [](const World& world) { return emulator::world::trace_signals(world, {}); };
     const auto format = [] { return emulator::world::vcd_format([](std::string_view) {}); };
@@ -91,7 +91,7 @@ void run() {
     const emulator::world::Trace of_other(*without, signals(*without), format());
     compare("with a trace", *with, *without);
   }
-  print_verdict("a tick with 320 terminals at rest, against one without them", ratio, kBar);
+  print_verdict("a tick with 320 terminals at rest, relative to one without", ratio, kBar);
 }
 
 }  // namespace

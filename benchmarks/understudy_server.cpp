@@ -9,7 +9,7 @@ namespace understudy::benchmarks {
 
 UnderstudyServer::PrivateFolder::PrivateFolder()
     : path(std::filesystem::temp_directory_path() / "understudy-benchmark-XXXXXX") {
-  if (mkdtemp(path.data()) == nullptr) throw CannotRun(path + ": cannot be made");
+  if (mkdtemp(path.data()) == nullptr) throw CannotRun(path + ": cannot be created");
 }
 
 UnderstudyServer::PrivateFolder::~PrivateFolder() {

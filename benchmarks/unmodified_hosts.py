@@ -4,9 +4,10 @@
 benchmarks/unmodified_hosts.py UNDERSTUDY [NAME...] [--runs 20] [--load 8] [--pause 20]
 
 Each host polls ten times and pauses after each poll. It runs in real time with short pauses, then once in simulated
-time, then several times beside programs that load the machine. It must print the same, have the same recording, and be
-20 times faster than real time. Hosts that are not installed are left out: those in C and C++ need a compiler, libmodbus
-and Qt's SerialBus, those in JavaScript the packages of npm below NODE_PATH, minimalmodbus its folder in PYTHONPATH.
+time, then several times beside programs that load the machine. It must print the same output, have the same recording,
+and be 20 times faster than real time. Hosts that are not installed are left out. Those in C and C++ need a compiler,
+libmodbus and Qt's SerialBus, those in JavaScript need the npm packages below NODE_PATH, and minimalmodbus needs its
+folder in PYTHONPATH.
 """
 import argparse
 import os
@@ -54,7 +55,7 @@ REAL_PAUSE_S = 2
 TIMES_REAL = 20  # at least
 
 PYTHON = ["/usr/bin/python3"]
-# What a host is called, the command, and what must be there: a file, "program NAME" or "module NAME".
+# The host's name, its command, and its requirements: a file, "program NAME" or "module NAME".
 TABLE = {
     "mbpoll": (["sh", "-c", "timeout -s INT $((PAUSE_S * 10)).5 mbpoll -m rtu -b 19200 -P even -a 1 -0 -r 1"
                             " -l ${PAUSE_S}000 $UNDERSTUDY_PORT | grep '^\\[' | uniq -c"], ["program mbpoll"]),
@@ -85,7 +86,7 @@ rm -r $place
 
 
 def build(folder):
-    """Compiles what can be compiled."""
+    """Compiles the hosts that can be compiled here."""
     def make(name, command):
         made = subprocess.run(command, cwd=HOSTS, capture_output=True, text=True, check=False)
         if made.returncode != 0:
@@ -116,7 +117,7 @@ def is_present(need):
 
 
 def run(understudy, bench, flags, command, pause_s):
-    """Returns what it prints with its exit code, its errors, and how long it took."""
+    """Returns the command's output with its exit code, its errors, and how long it took."""
     environment = {**os.environ, "PAUSE_S": str(pause_s)}
     begin = time.monotonic()
     done = subprocess.run([understudy, "exec", bench, "--timeout", "300s", *flags, "--", *command], cwd=HOSTS,
@@ -125,7 +126,7 @@ def run(understudy, bench, flags, command, pause_s):
 
 
 def simulated_s(recording):
-    """The last time in a recording, in seconds."""
+    """Returns the last time in a recording, in seconds."""
     last = 0
     for line in Path(recording).read_text(encoding="utf-8").splitlines()[1:]:
         last = max(last, int(line.split('"t":')[1].split(",")[0]))
@@ -154,7 +155,7 @@ def main():
             words = [word.replace("{build}", folder) for word in words]
             missing = [need for need in needs if not is_present(need.replace("{build}", folder))]
             if missing:
-                print(f"{name}: left out: {missing[0]} is not there", file=sys.stderr)
+                print(f"{name}: left out: {missing[0]} is not installed", file=sys.stderr)
                 continue
             bench = f"{folder}/{'tcp' if 'TCP' in name else 'serial'}.yaml"
             real, _, _ = run(understudy, bench, ["--tty-shim"], words, REAL_PAUSE_S)

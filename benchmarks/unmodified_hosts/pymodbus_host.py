@@ -1,4 +1,4 @@
-"""Polls a register with pymodbus, and asks a station that is not there."""
+"""Polls a register with pymodbus, and sends requests to a station that does not exist."""
 import os
 import time
 

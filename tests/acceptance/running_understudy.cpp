@@ -65,7 +65,7 @@ bool eventually(const std::function<bool()>& holds, Wait patience) {
 
 PrivateFolder::PrivateFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "understudy-acceptance-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be created");
   path_ = name;
 }
 
