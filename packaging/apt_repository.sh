@@ -1,6 +1,6 @@
 #!/bin/sh
-# apt_repository.sh FOLDER SUITE=DEB...: makes a signed repository of apt in FOLDER, with a flat part for each SUITE.
-# UNDERSTUDY_SIGNING_KEY: the key of gpg that signs it; without it a key is made for this repository, and forgotten.
+# apt_repository.sh FOLDER SUITE=DEB...: makes a signed apt repository in FOLDER, with a flat part for each SUITE.
+# UNDERSTUDY_SIGNING_KEY: the gpg key that signs it; without it, a key is made for this repository and then discarded.
 # Its public half is FOLDER/understudy.gpg. Needs dpkg-dev and gpg.
 set -eu
 fail() {
@@ -35,7 +35,7 @@ done
 date=$(date -u -R ${SOURCE_DATE_EPOCH:+-d "@$SOURCE_DATE_EPOCH"})
 for part in "$folder"/*/; do
   suite=$(basename "$part")
-  # apt looks for the names below the address, beside which SUITE/ stands.
+  # apt looks for the names below the repository's address, which contains SUITE/.
   (cd "$folder" && dpkg-scanpackages --multiversion "$suite" 2>/dev/null) >"${part}Packages"
   gzip -9nc "${part}Packages" >"${part}Packages.gz"
   {

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the changelog of fragments: changes/NAME.KIND.md describes one change for users.
+"""Makes the changelog from fragments: changes/NAME.KIND.md describes one change for users.
 
 usage: changelog.py check [--since COMMIT]    are the fragments and CHANGELOG.md well formed?
        changelog.py show                      print the section of the changes that are not released yet
        changelog.py release VERSION [DATE]    write that section into CHANGELOG.md, and remove the fragments
 
-With --since, `check` also demands a fragment that was added or changed after that commit if the product was.
+With --since, `check` also requires a new or changed fragment if the product has changed since that commit.
 CONTRIBUTING.md says how to write a fragment. Prints a line for each fault, and then exits with 1.
 """
 import datetime

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""oci_image.py ARCHIVE [FOLDER]: makes an image for containers of what portable.sh has packed, without a daemon and
-without a network: FOLDER/understudy-VERSION-linux-ARCHITECTURE.oci.tar, which `podman load`, `docker load` and `skopeo
-copy oci-archive:` read. It has the tree in /opt/understudy and the C library of this system, and nothing else, no shell.
-Equal archives on equal systems make equal bytes.
+"""oci_image.py ARCHIVE [FOLDER]: makes a container image from what portable.sh has packed, without a daemon and without
+a network: FOLDER/understudy-VERSION-linux-ARCHITECTURE.oci.tar, which `podman load`, `docker load` and `skopeo copy
+oci-archive:` read. It has the tree in /opt/understudy and the C library of this system, and nothing else, not even a
+shell. Equal archives on equal systems make equal bytes.
 """
 import datetime
 import gzip
@@ -67,7 +67,7 @@ def in_json(value):
 
 
 def c_library(program):
-    """The files of the C library that the program and its own libraries load: path and content."""
+    """Returns path and content of the C library's files that the program and its own libraries load."""
     told = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
     tree = str(pathlib.Path(program).parents[1])
     for path in sorted(set(re.findall(r"(/\S+) \(0x", told))):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""program_wheel.py ARCHIVE [FOLDER]: makes a wheel of what portable.sh has packed, and of the Python client. `pip
-install` then brings the program, its library and scenarios along. It is written into FOLDER (.); its tag is what the
-program needs: the machine, and the oldest C library. Needs what wheel.sh needs.
+"""program_wheel.py ARCHIVE [FOLDER]: makes a wheel from what portable.sh has packed and from the Python client, so that
+`pip install` also installs the program, its library and scenarios. It is written into FOLDER (.). Its tag names the
+machine and the oldest C library that the program needs. Needs the same packages as wheel.sh.
 """
 import base64
 import hashlib

@@ -1,4 +1,4 @@
-"""TextMate grammars of the program languages, made of the instruction tables.
+"""TextMate grammars of the program languages, made from the instruction tables.
 
 An instruction colours its line from itself to the comment, so the operands of an unknown instruction stay plain.
 """
@@ -128,7 +128,7 @@ RS_FLOW = ("FOR", "NEXT", "EXIT_FOR", "IF", "ELSE", "END_IF", "GOTO", "LABEL", "
 
 
 def rs_m8194h(tables):
-    """A macro (MP) and an interrupt macro (ISR) take different commands, and neither takes those of the host."""
+    """A macro (MP) and an interrupt macro (ISR) accept different commands, and neither accepts those of the host."""
     rows = tables.describe("rs-m8194h", "instructions")
     names = {row["mnemonic"] for row in rows}
     flow = {"RSM_MACRO_" + name for name in RS_FLOW} & names

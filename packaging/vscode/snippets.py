@@ -18,7 +18,7 @@ def snippet(prefix, body, description):
 
 
 def by_prefix(snippets):
-    """Returns the snippets as a file has them: each with a name of its own."""
+    """Returns the snippets in the form of their file: each with its own name."""
     named = {}
     for some in snippets:
         name, number = some["prefix"], 1

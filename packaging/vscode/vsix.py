@@ -4,7 +4,7 @@
 usage: vsix.py [FOLDER [UNDERSTUDY]]
 
 The file goes into FOLDER (.). UNDERSTUDY is the program (the installed one), whose version the extension gets. The
-extension contains no code, so a package is a zip archive with two lists of its contents, and needs no module of npm.
+extension contains no code, so a package is a zip archive with two lists of its contents, and needs no npm module.
 Equal input gives equal bytes.
 """
 import json

@@ -1,4 +1,4 @@
-"""Looks for what a process has left behind."""
+"""Finds files and processes that a process has left behind."""
 import os
 import time
 

@@ -1,4 +1,4 @@
-"""The signed repository of apt, asked by apt itself with folders of its own."""
+"""Tests the signed apt repository with apt itself, in separate folders."""
 import pathlib
 import shutil
 import subprocess
@@ -28,7 +28,7 @@ def repository(folder, *parts):
 
 
 class Apt:
-    """apt-get that knows one source."""
+    """An apt-get with a single source."""
 
     def __init__(self, folder, source):
         for part in ("state/lists/partial", "cache/archives/partial", "etc/apt.conf.d", "etc/preferences.d",

@@ -1,4 +1,4 @@
-"""Systems that lack what most have: each says so in one line, or needs nothing of it."""
+"""Tests systems that lack common parts: a missing part is reported in one line, or is not needed."""
 import os
 import pathlib
 import shutil
@@ -12,7 +12,7 @@ SCENARIO = PROJECT / "scenarios/simple2-r3/absolute_positions.yaml"
 
 
 def play(mounts, *words, **environment):
-    """Runs the program in a mount namespace after the mounts, which nobody else sees."""
+    """Runs the program in a mount namespace after the mounts, which no other process sees."""
     inside = f"mount --make-rprivate / && {mounts} && exec \"$0\" \"$@\""
     return subprocess.run(["unshare", "--mount", "sh", "-c", inside, PROGRAM, *words], cwd="/", capture_output=True,
                           text=True, timeout=60, env={**os.environ, **environment})

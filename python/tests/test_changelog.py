@@ -94,4 +94,4 @@ def test_a_change_of_the_product_needs_a_fragment(project, capsys):
 
 def test_what_it_does_not_understand_it_explains(project, capsys):
     assert changelog.main(["relaese"], project) == 2
-    assert capsys.readouterr().err.startswith("Makes the changelog of fragments")
+    assert capsys.readouterr().err.startswith("Makes the changelog from fragments")

@@ -200,7 +200,7 @@ def test_killed_while_it_starts_it_leaves_nothing(folders, after_ms):
     parent.kill()
     parent.wait()
     parent.stdout.close()
-    time.sleep(0.02)  # a shell that was just begun makes its folder first
+    time.sleep(0.02)  # a shell that was just started makes its folder first
     gone(lambda: any(folders.iterdir()) or mentioned(str(folders)))
 
 
@@ -316,7 +316,7 @@ def test_an_interrupted_request_spoils_no_other(bench):
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(KeyboardInterrupt):
-            while True:  # a request is under way nearly always
+            while True:  # a request is in progress nearly always
                 bench.run_until("Cord_A == 1", within="100s")
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
@@ -384,7 +384,7 @@ def test_bits_and_inputs_may_be_true(bench):
 
 
 class Number:
-    """A number like numpy's, which JSON does not know."""
+    """A number like numpy's, which JSON does not support."""
 
     def __init__(self, value):
         self.value = value

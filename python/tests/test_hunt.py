@@ -18,7 +18,7 @@ assert SPEC and SPEC.loader
 hunts = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(hunts)
 
-# How many courses are enough to find it.
+# The number of courses that are enough to find each fault.
 FAULTS = {"tied_hand": 300, "start_beats_stop": 100, "number_from_anyone": 200, "part_that_did_not_come": 100,
           "service_keys": 3000, "timeout_race": 40, "retried_count": 24, "ignored_return": 60,
           "unchecked_exit": 40}
@@ -96,7 +96,7 @@ def test_findings_beside_a_host_do_not_depend_on_the_number_of_jobs(tmp_path):
         folder = tmp_path / jobs
         said = hunted(fault, "careless", folder, 60, "--jobs", jobs)
         found = [path.read_text() for path in sorted(folder.glob("found/*.yaml"))]
-        # The checksum is also of the folder's name.
+        # The checksum also covers the folder's name.
         texts.append([re.sub(r"/[13]/|# The next hunt .*", "/", text) for text in found])
         texts.append(said.stdout.replace(str(folder), "").splitlines())
     assert texts[0] and texts[0] == texts[2]

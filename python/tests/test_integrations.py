@@ -1,4 +1,4 @@
-"""Tests the files for CI systems and labgrid: their commands are run, as far as they need no service."""
+"""Tests the files for CI systems and labgrid: their commands are run, except those that need a service."""
 import importlib.util
 import os
 import pathlib

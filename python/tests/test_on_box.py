@@ -1,4 +1,4 @@
-"""Tests the client and the plugin with a controller at a port: a bench that is served plays its part."""
+"""Tests the client and the plugin with a controller at a port: a served bench plays the controller."""
 import os
 import signal
 import subprocess

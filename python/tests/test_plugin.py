@@ -1,4 +1,4 @@
-"""Tests the plugin by test runs within a test."""
+"""Tests the plugin with pytest runs inside a test."""
 import os
 import pathlib
 import re
@@ -224,7 +224,7 @@ def test_what_cannot_be_drawn_is_not_named(pytester):
 @pytest.mark.parametrize("flags, begun", [([], 1), (["-n", "2"], 2)], ids=["alone", "xdist"])
 def test_killed_it_leaves_nothing_behind(pytester, flags, begun):
     pytester.makepyfile(SLOW_SUITE)
-    folders = pathlib.Path(tempfile.mkdtemp(prefix="killed-"))  # a short path, or it would not be taken
+    folders = pathlib.Path(tempfile.mkdtemp(prefix="killed-"))  # a longer path would not be accepted
     command = [sys.executable, "-m", "pytest", "-p", "understudy.pytest_plugin", "--basetemp=kept", *flags]
     run = subprocess.Popen(command, env={**os.environ, "TMPDIR": str(folders)}, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL, cwd=pytester.path)

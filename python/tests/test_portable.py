@@ -138,7 +138,7 @@ def image(archive, tmp_path_factory):
 
 
 def blobs_of(image):
-    """The blobs by their digests, and the manifest."""
+    """Returns the blobs by their digests, and the manifest."""
     with tarfile.open(image) as whole:
         blobs = {f"sha256:{hashlib.sha256(content).hexdigest()}": content
                  for content in (whole.extractfile(member).read() for member in whole if member.isfile())}

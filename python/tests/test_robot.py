@@ -1,5 +1,5 @@
-"""Tests the library for Robot Framework, by Robot if it is installed, and by a substitute that knows what the example
-uses."""
+"""Tests the library for Robot Framework, by Robot if it is installed, and by a substitute that supports what the
+example uses."""
 import fnmatch
 import importlib.util
 import inspect

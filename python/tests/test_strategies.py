@@ -1,4 +1,4 @@
-"""A Hypothesis strategy draws what `hunt` in a scenario file says, and a test does it to its own bench."""
+"""Tests the Hypothesis strategies: they draw from `hunt` in a scenario file, and tests apply the steps to a bench."""
 import os
 import pathlib
 import shutil

@@ -15,8 +15,8 @@ Value = Union[int, float]
 class Bench:
     def __init__(self, control: str = "", daemon: Optional[Daemon] = None, timeout_s: Optional[float] = 60.0, *,
                  on: Optional[Ports] = None, **setup: Any) -> None:
-        """Connects to a running bench by its control socket. With `on`, such as "line=/dev/ttyUSB0", real controllers
-        are asked instead; `setup` is their `bench` or `model`, and `allow`, `rig` and `envelope`."""
+        """Connects to a running bench through its control socket. With `on`, such as "line=/dev/ttyUSB0", uses real
+        controllers instead; `setup` has their `bench` or `model`, and `allow`, `rig` and `envelope`."""
         self._daemon = daemon
         self.control = control
         self._connection: Union[Connection, BoxConnection] = (
@@ -25,7 +25,7 @@ class Bench:
         try:
             identity = self.ask("identify")["daemon"]
         except BaseException:
-            self._connection.close()  # the daemon is its starter's to end
+            self._connection.close()  # whoever started the daemon also ends it
             raise
         self.version: str = identity["version"]
         self.protocol: str = identity.get("protocol", "")  # programs up to 0.2.0 have none
@@ -64,7 +64,7 @@ class Bench:
         self.ask("set", values={name: value})
 
     def set(self, values: Dict[str, Value]) -> None:
-        """Writes values as a host does, in this order. All are checked before the first is written."""
+        """Writes values as a host does, in this order. All values are checked before the first is written."""
         self.ask("set", values=values)
 
     def eval(self, expression: str) -> Any:
@@ -115,19 +115,20 @@ class Bench:
         return int(self.ask("step", ticks=ticks)["simulated_time_ns"])
 
     def set_break(self, **where: Any) -> Dict[str, Any]:
-        """Sets a breakpoint: device and line, instruction, when, write or on; with when, nth, log."""
+        """Sets a breakpoint at a device's line or instruction, or on `when`, `write` or `on`. `when`, `nth` and `log`
+        refine it."""
         return cast(Dict[str, Any], self.ask("break", **where)["breakpoint"])
 
     def breaks(self) -> List[Dict[str, Any]]:
         return cast(List[Dict[str, Any]], self.ask("break")["breakpoints"])
 
     def delete_break(self, number: Optional[int] = None) -> None:
-        """Deletes a breakpoint; without a number all of them."""
+        """Deletes a breakpoint, or all of them if no number is given."""
         self.ask("break", delete="all" if number is None else number)
 
     def continue_(self, within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
-        """Lets time run; with `within` until the next stop, which it returns, or None if there was none. A
-        recording also goes back."""
+        """Lets time run. With `within`, runs until the next stop and returns it, or None if there was none. A recording
+        can also run `back`."""
         asked = {"within": within, "back": back}
         return cast(Optional[Dict[str, Any]], self.ask("continue", **_given(asked)).get("stop"))
 
@@ -135,8 +136,8 @@ class Bench:
 
     def step_program(self, what: str = "line", device: Optional[str] = None, program: Optional[str] = None,
                      within: Optional[str] = None, back: Optional[bool] = None) -> Optional[Dict[str, Any]]:
-        """Steps by instruction, line, over, out or stand; returns the stop, or None if time ran out. A recording
-        also goes back."""
+        """Steps by instruction, line, over, out or stand. Returns the stop, or None if time ran out. A recording can
+        also step `back`."""
         asked = {"what": what, "device": device, "program": program, "within": within, "back": back}
         return cast(Optional[Dict[str, Any]], self.ask("step", **_given(asked)).get("stop"))
 
@@ -144,7 +145,7 @@ class Bench:
         return cast(List[Dict[str, Any]], self.ask("stack", **_of(device))["stacks"])
 
     def source(self, device: Optional[str] = None) -> str:
-        """Returns the text in whose lines breakpoints and stacks count."""
+        """Returns the text whose line numbers breakpoints and stacks use."""
         return str(self.ask("source", **_of(device))["text"])
 
     def variables(self, device: Optional[str] = None) -> Dict[str, Dict[str, Value]]:
@@ -179,7 +180,7 @@ class Bench:
             now = self.advance(by)
 
     def save(self, file: str) -> None:
-        """Saves a snapshot to a file. The path is made absolute, because the program runs in another folder."""
+        """Saves a snapshot to a file. The path is made absolute, because the program may run in another folder."""
         self.ask("snapshot", file=os.path.abspath(file))
 
     def load(self, file: str) -> None:
@@ -196,7 +197,7 @@ class Bench:
         return cast(List[Dict[str, Any]], self.ask("frames", last=last)["frames"])
 
     def where(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
-        """Returns where each program is, and what it waits for."""
+        """Returns the position of each program, and what it is waiting for."""
         return cast(List[Dict[str, Any]], self.ask("where", **_of(device))["programs"])
 
     def coverage(self, device: Optional[str] = None, again: bool = False) -> Dict[str, Any]:
@@ -211,7 +212,7 @@ class Bench:
         return cast(Optional[Dict[str, Any]], self.ask("scope", **_given(asked))["scope"])
 
     def samples(self) -> Dict[str, List[Any]]:
-        """Returns the oscilloscope's samples: the values of each name, one a tick. Empty if it is off."""
+        """Returns the oscilloscope's samples: the values of each name, one per tick. Empty if it is off."""
         kept: Dict[str, List[Any]] = {}
         begin: Optional[int] = 0
         while begin is not None:
@@ -273,12 +274,12 @@ class Bench:
         return dict(zip(names, reply["curves"]))
 
     def spans(self, from_ns: Optional[int] = None, to_ns: Optional[int] = None, dots: int = 1000) -> List[Dict[str, Any]]:
-        """Returns the frames, lines of programs, faults, events and waits of a stretch of a recording; of a bench that
-        runs, what its host in simulated time has waited for."""
+        """Returns the frames, lines of programs, faults, events and waits of a stretch of a recording. For a running
+        bench, returns what its host in simulated time has waited for."""
         return self._pages("spans", "spans", {"from_ns": from_ns, "to_ns": to_ns, "dots": dots})
 
     def what_if(self, on: bool = True) -> None:
-        """Allows a recording to be altered from here, or goes back to it."""
+        """Allows a recording to be altered from here, or returns to the unaltered recording."""
         self.ask("what-if", **({} if on else {"off": True}))
 
     def _pages(self, do: str, of: str, asked: Dict[str, Any]) -> List[Dict[str, Any]]:
@@ -321,7 +322,7 @@ def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None,
           program: Optional[str] = None, on: Optional[Ports] = None, allow: Union[str, Sequence[str]] = (),
           rig: Optional[str] = None, envelope: Optional[str] = None) -> Bench:
     """Starts a bench file, or one device of a model with its firmware and choices. Further flags go to `serve`. With
-    `on`, real controllers at these ports are asked instead, with what `allow` allows."""
+    `on`, uses real controllers at these ports instead, and sends only what `allow` permits."""
     if on is not None:
         return Bench(on=on, bench=bench, model=model, firmware=firmware, choices=choices, allow=allow, rig=rig,
                      envelope=envelope, program=program)

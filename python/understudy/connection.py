@@ -62,7 +62,7 @@ class Connection:
             self.close()  # a late reply would be taken for the next message's
             why = "timed out" if isinstance(error, BlockingIOError) else error.strerror or error
             raise NotThere(f"no answer to {do!r}: {why}") from error
-        except BaseException:  # Ctrl-C, or an exception of a signal handler: the same, but the program still runs
+        except BaseException:  # Ctrl-C, or an exception of a signal handler: likewise, but the program still runs
             self.close()
             self._interrupted = True
             raise

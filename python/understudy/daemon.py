@@ -13,8 +13,8 @@ from typing import IO, List, Optional, Sequence
 
 from .errors import BadSetup, NotThere
 
-# A shell creates the folder and is the program's parent, so neither ever exists without it. When our pipe to the shell
-# closes, we are done or gone. When the program's pipe to us closes, the program has ended.
+# A shell creates the folder and is the program's parent, so neither ever exists without the shell. When our pipe to the
+# shell closes, this process is done or has ended. When the program's pipe to us closes, the program has ended.
 GUARD = """program=$1 folders=$2 bench=$3
 shift 3
 folder=$(mktemp -d "$folders/understudy-py-XXXXXXXX") || exit
@@ -52,7 +52,7 @@ def program_path() -> str:
 
 
 class Daemon:
-    """The program and its guard. A process that is forked from this one does not own them."""
+    """The program and the shell that guards it. A process that is forked from this one does not own them."""
 
     def __init__(self, arguments: Sequence[str], program: Optional[str] = None, ready_within_s: float = 30.0,
                  bench_text: str = "") -> None:
@@ -60,7 +60,7 @@ class Daemon:
         if shutil.which(program) is None:
             raise NotThere(f"{program}: no such program; set UNDERSTUDY_PROGRAM to its path")
         command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text]
-        command += [str(argument) for argument in arguments]  # paths and numbers as well
+        command += [str(argument) for argument in arguments]  # flags may be paths and numbers too
         guard = subprocess.Popen(command, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                  stderr=subprocess.DEVNULL, start_new_session=True)
         assert guard.stdin is not None and guard.stdout is not None
@@ -99,7 +99,7 @@ class Daemon:
         self._to_guard.close()
         guard.wait()
         self._from_program.close()
-        if guard.returncode == -signal.SIGKILL:  # it was killed, so we do its work
+        if guard.returncode == -signal.SIGKILL:  # the shell was killed, so its work is done here
             self._work_of_the_guard()
             return None
         return guard.returncode
@@ -112,7 +112,7 @@ class Daemon:
 
     def _work_of_the_guard(self) -> None:
         try:
-            with open(f"/proc/{self.pid}/cmdline", "rb") as line:  # its number may be another's by now
+            with open(f"/proc/{self.pid}/cmdline", "rb") as line:  # its number may belong to another process by now
                 if os.fsencode(self.folder) in line.read():
                     os.kill(self.pid, signal.SIGTERM)
         except OSError:

@@ -1,4 +1,4 @@
-"""The errors of this package, with the program's own words."""
+"""The errors of this package. Their texts are the program's own messages."""
 
 
 class UnderstudyError(Exception):

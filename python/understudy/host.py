@@ -1,4 +1,4 @@
-"""A host program beside a bench of its own (`understudy exec`), in simulated time if you like."""
+"""Runs a host program beside its own bench (`understudy exec`), optionally in simulated time."""
 import os
 import subprocess
 from typing import List, Mapping, Optional, Sequence
@@ -11,7 +11,7 @@ def exec(bench: str, command: Sequence[str], *flags: str, host_time: bool = Fals
          program: Optional[str] = None) -> "subprocess.CompletedProcess[str]":
     """Serves a bench file while the command runs, and returns what it printed and its exit code. `host_time` puts the
     command into simulated time; `repeat` runs it this many times and compares the recordings; `timeout_s` is real time.
-    Further flags are `exec`'s. The command finds its port in UNDERSTUDY_PORT."""
+    Further flags are passed to `exec`. The command finds its port in UNDERSTUDY_PORT."""
     if isinstance(command, str):
         raise TypeError("command: expected a list of words, such as ['./my_host', '--verbose']")
     words: List[str] = [program or os.environ.get("UNDERSTUDY_PROGRAM") or "understudy", "exec", str(bench)]

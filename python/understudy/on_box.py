@@ -27,7 +27,7 @@ def connect_box(on: Ports, bench: Optional[str] = None, model: Optional[str] = N
                 choices: Optional[Mapping[str, object]] = None, allow: Union[str, Sequence[str]] = (),
                 rig: Optional[str] = None, envelope: Optional[str] = None,
                 program: Optional[str] = None) -> "BoxConnection":
-    """Opens the ports. The bench, or the model, says what is expected at them."""
+    """Opens the ports. The bench, or the model, describes the controllers that are expected at them."""
     if (bench is None) == (model is None):
         raise ValueError("expected either a bench file or a model")
     flags = [f"--allow-{what}" for what in ([allow] if isinstance(allow, str) else allow)]
@@ -62,7 +62,7 @@ class BoxConnection:
             os.unlink(self._scenario)
             raise NotThere(f"{program}: {error.strerror}") from error
         self._rest = b""
-        # The program ends, and stops the machine, when its input ends: also if this process is killed.
+        # The program ends, and stops the machine, when its input ends, even if this process is killed.
         self._end = weakref.finalize(self, _end, self._process, self._scenario)
         self._exchange({"values": []})
 
@@ -75,7 +75,7 @@ class BoxConnection:
         self._errors.close()
 
     def messages(self) -> str:
-        """Returns the program's messages, such as that the stop has gone out."""
+        """Returns the program's messages, such as that the stop was sent."""
         self._errors.seek(0)
         return self._errors.read().decode(errors="replace").strip()
 
@@ -114,7 +114,7 @@ class BoxConnection:
         return reply
 
     def _line(self) -> bytes:
-        """Returns the next reply. What else the program prints is for people."""
+        """Returns the next reply. Other output of the program is for people."""
         assert self._process.stdout is not None
         while True:
             line, end, rest = self._rest.partition(b"\n")
@@ -181,7 +181,7 @@ def _send(box: BoxConnection, fields: Dict[str, Any]) -> Dict[str, Any]:
     return {"next_frame": 0}
 
 
-# What a message of the control socket is on the line of a real controller.
+# The actions on a real controller's line for messages of the control socket.
 ACTS: Dict[str, Callable[[BoxConnection, Dict[str, Any]], Dict[str, Any]]] = {
     "identify": lambda box, _: box.identify(),
     "get": lambda box, fields: box.values(fields["names"]),

@@ -19,7 +19,7 @@ from .errors import NotTellable
 from .host import exec as exec_host
 
 REPLAYED_WITHIN_S = 60.0
-# What this plugin knows of the tests and runs that are under way; pytest's own place for such things came with 7.0.
+# This plugin's data about the current tests and runs; pytest has its own place for such data only from 7.0 on.
 KEPT: WeakKeyDictionary[pytest.Item, List[Path]] = WeakKeyDictionary()
 FAILED: WeakKeyDictionary[pytest.Item, bool] = WeakKeyDictionary()
 SUM: WeakKeyDictionary[pytest.Config, str] = WeakKeyDictionary()
@@ -52,7 +52,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def part_of_coverage(config: pytest.Config, number: str) -> Optional[Path]:
-    """Returns the file of one bench, next to the sum, or None if no file was requested."""
+    """Returns the file of one bench, next to the file of the sum, or None if no file was requested."""
     wanted = config.getoption("--understudy-coverage")
     if not wanted:
         return None
@@ -208,8 +208,8 @@ def run_host(request: pytest.FixtureRequest,
 
 @pytest.fixture
 def hunt(tmp_path: Path) -> Callable[..., str]:
-    """Searches for what breaks a scenario, like `understudy hunt`. The test fails with what is found; the findings are
-    in the folder `found` of `tmp_path`. Returns what the hunt has printed."""
+    """Searches for disturbances that break a scenario, like `understudy hunt`. The test fails if there are findings,
+    which are in the folder `found` of `tmp_path`. Returns the output of the hunt."""
 
     def run(scenario: Any, courses: int = 2000, seed: int = 0, command: Optional[Sequence[str]] = None,
             flags: Sequence[str] = ()) -> str:

@@ -11,9 +11,9 @@ Given = Union[int, float, str]
 
 
 class Understudy:
-    """Benches of emulated motion controllers. Keywords speak with the bench that was started or attached to last.
+    """Benches of emulated motion controllers. Keywords act on the bench that was started or attached to last.
 
-    Benches are closed at the end of the suite. A keyword fails with the program's own words.
+    Benches are closed at the end of the suite. A keyword fails with the program's own message.
     """
 
     ROBOT_LIBRARY_SCOPE = "SUITE"
@@ -159,7 +159,7 @@ def _number(value: Given) -> Given:
 
 
 def _level(value: Given) -> Union[int, str]:
-    """Converts to a number if possible; `2.5V` and `on` are for the program to understand."""
+    """Converts to a number if possible; `2.5V` and `on` are interpreted by the program."""
     if isinstance(value, str) and not value.lstrip("-").isdigit():
         return value
     return int(value)

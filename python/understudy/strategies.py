@@ -1,5 +1,5 @@
-"""Hypothesis strategies that draw from `hunt` in a scenario file: what `understudy hunt` may do to a scenario, a test in
-Python can do to its own bench. Needs the package `hypothesis`."""
+"""Hypothesis strategies that draw from `hunt` in a scenario file: a Python test can apply to its own bench the
+disturbances that `understudy hunt` applies to a scenario. Needs the package `hypothesis`."""
 from __future__ import annotations
 
 import copy
@@ -45,7 +45,7 @@ class Disturbance:
         return step
 
     def apply(self, bench: Bench) -> None:
-        """Does it to a bench. A fault waits for its moment; everything else happens now."""
+        """Applies it to a bench. A fault waits for its moment; everything else happens now."""
         begin_ns = int(bench.status()["simulated_time_ns"]) if self.moment in ("at", "from") else 0
         (kind, what), = self._with_moment(begin_ns).items()
         APPLIERS[kind](bench, what)
@@ -137,5 +137,5 @@ def _course(draw: Callable[..., Any], plan: Dict[str, Any]) -> List[Disturbance]
 
 
 def disturbances(scenario: Any, command: Optional[Sequence[str]] = None) -> st.SearchStrategy[List[Disturbance]]:
-    """Draws what may happen in a whole test: each entry of `may` as often as its `times` allows, or not at all."""
+    """Draws the disturbances of a whole test: each entry of `may` as often as its `times` allows, or not at all."""
     return _course(_plan(str(scenario), tuple(map(str, command or ()))))
