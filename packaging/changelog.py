@@ -42,7 +42,7 @@ def faults_of_names(project):
     folder = os.path.join(project, "changes")
     for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
         if name not in NOT_FRAGMENTS and not FRAGMENT.fullmatch(name):
-            yield f"changes/{name}", 1, ("is not the name of a fragment; expected NAME.KIND.md, NAME of small letters, "
+            yield f"changes/{name}", 1, ("is not the name of a fragment; expected NAME.KIND.md, NAME of lower-case letters, "
                                          f"digits and '-', KIND one of {', '.join(KINDS)}")
 
 
@@ -60,7 +60,7 @@ def faults_of_fragment(text):
         yield len(lines), "does not end as a sentence does; expected a full stop"
     for number, line in enumerate(lines, 1):
         if len(line) > WIDTH - 2:  # a bullet indents it by two
-            yield number, f"is {len(line)} letters wide; expected at most {WIDTH - 2}"
+            yield number, f"is {len(line)} characters wide; expected at most {WIDTH - 2}"
         if line.startswith(("#", "-", "* ")):
             yield number, "is a heading or a bullet; expected prose: one fragment is one bullet"
 
@@ -71,7 +71,7 @@ def faults_of_changelog(text, version):
     kinds = []
     for number, line in enumerate(text.split("\n"), 1):
         if len(line) > WIDTH:
-            yield number, f"is {len(line)} letters wide; expected at most {WIDTH}"
+            yield number, f"is {len(line)} characters wide; expected at most {WIDTH}"
         if line.startswith("## "):
             found = HEADING.fullmatch(line)
             if not found:
@@ -134,13 +134,13 @@ def release(project, version, date):
     faults = list(faults_of(project))
     expected = ".".join(map(str, version_of(project)))
     if version != expected:
-        faults.append(("CMakeLists.txt", 1, f"is of version {expected}; expected {version}: set it first"))
+        faults.append(("CMakeLists.txt", 1, f"has version {expected}; expected {version}: set it first"))
     path = os.path.join(project, "CHANGELOG.md")
     before, mark, after = read(path).partition("\n## ")
     if after.startswith(version + " "):
-        faults.append(("CHANGELOG.md", 1, f"has a section of {version} already; expected a version that is not released"))
+        faults.append(("CHANGELOG.md", 1, f"already has a section for {version}; expected a version that is not released"))
     if not list(fragments_of(project)):
-        faults.append(("changes", 1, "has no fragment; expected one at least"))
+        faults.append(("changes", 1, "has no fragment; expected at least one"))
     if faults:
         return faults
     with open(path, "w", encoding="utf-8") as file:

@@ -102,8 +102,8 @@ def main(archive, folder="."):
     archive = pathlib.Path(archive)
     named = re.fullmatch(r"understudy-([^-]+)-linux-(\w+)\.tar\.gz", archive.name)
     if not named or not archive.is_file():
-        sys.exit(f"oci_image.py: {archive}: is not a file understudy-VERSION-linux-MACHINE.tar.gz; expected what "
-                 "portable.sh has made")
+        sys.exit(f"oci_image.py: {archive}: is not a file understudy-VERSION-linux-MACHINE.tar.gz; expected an "
+                 "archive made by portable.sh")
     version, machine = named.groups()
     architecture = ARCHITECTURES.get(machine, machine)
     with tempfile.TemporaryDirectory() as own, tarfile.open(archive) as packed:

@@ -72,7 +72,7 @@ ldd "$build/understudy" | while read -r library arrow place rest; do
   cp -L "$place" "$libraries/$library"
   # The path of the libraries is not relative to the program: they only find the C library.
   for needed in $(objdump -p "$place" | sed -n 's/^ *NEEDED *//p'); do
-    is_glibc "$needed" || fail "$library: needs $needed; expected an archive of it, so that it is part of the program"
+    is_glibc "$needed" || fail "$library: needs $needed; expected its static archive, so that it becomes part of the program"
   done
 done
 
@@ -91,7 +91,7 @@ part() { # NAME VERSION LICENCE PURL
   printf '      "licenses": [{ "expression": "%s" }] }' "$3"
 }
 package() { # NAME LICENCE: of this system; its licence is copied
-  there=$(dpkg-query -W -f '${Version}' "$1" 2>/dev/null) || fail "$1 is not installed; expected what ./run installs"
+  there=$(dpkg-query -W -f '${Version}' "$1" 2>/dev/null) || fail "$1 is not installed; expected the packages that ./run installs"
   cp "/usr/share/doc/$1/copyright" "$tree/licences/$1"
   part "$1" "$there" "$2" "pkg:deb/$ID/$1@$(printf %s "$there" | sed 's/+/%2B/g; s/:/%3A/g')?arch=$machine"
 }

@@ -114,7 +114,7 @@ def faults_of_page(text):
         yield from faults_of_paragraph(first, paragraph)
         for number, line in enumerate(paragraph, first):
             if len(line) > WIDTH and not NOT_PROSE.match(line):
-                yield number, f"is {len(line)} letters wide; expected at most {WIDTH}"
+                yield number, f"is {len(line)} characters wide; expected at most {WIDTH}"
 
 
 def faults_of_strings(text):

@@ -97,7 +97,7 @@ bool verify_files(const std::vector<box::CertifiedFile>& files, const std::strin
     std::printf("  %s: %s\n", one_line(file.file).c_str(),
                 is_same  ? "is the file that was certified"
                 : digest ? "IS NOT the file that was certified"
-                         : "is not here");
+                         : "was not found");
   }
   return is_good;
 }

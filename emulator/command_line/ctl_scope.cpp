@@ -55,9 +55,9 @@ void print_scope(const Json& scope) {
   const std::string condition = scope.at("condition").get<std::string>();
   const bool waits = scope.at("state") == "armed";
   if (waits && !condition.empty()) text += "; waits for " + condition;
-  text += "; " + scope.at("count").dump() + " ticks kept";
+  text += "; " + scope.at("count").dump() + " ticks recorded";
   if (scope.at("count") != 0) text += ", from " + time_at(scope, "from_ns") + " on";
-  if (scope.contains("trigger_ns")) text += "; the moment is " + time_at(scope, "trigger_ns");
+  if (scope.contains("trigger_ns")) text += "; triggered at " + time_at(scope, "trigger_ns");
   if (scope.contains("error")) text += "; " + scope.at("error").get<std::string>();
   std::printf("%s\n", one_line(text).c_str());
 }

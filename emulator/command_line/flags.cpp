@@ -378,7 +378,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"tap", "Listen on a line with one or two adapters, and write a capture", &CommandLine::add_tap},
     {"plot", "Draw a trace with gnuplot", &CommandLine::add_plot},
     {"asm", "Convert a program listing to the numbers that are sent over the wire", &CommandLine::add_asm},
-    {"disasm", "Convert the numbers of a program to its listing", &CommandLine::add_disasm},
+    {"disasm", "Convert a program's numbers back to a listing", &CommandLine::add_disasm},
     {"check", "Validate benches, scenarios, models and programs without running them",
      &CommandLine::add_check},
     {"schema", "Print the JSON Schema of a file format, for editors", &CommandLine::add_schema},

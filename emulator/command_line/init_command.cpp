@@ -47,7 +47,7 @@ int write_first_files(ModelList models, const InitArguments& arguments) {
   std::filesystem::create_directories(folder, error);
   if (error)
     throw GrowingFileError(folder.string() + ": folder: cannot be created (" + error.message() +
-                           "); expected one");
+                           "); expected another folder");
   write_all(files);
   for (const NewFile& file : files) std::printf("%s\n", file.path.c_str());
   std::printf("next: understudy run %s\n", files[1].path.c_str());

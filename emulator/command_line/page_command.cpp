@@ -46,7 +46,7 @@ int show_page(const PageArguments& arguments) {
   std::signal(SIGPIPE, SIG_IGN);
   for (const std::string& socket : arguments.sockets) {
     if (!serve::is_answered(socket))
-      log_line("page: " + socket + ": no daemon answers there yet; the page shows it when one does");
+      log_line("page: " + socket + ": no daemon answers there yet; the page shows the bench when one does");
   }
   page::Page shown(options);
   std::printf("page %s\n", shown.address().c_str());

@@ -224,7 +224,7 @@ std::string failure_text(const PollArguments& arguments, int error) {
                            letter_of_parity(arguments.parity) + std::to_string(arguments.stop_bits);
   if (error == ETIMEDOUT) return station + " did not answer within " + arguments.timeout + line;
   if (error > MODBUS_ENOBASE && error < EMBBADCRC) {
-    return station + " answered exception " + std::to_string(error - MODBUS_ENOBASE) + " (" +
+    return station + " answered with exception " + std::to_string(error - MODBUS_ENOBASE) + " (" +
            modbus_strerror(error) + ")";
   }
   if (error >= EMBBADCRC) return station + line + ": " + modbus_strerror(error);

@@ -53,10 +53,10 @@ inline void add_case_flags(CLI::App& command, RunArguments& run) {
                   "Write a row for each case to this file: FILE.jsonl or FILE.sqlite; can be given twice")
       ->allow_extra_args(false)
       ->check(kNotEmpty);
-  command.add_flag("--resume", run.resume, "Skip cases that have a row in the file of --results already");
+  command.add_flag("--resume", run.resume, "Skip cases that already have a row in the --results file");
   command
       .add_option("--failures", run.failures,
-                  "Folder for the recordings of failures, the first of each kind [below /tmp]")
+                  "Folder for recordings of failures, the first of each kind [below /tmp]")
       ->check(kNotEmpty);
 }
 
@@ -123,9 +123,7 @@ inline void add_hunt_flags(CLI::App& command, HuntArguments& hunt) {
                   "Folder for the findings: a scenario, a recording and a page for each kind of failure")
       ->capture_default_str()
       ->check(kNotEmpty);
-  command
-      .add_option("--timeout", hunt.timeout,
-                  "End the command of `-- COMMAND` after this much real time in a course")
+  command.add_option("--timeout", hunt.timeout, "End the command after this much real time in a course")
       ->capture_default_str()
       ->check(kNotEmpty);
 }

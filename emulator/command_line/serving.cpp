@@ -292,7 +292,8 @@ void print_ready(const serve::Daemon& daemon) {
                 place.c_str());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw pty::PortError("standard output cannot be written; expected a place for the `ready` lines");
+    throw pty::PortError(
+        "standard output cannot be written; expected an open standard output for the `ready` lines");
   }
 }
 

@@ -25,7 +25,9 @@ std::vector<std::string> files_below(const std::string& folder, std::span<const 
     if (std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end())
       files.push_back(path.lexically_normal().string());  // services that annotate files do not accept "./"
   }
-  if (error) throw FileError(folder + ": folder: cannot be read (" + error.message() + "); expected one");
+  if (error)
+    throw FileError(folder + ": folder: cannot be read (" + error.message() +
+                    "); expected a readable folder");
   if (files.empty())
     throw FileError(folder + ": folder: has no " + std::string(endings.front()) +
                     " file; expected at least one");

@@ -48,7 +48,7 @@ def test_show_changes_nothing(project, capsys):
     ("x.added.md", "A page\n", "changes/x.added.md:2: does not end as a sentence does"),
     ("x.added.md", "A page.", "changes/x.added.md:1: does not end with one newline"),
     ("x.added.md", "A page.\n- Another.\n", "changes/x.added.md:2: is a heading or a bullet"),
-    ("x.added.md", "A" + " page" * 24 + ".\n", "changes/x.added.md:1: is 122 letters wide; expected at most 118"),
+    ("x.added.md", "A" + " page" * 24 + ".\n", "changes/x.added.md:1: is 122 characters wide; expected at most 118"),
 ])
 def test_a_fragment_is_refused(project, capsys, name, text, fault):
     (project / "changes" / name).write_text(text)

@@ -33,22 +33,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
                                             help="write the line coverage of the controllers' programs to this "
                                                  "file: FILE.info for lcov, FILE.xml for Cobertura, or FILE.html")
     parser.getgroup("understudy").addoption("--understudy-on", metavar="LINE=PORT", action="append",
-                                            help="ask a real controller at this port instead of the bench's devices on "
+                                            help="use a real controller at this port instead of the bench's devices on "
                                                  "that line; tests that need more than its line are skipped")
     parser.getgroup("understudy").addoption("--understudy-allow", action="append", default=[],
                                             choices=["writes", "memory", "outputs", "motion"],
-                                            help="what may be sent to a real controller [only reads]")
+                                            help="requests that may be sent to a real controller [only reads]")
     parser.getgroup("understudy").addoption("--understudy-rig", metavar="COMMAND",
-                                            help="command for what needs the machine, as `run --rig`")
+                                            help="command that acts on the machine, as for `run --rig`")
     parser.getgroup("understudy").addoption("--understudy-envelope", metavar="FILE",
-                                            help="limits for what is sent, as `run --envelope`")
+                                            help="file with limits for requests, as for `run --envelope`")
     parser.addini("understudy_host_time", "whether run_host puts host programs into simulated time", type="bool", default=True)
 
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "understudy(bench=None, **arguments): what the fixture `bench` starts")
     config.addinivalue_line("markers", "understudy_hunt(scenario, courses=2000, seed=0, command=None, flags=()): hunts in "
-                                       "this scenario before the test, which fails with what is found")
+                                       "this scenario before the test, which fails if something is found")
 
 
 def part_of_coverage(config: pytest.Config, number: str) -> Optional[Path]:
@@ -139,7 +139,7 @@ def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[C
 
     def make_on_box(bench: Any, flags: Sequence[str], arguments: Dict[str, Any]) -> Bench:
         if flags:
-            pytest.skip(f"{' '.join(map(str, flags))}: a real controller takes no flags of `serve`")
+            pytest.skip(f"{' '.join(map(str, flags))}: a real controller accepts no flags of `serve`")
         option = request.config.getoption
         settings = {"on": on, "allow": option("--understudy-allow"), "rig": option("--understudy-rig"),
                     "envelope": option("--understudy-envelope"), **arguments}

@@ -98,7 +98,7 @@ TEST_F(Certificate, IsVerifiedByTheKeyOfItsOwner) {
   std::filesystem::remove(folder_ / "captures/talk.pcapng");
   const Finished alone = verify();
   EXPECT_EQ(alone.exit_code, 0) << alone.output;
-  EXPECT_TRUE(has(alone.output, "talk.pcapng: is not here")) << alone.output;
+  EXPECT_TRUE(has(alone.output, "talk.pcapng: was not found")) << alone.output;
 }
 
 TEST_F(Certificate, IsRefusedAfterAnyChange) {

@@ -327,7 +327,7 @@ TEST_F(Mistakes, OfAPageWithoutADaemonAreReportedAtOnce) {
   Process page({UNDERSTUDY_BINARY, "page", "--control", at("nosuch")});
   EXPECT_TRUE(eventually([&] { return page.output().starts_with("page http"); }));
   EXPECT_EQ(page.errors(), "understudy: page: " + at("nosuch") +
-                               ": no daemon answers there yet; the page shows it when one does\n");
+                               ": no daemon answers there yet; the page shows the bench when one does\n");
 }
 
 TEST_F(Mistakes, OfAScopeAreReportedInWords) {

@@ -86,7 +86,7 @@ TEST_F(Poll, ReportsWhoWasAskedWhereAndHow) {
       poll({"--baud", "9600", "--stop-bits", "2", "--parity", "none", "--timeout", "100ms", "2"}).errors,
       before + "1 did not answer within 100ms at 9600 8N2\n");
   EXPECT_EQ(poll({"0x0003"}).errors, "understudy: poll: 0x0003: " + daemon_.port() +
-                                         ": station 1 answered exception 2 (Illegal data address)\n");
+                                         ": station 1 answered with exception 2 (Illegal data address)\n");
   // The daemon knows the reason, and reports it once.
   poll({"--station", "9", "--timeout", "100ms", "2"});
   EXPECT_TRUE(eventually([&] {

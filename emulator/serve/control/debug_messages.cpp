@@ -182,7 +182,7 @@ Json break_message(Daemon& daemon, const Json& message) {
       const auto number = static_cast<int>(require_count(message, "delete", INT32_MAX));
       if (!debugger.remove(number))
         throw MessageError("delete: there is no breakpoint " + std::to_string(number) +
-                           "; expected one of `break`");
+                           "; expected one that `break` lists");
     }
     return Json{{"ok", true}};
   }

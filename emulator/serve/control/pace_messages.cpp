@@ -111,7 +111,7 @@ Json restore_by_name(Daemon& daemon, const Json& message) {
   const auto found = kept.find(name);
   if (found == kept.end()) {
     throw MessageError("name: " + understudy::quoted(name) +
-                       " is not a snapshot; expected one of `snapshots`");
+                       " is not a snapshot; expected one that `snapshots` lists");
   }
   if (const std::string_view why = daemon.why_no_restore(); !why.empty())
     throw MessageError(std::string(why));

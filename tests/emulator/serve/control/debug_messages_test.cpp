@@ -149,7 +149,7 @@ TEST(DebugMessages, RefuseWhatMakesNoSense) {
             "device: needs line or instruction; expected one of them");
   EXPECT_EQ(debugged.error_of({{"do", "break"}, {"line", 3}}).substr(0, 10), "the device");
   EXPECT_EQ(debugged.error_of({{"do", "break"}, {"delete", 7}}),
-            "delete: there is no breakpoint 7; expected one of `break`");
+            "delete: there is no breakpoint 7; expected one that `break` lists");
   EXPECT_NE(debugged.error_of({{"do", "break"}, {"delete", "some"}}), "");
   EXPECT_EQ(debugged.error_of({{"do", "step"}, {"what", "back"}, {"device", "feeder"}}),
             "what: 'back' is unknown; expected instruction, line, over, out or stand");
