@@ -43,7 +43,7 @@ inline constexpr auto kChoices = std::to_array<ChoiceRow>({
      "exception_3|starts_all_the_same", Confidence::proposal,
      "A request for a missing function is an error."},
     // --- downloads and macros ---
-    {"close_line", "9.12", "How much macro memory does CLOSE take?", "nothing|one_line", Confidence::follows,
+    {"close_line", "9.12", "How much macro memory does CLOSE use?", "nothing|one_line", Confidence::follows,
      "The printed program of MP59 fills all 16 lines without it."},
     {"download_command", "9.12", "Which code does input 112 show?", "as_0a_code|as_sent", Confidence::follows,
      "The worked example shows 0AD6 for NEXT, which is sent as 0CD6."},
@@ -107,7 +107,8 @@ inline constexpr auto kChoices = std::to_array<ChoiceRow>({
      "Each line has its own reply. Only CLOSE can find an open block or a missing target of a GOTO."},
     {"kept_error", "9.12", "Which of several errors do inputs 112 to 114 show?", "the_first|the_last",
      Confidence::proposal, "Later errors often follow from the first."},
-    {"references", "9.3.1", "Does a command accept a variable for a constant if its section does not say so?",
+    {"references", "9.3.1",
+     "Does a command accept a variable in place of a constant if its section does not say so?",
      "take_it|exception_3", Confidence::likely,
      "Several sections say that other commands do so too, without naming them."},
     {"wrong_arithmetic", "9.12", "What is the error for an operator that VAR_CALCULATE does not have?",

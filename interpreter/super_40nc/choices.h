@@ -82,7 +82,7 @@ inline constexpr auto kChoices = std::to_array<ChoiceRow>({
     {"instruction_edges", "ABSC , INCC 指令",
      "Do DRV, HOM and STR in the PLC, and RPM, PSET and STP, act on the edge?",
      "on_the_edge|every_scan|all_on_the_edge", Confidence::likely,
-     "The example of INCC needs one move a press. The manual does not mention the others."},
+     "The example of INCC needs one move per press. The manual does not mention the others."},
     {"plc_modes", "ABSC , INCC 指令", "What happens to the PLC's ABSC or INCC, and its RPM, at RUN?",
      "begin_anew|stay", Confidence::proposal, "A program's modes are reset at its start."},
     {"plc_moves_axes_of_c", "C21.", "When can DRV, HOM, PJG and MJG of the PLC move an axis of C?",

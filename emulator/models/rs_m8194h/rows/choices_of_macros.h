@@ -6,8 +6,8 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 inline constexpr ChoiceRow kMacroChoices[] = {
-    {"steps_a_tick", "1.2", "How many lines of macros and commands of the FIFO run in 1 ms, taken together?",
-     "8|1|32|1000", kProposal, "The manual gives no times at all."},
+    {"steps_a_tick", "1.2", "How many macro lines and FIFO commands run in 1 ms in total?", "8|1|32|1000",
+     kProposal, "The manual gives no times at all."},
     {"isr_delay", "7.3.12", "When does the first line of an ISR run?", "next_tick|same_tick", kProposal,
      "The manual gives no latency."},
     {"isr_requests", "7.3.12", "What happens to a factor that fires again before its ISR begins?",
