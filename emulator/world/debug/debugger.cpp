@@ -260,6 +260,10 @@ void Debugger::begin_at(Step& step, const std::string& program) const {
   if (is_here) {
     step.line = at->place.line;
     step.depth = at->depth;
+    const auto place = location_of(step.device, name);
+    const bool is_scanned = place && place->state == ProgramLocation::State::running && place->line == 0;
+    const ProgramPart* const part = lines.find_part(name);
+    if (is_scanned && part != nullptr) step.after = {part->number, at->place.number};
   } else {
     const auto place = location_of(step.device, step.program);
     step.line = place ? lines.source_line(place->line) : 0;

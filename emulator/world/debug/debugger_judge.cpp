@@ -228,7 +228,7 @@ bool Debugger::has_ended(const Step& step) const {
   constexpr Tick kApart = 16;
   if (tick_at(world_.now()) % kApart != 0) return false;
   const auto place = location_of(step.device, step.program);
-  if (!place) return step.program.empty();  // a PLC reports no location
+  if (!place) return true;
   return place->state == ProgramLocation::State::stopped || place->state == ProgramLocation::State::failed;
 }
 

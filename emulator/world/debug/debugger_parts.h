@@ -52,6 +52,22 @@ struct Debugger::Step {
   int line = 0;               // the line where the step began; 0 if it is unknown
   std::size_t depth = 0;      // the number of callers at the beginning; after the step, at its end
   std::optional<ProgramLines::Instruction> end{};  // the instruction at which the step ends
+
+  /// In a program whose scan runs from its first line in each tick: the instruction where it has stopped. The
+  /// step goes on behind it in the next scan.
+  std::optional<ProgramLines::Instruction> after{};
+  int scanned =
+      -1;  // the last instruction of that program that the step has seen, before it has passed `after`
+  /// Returns true for an instruction before the one where the program has stopped, and for that one itself.
+  bool is_passed_over(const ProgramLines::Instruction& instruction) {
+    if (!after || instruction.part != after->part) return false;
+    const bool is_next_scan = instruction.number <= scanned;
+    scanned = instruction.number;
+    if (!is_next_scan && instruction.number < after->number) return true;
+    const bool is_itself = !is_next_scan && instruction == *after;
+    after.reset();
+    return is_itself;
+  }
 };
 
 /// Watches a device's program for breakpoints and steps.
@@ -91,7 +107,7 @@ class Debugger::DeviceWatch final : public ProgramWatch {
     }
     Step* const step = debugger_.step_.get();
     if (step == nullptr || step->device != number_ || (step->part && *step->part != part)) return;
-    if (step->end) return;
+    if (step->end || step->is_passed_over(instruction)) return;
     const auto place = lines->place(instruction);
     if (step->kind == StepKind::line && place && place->line == step->line) return;
     const std::size_t depth = depth_at(part);

@@ -1,4 +1,4 @@
-// The locations of the step programs, for observers.
+// The locations of the programs, for observers.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -96,7 +96,21 @@ std::vector<ProgramLocation> Programs::program_locations() const {
     if (is_timed) place.until = time_of(now() + step.left_ms);
     all.push_back(std::move(place));
   }
+  if (!ladder_->is_empty()) all.push_back(plc_location());
   return all;
+}
+
+/// Returns the location of the PLC. It has no present line: each scan runs all of them.
+ProgramLocation Programs::plc_location() const {
+  ProgramLocation place;
+  place.program = language::row_of(language::Area::plc).name;
+  place.why = why_of(ground_.state().error, language::Area::plc, !state_.plc.runs);
+  if (state_.plc.runs) {
+    place.state = ProgramLocation::State::running;
+  } else if (!place.why.empty()) {
+    place.state = ProgramLocation::State::failed;
+  }
+  return place;
 }
 
 }  // namespace understudy::emulator::models::super_40nc

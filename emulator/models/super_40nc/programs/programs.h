@@ -82,6 +82,7 @@ class Programs : protected Chips, public Watched {
   /// Returns D8000 or D8x00.
   std::int32_t shown_step(std::size_t program) const;
   std::vector<ProgramLocation> program_locations() const;
+  ProgramLocation plc_location() const;
 
   // --- plc_runs.cpp
   void plc_to_run();

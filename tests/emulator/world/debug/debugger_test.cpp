@@ -294,6 +294,30 @@ INSTANTIATE_TEST_SUITE_P(Of, Steps, testing::ValuesIn(kSteps), [](const auto& te
   return name;
 });
 
+/// Each scan of a PLC runs all lines, so a step continues behind the line of the stop in the next scan.
+TEST(Step, OfALadderGoesFromLineToLine) {
+  for (const StepKind kind : {StepKind::line, StepKind::instruction, StepKind::over}) {
+    DebuggedWorld ladder("super-40nc", "AREA PLC\nLD M1\nOUT Y0\nLD M2\nOUT Y1\nLD M3\nOUT Y2\nEND\n");
+    ladder.debugger.add({.line = 2});
+    ASSERT_NE(ladder.run(2000), "");
+    ladder.debugger.remove_all();
+    std::vector<int> lines;
+    SimTime before = ladder.world.now();
+    for (int i = 0; i < 8; ++i) {
+      ASSERT_NE(ladder.step(kind), "");
+      EXPECT_EQ(ladder.world.now() - before, time_of(1)) << "one scan a step";
+      before = ladder.world.now();
+      lines.push_back(ladder.debugger.stop()->place.line);
+    }
+    EXPECT_EQ(std::vector(lines.begin(), lines.begin() + 5), (std::vector{3, 4, 5, 6, 7}));
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), 2), 1) << "after the last line comes the first";
+    const std::vector<ProgramLocation> places = ladder.world.device(0).user_program()->program_locations();
+    ASSERT_EQ(places.size(), 1U);
+    EXPECT_EQ(places[0].program, "PLC");
+    EXPECT_EQ(places[0].state, ProgramLocation::State::running);
+  }
+}
+
 TEST(Step, EndsWhenTheAxesStand) {
   DebuggedWorld moved("simple2-r3");
   set(moved.world, "Aaxis_SVON", 1);
