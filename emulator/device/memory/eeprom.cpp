@@ -22,7 +22,11 @@ Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_
   }
 }
 
-void Eeprom::begin(Tick at) { done_at_ = jobs_.empty() ? kNever : at + jobs_.front().takes; }
+void Eeprom::begin(Tick at, std::uint32_t bits) {
+  done_at_ = jobs_.empty() ? kNever : at + jobs_.front().takes;
+  writing_ = bits;
+  if (!jobs_.empty() && jobs_.front().slot != kEverything) slots_[jobs_.front().slot] = Slot::rests;
+}
 
 void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
   if (content_[slot] == bits) return;
@@ -32,12 +36,19 @@ void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
 
 void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same) {
   if (slots_[slot] == Slot::at_once) return keep(slot, bits);
-  const std::vector<std::uint32_t>& before = rewriting_.empty() ? content_ : rewriting_;
-  if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
+  if (slots_[slot] != Slot::rests) return;
+  const bool is_being_written = !jobs_.empty() && jobs_.front().slot == slot;
+  if (is_being_written && now < done_at_ - jobs_.front().takes) {  // it has not begun yet
+    writing_ = bits;
+    return;
+  }
+  const std::vector<std::uint32_t>& stored = rewriting_.empty() ? content_ : rewriting_;
+  const std::uint32_t before = is_being_written ? writing_ : stored[slot];
+  if (before == bits && !even_if_same) return;
   slots_[slot] = Slot::waits;
   jobs_.push_back({static_cast<std::uint32_t>(slot), takes});
   // The first job begins with the next tick.
-  if (jobs_.size() == 1) begin(now + 1);
+  if (jobs_.size() == 1) begin(now + 1, bits);
 }
 
 void Eeprom::rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now) {
@@ -47,7 +58,7 @@ void Eeprom::rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now)
   }
   rewriting_.assign(image.begin(), image.end());
   jobs_.push_back({kEverything, takes});
-  begin(now + 1);
+  begin(now + 1, 0);
 }
 
 void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
@@ -59,10 +70,10 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
       keep_all(rewriting_, false);
       rewriting_.clear();
     } else {
-      slots_[done.slot] = Slot::rests;
-      keep(done.slot, image[done.slot]);
+      keep(done.slot, writing_);
     }
-    begin(done_at_);
+    const bool is_word = !jobs_.empty() && jobs_.front().slot != kEverything;
+    begin(done_at_, is_word ? image[jobs_.front().slot] : 0);
   }
 }
 
@@ -86,6 +97,7 @@ void Eeprom::forget_jobs() {
   jobs_.clear();
   rewriting_.clear();
   done_at_ = kNever;
+  writing_ = 0;
 }
 
 void Eeprom::lose_power() { forget_jobs(); }
@@ -99,7 +111,8 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   require_state(
       content_.size() == earlier.content_.size() && std::ranges::equal(slots_, earlier.slots_, is_alike),
       "it holds different registers");
-  // A waiting register has exactly one job. A job that writes everything comes before all others.
+  // A waiting register has exactly one job that has not begun. A job that writes everything comes before all
+  // others.
   std::vector<Slot> left = slots_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     const Job& job = jobs_[i];
@@ -108,9 +121,11 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
       require_state(i == 0 && rewriting_.size() == content_.size(),
                     "the memory cannot be rewriting its whole content");
     } else {
-      require_state(job.slot < left.size() && left[job.slot] == Slot::waits,
-                    "the memory's writes are out of order");
-      left[job.slot] = Slot::rests;
+      // The first job is in progress: the register rests, or waits for its next value.
+      const bool is_expected = job.slot < left.size() &&
+                               (left[job.slot] == Slot::waits || (i == 0 && left[job.slot] == Slot::rests));
+      require_state(is_expected, "the memory's writes are out of order");
+      if (i > 0) left[job.slot] = Slot::rests;
     }
   }
   require_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),

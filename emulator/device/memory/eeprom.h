@@ -31,8 +31,8 @@ class Eeprom {
   void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same = false);
   /// Starts writing the whole image as it is now, in place of all waiting writes, as an erasure does.
   void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
-  /// Called at the end of `tick`: stores the writes that are finished. Single registers are stored with
-  /// their values in the image at that time.
+  /// Called at the end of `tick`: stores the writes that are finished. A single register is stored with its
+  /// value in the image when its write began: a later value is written after it.
   void step(Tick tick, std::span<const std::uint32_t> image);
   /// Stores everything at once.
   void settle(std::span<const std::uint32_t> image);
@@ -67,7 +67,8 @@ class Eeprom {
   };
   static constexpr std::uint32_t kEverything = UINT32_MAX;
 
-  void begin(Tick at);
+  /// Begins the first job, which writes `bits` if it is that of one register.
+  void begin(Tick at, std::uint32_t bits);
   void forget_jobs();
   void keep(std::size_t slot, std::uint32_t bits);
   /// With `even_at_once`, also stores the registers that need no time.
@@ -79,6 +80,7 @@ class Eeprom {
   std::vector<Slot> slots_;
   std::vector<Job> jobs_;                 // the first is in progress
   std::vector<std::uint32_t> rewriting_;  // the new values by slot, during an erasure; otherwise empty
+  std::uint32_t writing_ = 0;             // the value that the first job stores, if it stores one register
 };
 
 }  // namespace understudy::emulator

@@ -22,10 +22,11 @@ struct StateOf<emulator::Eeprom> {
   using Value = emulator::Eeprom;
   static constexpr auto fields =
       FieldList{field<&Value::content_>(),   field<&Value::slots_>(),   field<&Value::jobs_>(),
-                field<&Value::rewriting_>(), field<&Value::done_at_>(), field<&Value::revision_>()};
-  static constexpr std::size_t members = 6;
+                field<&Value::rewriting_>(), field<&Value::done_at_>(), field<&Value::revision_>(),
+                field<&Value::writing_>()};
+  static constexpr std::size_t members = 7;
   static void name_all(Value& all) {  // does not compile if a member is missing
-    [[maybe_unused]] auto& [done_at, revision, content, slots, jobs, rewriting] = all;
+    [[maybe_unused]] auto& [done_at, revision, content, slots, jobs, rewriting, writing] = all;
   }
 };
 

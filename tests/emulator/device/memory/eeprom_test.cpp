@@ -98,8 +98,8 @@ TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   Memory memory;
   memory.write(1, 7);  // 6
   memory.write(2, 8);  // 11
+  memory.write(1, 70);  // its write has not begun either
   memory.run_to(3);
-  memory.write(1, 70);
   memory.write(2, 80);
   memory.write(2, 81);
   memory.run_to(6);
@@ -108,6 +108,28 @@ TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   EXPECT_EQ(memory.content()[2], 81u);
   EXPECT_FALSE(memory.eeprom.writing()) << "five writes became two";
   EXPECT_EQ(memory.eeprom.revision(), 2u);
+}
+
+TEST(Eeprom, AValueThatIsBeingWrittenIsNotTheNextOne) {
+  for (const Tick when : {2, 5}) {
+    Memory memory;
+    memory.write(1, 7);  // begins at 1, done at 6
+    memory.run_to(when);
+    memory.write(1, 7);  // is being written already
+    memory.write(1, 70);
+    memory.write(1, 71);
+    memory.run_to(6);
+    EXPECT_EQ(memory.content()[1], 7u);
+    EXPECT_TRUE(memory.eeprom.writing()) << "the next value waits for its turn";
+    Memory cut = memory;
+    cut.eeprom.lose_power();
+    EXPECT_EQ(cut.content()[1], 7u);
+    memory.run_to(10);
+    EXPECT_EQ(memory.content()[1], 7u);
+    memory.run_to(11);
+    EXPECT_EQ(memory.content()[1], 71u);
+    EXPECT_FALSE(memory.eeprom.writing());
+  }
 }
 
 TEST(Eeprom, AValueThatIsThereIsNotWrittenAgain) {
@@ -251,15 +273,17 @@ class SlowEeprom {
 
   void write(std::size_t slot, std::uint32_t bits, Tick takes) {
     if (slot >= 6) return;
-    for (Job& job : jobs_) {
-      if (job.slot == slot) {
-        job.bits = bits;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      const bool has_begun = i == 0 && !is_first_;
+      if (jobs_[i].slot == slot && !has_begun) {
+        jobs_[i].bits = bits;
         return;
       }
     }
-    // Its contents when all waiting writes are done.
-    const std::uint32_t before =
-        !jobs_.empty() && jobs_[0].everything ? (*jobs_[0].everything)[slot] : kept[slot];
+    // Its contents when all writes before it are done.
+    std::uint32_t before = kept[slot];
+    if (!jobs_.empty() && jobs_[0].everything) before = (*jobs_[0].everything)[slot];
+    if (!jobs_.empty() && jobs_[0].slot == slot) before = jobs_[0].bits;
     if (before != bits) jobs_.push_back({.slot = slot, .bits = bits, .left = takes});
   }
   void rewrite(const Image& image, Tick takes) { jobs_ = {{.slot = 99, .left = takes, .everything = image}}; }
