@@ -167,8 +167,10 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     const CLI::Option* const option = flag_called(*found.command, name);
     if (option != nullptr && option->get_items_expected_max() == 0)
       return name + ": has a value; expected none";
+    const bool is_real = option != nullptr && option->get_type_name() == "FLOAT";
     return name + ": " + quoted(message.substr(kBegin.size() + name.size() + 3)) +
-           " is not a whole number, or too large; expected a whole number";
+           (is_real ? " is not a number; expected a number"
+                    : " is not a whole number, or too large; expected a whole number");
   }
   return message;
 }

@@ -176,15 +176,17 @@ int add_coverage(const CoverageArguments& arguments) {
   FileClaims claims;
   for (const std::string& file : arguments.files) claims.add({file, "a file to add"});
   require_coverage(claims, wish, "--output");
-  CoverageFile sum(wish, "--output");
+  std::vector<world::CoverageReport> reports;  // all are read before the output is opened
   for (const std::string& path : arguments.files) {
     const FileText text = read_text_file(path);
     if (!text) throw FileError(path + ": " + text.why + "; expected a tracefile (FILE.info)");
     if (const std::string why = is_another_kind(*text, ContentKind::coverage); !why.empty()) {
       throw FileError(path + ": " + why);
     }
-    sum.add(world::read_tracefile(*text, path));
+    reports.push_back(world::read_tracefile(*text, path));
   }
+  CoverageFile sum(wish, "--output");
+  for (const world::CoverageReport& report : reports) sum.add(report);
   return sum.write(stdout) ? kExitWell : kExitFailed;
 }
 

@@ -128,6 +128,7 @@ void add_break_words(const ControlArguments& arguments, Json& message) {
   for (const std::string& word : words) {
     const auto pair = keyed(word);
     if (!pair && parse_integer(word)) {
+      if (message.contains("line")) throw stray_word(arguments, word, "one line");
       message["line"] = require_whole(arguments, word, kExpected);
     } else if (!pair) {
       message["device"] = word;

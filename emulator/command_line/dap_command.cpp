@@ -30,6 +30,7 @@
 #include "emulator/serve/control/sockets.h"
 #include "emulator/serve/ports/tcp_places.h"
 #include "emulator/world/bench/listening.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::command_line {
 
@@ -137,6 +138,19 @@ void serve_clients(const std::vector<Descriptor>& listeners) {
   }
 }
 
+constexpr std::string_view kScheme = "rtu://";  // addresses need one; an editor's has none
+
+/// Throws pty::PortError, with the address as an editor gives it.
+std::vector<Descriptor> listeners_at(world::TcpAddress& address) {
+  try {
+    return serve::listen_at(address);
+  } catch (const pty::PortError& error) {
+    std::string why = error.what();
+    if (const std::size_t at = why.find(kScheme); at != std::string::npos) why.erase(at, kScheme.size());
+    throw pty::PortError("dap: " + why);
+  }
+}
+
 }  // namespace
 
 int serve_debug_adapter(const DapArguments& arguments) {
@@ -152,13 +166,13 @@ int serve_debug_adapter(const DapArguments& arguments) {
   }
   world::TcpAddress address;
   try {
-    address = world::parse_tcp_address("rtu://" + arguments.listen);
+    address = world::parse_tcp_address(std::string(kScheme) + arguments.listen);
   } catch (const world::ListeningError& error) {
     throw UsageError("dap: --listen: " + understudy::quoted(arguments.listen) +
                      " is not an address; expected HOST:PORT, such as 127.0.0.1:4711");
   }
-  const std::vector<Descriptor> listeners = serve::listen_at(address);
-  std::printf("dap %s\n", world::to_string(address).substr(std::string_view("rtu://").size()).c_str());
+  const std::vector<Descriptor> listeners = listeners_at(address);
+  std::printf("dap %s\n", world::to_string(address).substr(kScheme.size()).c_str());
   std::fflush(stdout);
   watch_for_interruption();
   serve_clients(listeners);

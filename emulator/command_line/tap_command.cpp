@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,14 @@ namespace {
 
 /// A signal ends a wait too, unless it arrives just before the wait.
 constexpr int kTapWaitMs = 100;
+
+/// Returns true if both name one port, perhaps with other settings or by a link.
+bool is_same_port(const std::string& one, const std::string& other) {
+  const std::string first = one.substr(0, one.find(','));
+  const std::string second = other.substr(0, other.find(','));
+  std::error_code error;
+  return first == second || std::filesystem::equivalent(first, second, error);
+}
 
 /// Real time that never runs backwards, even if the clock is set meanwhile.
 class RunningClock {
@@ -141,6 +151,9 @@ int tap_line(const TapArguments& arguments) {
         ": this old format is not supported; expected .pcapng, or another ending for a text log");
   if (arguments.line.find_first_of(" \t\n") != std::string::npos)
     throw UsageError("--line: " + quoted(arguments.line) + " is not a name; expected one word");
+  if (arguments.ports.size() == 2 && is_same_port(arguments.ports[0], arguments.ports[1]))
+    throw UsageError("tap: " + quoted(arguments.ports[1]) +
+                     " is the same port as the first; expected one port for each direction");
   FileClaims claims;
   pty::CaptureFile file(require_output(claims, "--output", arguments.output), log_line);
   std::vector<Adapter> adapters;

@@ -149,6 +149,9 @@ TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
   constexpr Case kCases[] = {
       {"broken.info", "broken.info:3: 'one,1' is not understood; expected a line's number\n"},
       {"bench.yaml", "bench.yaml: is a bench; expected a coverage file\n"},
+      {"bench.yaml -o unwritten.info", "bench.yaml: is a bench; expected a coverage file\n"},
+      {"broken.info --coverage-min most",
+       "understudy: --coverage-min: 'most' is not a number; expected a number\n"},
       {"none.info",
        "none.info: cannot be read (No such file or directory); expected a tracefile (FILE.info)\n"},
       {"broken.info -o broken.info",
@@ -162,6 +165,7 @@ TEST(Coverage, SumOfWhatIsNoTracefileIsRefused) {
     EXPECT_EQ(finished.exit_code, 2) << one.words;
     EXPECT_EQ(finished.errors, one.errors) << one.words;
   }
+  EXPECT_EQ(project.sh("test -e unwritten.info").exit_code, 1) << "a refused sum leaves no file";
 }
 
 TEST(Coverage, IsPartOfTheReportPage) {

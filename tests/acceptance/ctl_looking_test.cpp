@@ -227,6 +227,7 @@ TEST(CtlBreak, DebugsAProgram) {
   const std::pair<Words, const char*> wrong[] = {
       {{"break", "device"}, "nothing to stop at; expected line, instruction, when, write or on"},
       {{"break", "colour=red"}, "expected DEVICE LINE, instruction=N"},
+      {{"break", "3", "4"}, "'4' is not understood; expected one line"},
       {{"break", "delete"}, "expected a number after delete, or all"},
       {{"step", "back"}, "what: 'back' is unknown"},
       {{"continue", "soon"}, "expected within=10s"},

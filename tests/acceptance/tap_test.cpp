@@ -180,6 +180,7 @@ TEST(Tap, RefusesWhatItCannotDoInOneLine) {
       {{wire.path(), "-o", bench_in(folder)}, 3, "it is a bench; expected a capture to replace"},
       {{wire.path(), "-o", to, "--line", "a b"}, 2, "is not a name; expected one word"},
       {{wire.path()}, 2, "--output"},
+      {{wire.path(), wire.path() + ",9600", "-o", to}, 2, "is the same port as the first"},
   };
   for (const auto& row : cases) {
     Words words{"tap"};
