@@ -21,7 +21,7 @@ struct Super40ncHoming {
   std::int64_t offset_pulses = 0;    // X30, signed, independent of `direction`
   bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
   bool leaves_fast = false;          // true: leaves a DOG that is on at the start at `fast`
-  bool offset_creeps = false;        // true: returns to the reference and goes the offset at `creep`
+  bool offset_creeps = false;        // true: returns to the reference and moves by the offset at `creep`
   bool plate_may_be_short = false;   // true: a DOG that is off after the stop is ignored
   bool turns_at_limit = false;  // true: at a limit ahead of the DOG, turns back past the DOG and searches
                                 // again; false: homing fails
@@ -67,14 +67,14 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
 /// on the edge of the home switch that is met in `direction`, wherever it began.
 struct Simple2Homing {
   int direction = -1;  // GoHome_DIR: 0 is -1, 1 is +1
-  SpeedLaw speed;      // a top speed of 0 hangs, as every Simple2-R3 move does
+  SpeedLaw speed;      // with a top speed of 0 the axis hangs, as in every Simple2-R3 move
 };
 HomingProgram simple2_homing(const Simple2Homing& how);
 
 /// SLIM, H: at -VJ until horg is on, then slow down.
 struct SlimHoming {
   int direction = -1;  // +1 for a negative VJ
-  SpeedLaw jog;        // VJ; a top speed of 0 hangs
+  SpeedLaw jog;        // VJ; with a top speed of 0 the axis hangs
 };
 HomingProgram slim_homing(const SlimHoming& how);
 

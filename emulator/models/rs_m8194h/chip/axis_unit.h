@@ -93,7 +93,7 @@ struct Compare {
 struct OutSettings {
   std::uint8_t level = 0;       // outEdge
   std::uint8_t width_code = 0;  // PulseWidth
-  std::int64_t pulses = 0;      // pulses given so far
+  std::int64_t pulses = 0;      // pulses output so far
   Tick pulse_until = 0;         // end of the last pulse, if it is a millisecond long or more
 
   bool operator==(const OutSettings&) const = default;
@@ -140,8 +140,8 @@ struct AxisUnit {
   std::int64_t began_pulses = 0;                 // travel at the beginning of the last drive
   std::uint32_t external_pps = 0;                // speed of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP- seen so far
-  std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses were out
-  std::int64_t external_free_ns = 0;  // when the last drive's pulses are out; 0: it was not a move by edges
+  std::int64_t external_waiting = 0;  // pulses of edges that came after the last drive's pulses had been sent
+  std::int64_t external_free_ns = 0;  // end of the last drive's pulses; 0: it was not a move by edges
   std::array<Compare, 2> compare{};   // C+, C-
   std::uint8_t factors = 0;           // INTFACTOR_ENABLE, one bit per nINT
   std::array<std::uint8_t, kIsrFactors> isr_of{};

@@ -118,7 +118,7 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
   streams_.on_single_drive(axis);
   take_off(axis, DiscardEvent::other_drive);
   unit.began_pulses = motor.travel_pulses;
-  // A command sees its pins as they are now.
+  // A command reads the pins as they are now.
   motor.signals = chip_.environment(axis).at(motor.travel_pulses, motor.signals);
   std::int64_t distance = what.value;
   if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);

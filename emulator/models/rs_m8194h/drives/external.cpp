@@ -74,7 +74,7 @@ void External::watch(std::size_t axis, Tick tick) {
 }
 
 /// Returns true if the axis counts as driving only because drives end at ticks: the pulses of its last edge
-/// are already out.
+/// have already been sent.
 bool External::is_free(std::size_t axis, std::int64_t at_ns) const {
   const AxisUnit& unit = chip_.unit(axis);
   const motion::Axis& motor = chip_.motor(axis);

@@ -20,7 +20,7 @@ class External final : public Part {
 
   /// Handles the edges of a tick.
   void watch(std::size_t axis, Tick tick);
-  /// Starts the drives that waited for the end of the tick in which the earlier pulses were out.
+  /// Starts the drives that waited for the end of the tick in which the earlier pulses were sent.
   void start_waiting();
   /// Sets EXD_MP, EXD_FP or EXD_CP with their data, or turns them off.
   void set(std::size_t axis, motion::ExternalDrive::Mode mode, std::uint32_t data);

@@ -71,7 +71,7 @@ void CommandQueue::drop_first() {
   state_.fifo.stop_wait = 0;
 }
 
-/// Returns true while nothing begins: a macro is alive, or a trigger has paused everything.
+/// Returns true while nothing can begin, because a macro is alive or a trigger has paused everything.
 bool CommandQueue::is_held() const {
   if (programs_.is_alive() && !machine_options().fifo_goes_on_beside_macros) return true;
   if ((programs_.state().paused && machine_options().pause_holds_fifo) || status_.is_resetting()) return true;

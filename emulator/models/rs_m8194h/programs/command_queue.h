@@ -47,12 +47,12 @@ class CommandQueue final : public Part {
   /// Adds a command. The caller has checked the room.
   void queue(const lang::Command& command);
   int free_blocks() const;
-  /// Executes what the tick has room for.
+  /// Executes as many commands as the tick has room for.
   void run();
   /// Empties the queue; a STOP_WAIT that has begun is no longer in it, and continues.
   void clear() { state_.fifo.waiting.clear(); }
   void clear_all() { state_.fifo = {}; }
-  /// Drops what the queue waits for: a STOP_WAIT, or its first command.
+  /// Drops the command that the queue is waiting for: a STOP_WAIT, or its first command.
   void drop_first();
   void wait_for(AxisMask axes) { state_.fifo.stop_wait = axes; }
 

@@ -78,7 +78,7 @@ void ChipPins::give_erc(int axis) {
   axes_.erc_until[static_cast<std::size_t>(axis)] = ticks == kNever ? kNever : now() + 1 + ticks;
 }
 
-/// Gives ERC, which clears the drive's deviation counter, after a stop without a ramp.
+/// Outputs ERC, which clears the drive's deviation counter, after a stop without a ramp.
 void ChipPins::give_erc_behind(int axis, Code code) {
   const Settings settings = registers();
   const bool is_limit = code == Code::limit_positive || code == Code::limit_negative;

@@ -27,7 +27,7 @@ class ChipPins : protected Chips {
   /// Clears the counters that CLR holds at 0. COUNTER1 follows the travel, so it is set back at the end of
   /// each tick.
   void hold_cleared();
-  /// Returns true while ERC is given (M8x49, M8x52, M8x53).
+  /// Returns true while ERC is output (M8x49, M8x52, M8x53).
   bool gives_erc(int axis) const { return now() < axes_.erc_until[static_cast<std::size_t>(axis)]; }
   void give_erc(int axis);
   void give_erc_behind(int axis, Code code);

@@ -14,7 +14,7 @@ namespace understudy::emulator::models::super_40nc {
 enum class MarkEvent : std::uint8_t {
   motion_begins,
   motion_ends,      // in any way: arrived, stopped, abandoned, or replaced by another command
-  path_ends,        // LIN or an arc, in any way
+  path_ends,        // the end of LIN or an arc, in any way
   program_over,     // of the waiting program; only awaited and stop_awaited_by name the program
   orders_given_up,  // orders of the main page's HOME and ZERO keys
   reset,            // M8x02

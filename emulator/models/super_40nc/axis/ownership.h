@@ -41,10 +41,10 @@ enum class Grant : std::uint8_t {
   // if of the same kind (a jog in the same direction, the same wheel source), it continues; otherwise as
   // refused
   continues_if_same_kind,
-  refused,  // has no effect, and D8094 shows it
+  refused,  // has no effect, and is reported in D8094
   waits,
   new_speed,  // changes the speed of a turning axis
-  stops,      // stops along a ramp, or at once, as the request says
+  stops,      // stops along a ramp or at once, depending on the request
 };
 
 using OwnershipRow = std::array<Grant, kRequests>;

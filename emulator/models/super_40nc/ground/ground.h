@@ -121,7 +121,7 @@ class Ground {
   // --- finish_signals.cpp
   /// Begins the signal Y0 + `signal`, or restarts it.
   void show_finished(std::size_t signal);
-  /// Returns true if a line whose axes are at their targets already gives the signal.
+  /// Returns true if a line gives the signal even if its axes are already at their targets.
   bool finishes_without_motion() const { return !chose(option("fsh_without_motion", "do_not_come")); }
   void update_signals(Tick tick);
   /// Returns the first tick after `done` at which a signal changes.

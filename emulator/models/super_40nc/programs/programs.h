@@ -50,7 +50,7 @@ class Programs : protected Chips, public Watched {
   const StoredPrograms& stored() const { return stored_; }
 
   // --- loading.cpp
-  /// Loads a listing. Areas that it does not name stay as they are. A refused listing shows in D8094 to
+  /// Loads a listing. Areas that it does not name stay as they are. A refused listing is reported in D8094 to
   /// D8096.
   void load_program(std::string_view text);
   void make_programs_ready();

@@ -90,7 +90,7 @@ class Settings {
 /// Returns how many pps one step of the chip's speed is: the smallest step that reaches `top_pps`.
 double multiplier_of(double top_pps);
 
-/// Makes a law that goes from 0 to the speed of C22 in `up_ms`, and back in `down_ms`, up to its own top
+/// Makes a law that would go from 0 to the speed of C22 in `up_ms`, and back in `down_ms`, up to its own top
 /// speed, with S sections at the ends of the ramps. A ramp down of more than twice the time up begins too
 /// late and is cut off at the target.
 motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, double up_ms, double down_ms,

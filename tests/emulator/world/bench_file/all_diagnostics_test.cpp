@@ -132,7 +132,7 @@ lines:
         program: "END\nNONSENSE\n"
 )"),
       R"(bench.yaml:7:19: lines.a.stations[0].firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
-bench.yaml:8:18: lines.a.stations[0].modules: '3' is not valid; expected none, as simple2-r3 has no modules
+bench.yaml:8:18: lines.a.stations[0].modules: '3' is not valid; expected none, because simple2-r3 has no modules
 bench.yaml:10:26: lines.a.stations[0].set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000
 bench.yaml:12:20: lines.a.stations[0].set.HW_Code: cannot be written; it is read-only
 bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
@@ -286,7 +286,7 @@ bench.yaml:5: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_S
 bench.yaml:6: lines.a.stations[1]: 'name' is missing; expected it here
 bench.yaml:6: lines.a.stations[1].address: 'q' is not valid; expected a whole number from 0 to 15
 bench.yaml:6: lines.a.stations[1].port: 'B' is not a port of simple2-r3; expected 'RS485'
-bench.yaml:6: lines.a.stations[1].modules: '2' is not valid; expected none, as simple2-r3 has no modules
+bench.yaml:6: lines.a.stations[1].modules: '2' is not valid; expected none, because simple2-r3 has no modules
 bench.yaml:7: lines.a.stations[2].device: no device is called 'nosuch'; expected one of p q, x y
 bench.yaml:7: lines.a.stations[2].address: 'q' is not valid; expected a whole number from 0 to 255
 bench.yaml:7: lines.a.stations[2].prt: is not a key here; expected one of device, address, port (the nearest is 'port')

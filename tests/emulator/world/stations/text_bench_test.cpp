@@ -93,7 +93,7 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsReportedWithItsLine) {
   EXPECT_EQ(refusal(with(robot + ", modules: 9 }\n")),
             "b.yaml:5: lines.a.stations[0].modules: '9' is not valid; expected 1 to 8");
   EXPECT_EQ(refusal(with(feeder + ", modules: 2 }\n")),
-            "b.yaml:5: lines.a.stations[0].modules: '2' is not valid; expected none, as simple2-r3 has "
+            "b.yaml:5: lines.a.stations[0].modules: '2' is not valid; expected none, because simple2-r3 has "
             "no modules");
   EXPECT_EQ(refusal(with(robot + ", set: { N0: 40000 } }\n")),
             "b.yaml:5: lines.a.stations[0].set.N0: is out of range; expected -32768 to 32767");
