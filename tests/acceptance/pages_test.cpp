@@ -337,9 +337,9 @@ TEST(PageCounts, AreWhatTheTablesHold) {
       {"README.md", "([0-9,]+) contacts", rows_of(super40nc, std::regex("coil,.*"))},
       {"README.md", "([0-9][0-9,]*) inputs and", rows_of(super40nc, std::regex("discrete,.*"))},
       {"README.md", "([0-9,]+) registers of 32 bits on", rows_of(super40nc, std::regex("holding,.*"))},
-      {"docs/super-40nc.md", "lists all ([0-9,]+),", rows_of(super40nc)},
+      {"docs/super-40nc.md", "lists all ([0-9,]+) contacts", rows_of(super40nc)},
       {"docs/super-40nc.md", "the ([0-9,]+) mnemonics", rows_of({"super-40nc", "instructions"})},
-      {"README.md", "([0-9,]+) scenarios, each a question",
+      {"README.md", "([0-9,]+) scenarios, each of which answers",
        std::count_if(answers.begin(), answers.end(),
                      [&](const std::string& line) { return std::regex_match(line, answer); })}};
   for (const auto& one : counts) {

@@ -76,7 +76,7 @@ TEST(DocumentedExpressions, EveryNameOfAWorldIsKnown) {
   const World world = make_world();
   const Probes probes(world);
   std::size_t taken = 0;
-  for (const Row& row : table_under("| of a world | is |")) {
+  for (const Row& row : table_under("| name in a world | is |")) {
     for (const std::string& code : code_in(row.written)) {
       if (code.starts_with("mill.")) continue;
       EXPECT_NO_THROW(probes.resolve(code)) << code;
