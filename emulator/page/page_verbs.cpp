@@ -108,7 +108,7 @@ void take_watch(const Json& message, BrowserMessage& taken) {
   }
   for (const Json& name : names) {
     if (!name.is_string() || name.get_ref<const std::string&>().size() > kLongestName) {
-      throw BrowserError("names: expected texts of at most " + std::to_string(kLongestName) + " bytes");
+      throw BrowserError("names: expected strings of at most " + std::to_string(kLongestName) + " bytes");
     }
     taken.names.push_back(name.get<std::string>());
   }
@@ -118,7 +118,7 @@ void take_ask(Json& message, bool is_read_only, BrowserMessage& taken) {
   if (!message.contains("id") || !message["id"].is_number_integer()) {
     throw BrowserError("id: expected a whole number");
   }
-  if (!message.contains("message")) throw BrowserError("message: expected the message to ask");
+  if (!message.contains("message")) throw BrowserError("message: expected the message to send");
   taken.id = message["id"].dump();
   Json& asked = message["message"];
   taken.refusal = why_not_sent(asked, is_read_only);

@@ -344,8 +344,8 @@ class Checker {
         const bool is_warning = options_.chose(option("duplicate_label", "first_is_taken"));
         (is_warning ? checked_.warnings : checked_.errors)
             .push_back({token.line, token.column,
-                        "label K" + std::to_string(label) + " is one of area " +
-                            std::string(kAreas[other->second.first].name) + " as well",
+                        "label K" + std::to_string(label) + " also exists in area " +
+                            std::string(kAreas[other->second.first].name),
                         "one", Code::label_twice, step, other->second.second});
       }
     }

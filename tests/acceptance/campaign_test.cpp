@@ -121,7 +121,7 @@ TEST_F(Campaign, CasesOfAListKeepTheirFirstFailuresToo) {
   const Finished finished = understudy({"run", scenario, "--failures", folder_ / "failures"});
   EXPECT_EQ(recordings("failures"), std::set<std::string>{"rows_n_1.jsonl"});
   EXPECT_NE(
-      finished.output.find("it failed in the same way as this one, whose recording is kept: rows (n=1)"),
+      finished.output.find("it failed in the same way as this case, whose recording is kept: rows (n=1)"),
       std::string::npos)
       << finished.output;
   EXPECT_NE(finished.output.find("ok    " + scenario + ": rows (n=0)"), std::string::npos);

@@ -170,7 +170,7 @@ void Performance::perform(const ProgramStep& step) {
       if (!step.refused) throw StepError(in_file(error.first(), step.file));
       const std::string message = in_text(error.first());
       if (message.find(*step.refused) != std::string::npos) return;
-      throw StepError(device.name() + " refused the program for another reason: " + message,
+      throw StepError(device.name() + " refused the program for a different reason: " + message,
                       "a message with " + quoted(*step.refused), message);
     }
     if (step.refused && step.asks)

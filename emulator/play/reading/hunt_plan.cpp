@@ -154,7 +154,7 @@ void HuntPlan::read_entry(const world::YamlFields& field, StepsReader& reader) {
   if (only_value(entry.step).is_map() && only_value(entry.step).has("name"))
     only_value(entry.step)
         .at("name")
-        .fail("cannot be used, because the fault may occur several times; expected none");
+        .fail("cannot be used, because the fault may occur several times; expected no name");
   drawn_step(entry.step, [&](const world::YamlFields& drawn, std::size_t) {
     entry.values.emplace_back(drawn, "", 0, false);
     return std::string("0");

@@ -198,7 +198,7 @@ void read_saved_memory(StepsReader& reader, const world::YamlFields& step, const
       .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
   const std::string folder = std::filesystem::path(memory.file).parent_path().string();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    field.fail(folder + " is not a folder; expected one for the file");
+    field.fail(folder + " is not a folder; expected a folder for the file");
   }
   reader.story().saved.insert(memory.file);
   reader.add_saved(memory.file, field);

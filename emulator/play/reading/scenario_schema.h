@@ -72,7 +72,7 @@ inline constexpr world::Key kCasesKey{"cases", "Rows of parameters; each row is 
 inline constexpr world::Key kChoiceKey{
     "choice",
     "A choice that the manual leaves open, with its options: each option is a case, in which every "
-    "device that has the choice has that option. An option may give values to parameters.",
+    "device with this choice uses that option. An option may give values to parameters.",
     &kChoiceSchema};
 inline constexpr world::Key kVaryKey{
     "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};

@@ -22,7 +22,7 @@ constexpr std::size_t kLongestText = 1023;  // 1024 bytes with its end
 std::string read_text(const world::YamlFields& field) {
   std::string text = field.text();
   if (text.find_first_of("\r\n") != std::string::npos) {
-    field.fail("has several lines; expected one, without its end");
+    field.fail("has several lines; expected one line, without its end");
   }
   if (text.size() > kLongestText) {
     field.fail("has " + std::to_string(text.size()) + " characters; expected at most " +

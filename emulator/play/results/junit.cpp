@@ -106,7 +106,7 @@ std::string xml_escaped(std::string_view text) {
 }
 
 void Junit::fail() {
-  throw std::system_error(errno, std::generic_category(), "--junit: results cannot be kept below /tmp");
+  throw std::system_error(errno, std::generic_category(), "--junit: results cannot be stored in /tmp");
 }
 
 Junit::Junit() : waiting_(std::tmpfile(), &std::fclose) {

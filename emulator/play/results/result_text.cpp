@@ -92,7 +92,7 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
     add("to see it in a browser: understudy replay " + result.recording + " --page");
   }
   if (!result.like.empty())
-    add("it failed in the same way as this one, whose recording is kept: " + result.like);
+    add("it failed in the same way as this case, whose recording is kept: " + result.like);
   if (!result.rerun.empty()) {
     add("to run this case alone: understudy " + result.rerun);
   } else if (result.which.is_varied) {

@@ -109,7 +109,7 @@ class BenchReader {
   // --- lines ---------------------------------------------------------------------------------
   void read_lines(const YamlFields& lines) {
     lines.require_map();
-    if (lines.entries().empty()) lines.fail("has no line; expected at least one");
+    if (lines.entries().empty()) lines.fail("has no lines; expected at least one");
     for (const auto& [name, fields] : lines.entries()) {
       all_.attempt([&, &called = name, &keys = fields] {
         const std::size_t before = all_.count();

@@ -232,7 +232,7 @@ void Debugger::begin_step(StepKind kind, std::size_t number, const std::string& 
   if (kind != StepKind::stand) {
     begin_at(*step, program);
   } else if (device.axes() == nullptr) {
-    throw BreakpointError(device.name() + " has no axes; expected a device that has");
+    throw BreakpointError(device.name() + " has no axes; expected a device with axes");
   }
   step_ = std::move(step);
   settle();

@@ -30,7 +30,7 @@ std::weak_ordering compare(std::int64_t whole, double real) {
                     : std::weak_ordering::equivalent;
 }
 
-[[noreturn]] void overflow() { throw ArithmeticError("the result does not fit 64 bits"); }
+[[noreturn]] void overflow() { throw ArithmeticError("the result does not fit into 64 bits"); }
 
 double finite(double real) {
   if (!std::isfinite(real)) throw ArithmeticError("the result is too large");

@@ -195,8 +195,9 @@ Token Lexer::number() {
   const std::string_view unit = token.notation == Token::Notation::based ? std::string_view{} : unit_here();
   if (continues_name(at(next_))) {
     while (continues_name(at(next_))) ++next_;
-    fail(begin, quoted(text_.substr(begin, next_ - begin)) +
-                    " is not a number; expected digits, and a unit at most: ns, us, ms, s, min, h, mV or V");
+    fail(begin,
+         quoted(text_.substr(begin, next_ - begin)) +
+             " is not a number; expected digits, and optionally a unit: ns, us, ms, s, min, h, mV or V");
   }
   const std::string written = quoted(text_.substr(begin, next_ - begin));
   if (!unit.empty() && token.notation == Token::Notation::exponent) {
@@ -261,8 +262,7 @@ Token Lexer::name() {
     ++next_;
     while (continues_name(at(next_))) token.name += text_[next_++];
   }
-  if (at(next_) == '.' && at(next_ + 1) != '.')
-    fail(next_, "expected a name or the number of a bit after '.'");
+  if (at(next_) == '.' && at(next_ + 1) != '.') fail(next_, "expected a name or a bit number after '.'");
   if (!plain) return token;
   for (const Word& word : kWords) {
     if (word.spelling != token.name) continue;

@@ -58,7 +58,7 @@ class WordsText {
     for (int i = 0; i < count_; ++named) {
       if (named == kMaxRegisters)
         return text + ", and " + std::to_string(count_ - i) +
-               (is_table_of_bits(table_) ? " bits more" : " words more");
+               (is_table_of_bits(table_) ? " more bits" : " more words");
       text += (named == 0 ? "" : ", ") + next(i, named == 0);
     }
     return text;

@@ -75,8 +75,8 @@ class TextLineProtocol final : public LineProtocol {
       case Fault::Kind::corrupt_checksum:
       case Fault::Kind::wrong_transaction:
       case Fault::Kind::wrong_unit:
-        throw NameError(kind + ": is a fault of Modbus frames, and " + device +
-                        " speaks text; expected another one");
+        throw NameError(kind + ": is a fault of Modbus frames, but " + device +
+                        " uses text; expected a different fault");
       default: break;
     }
     const FaultTrigger& trigger = fault.trigger;

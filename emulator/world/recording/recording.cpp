@@ -144,7 +144,7 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
   const auto digit = [&](char c) -> std::uint8_t {
     if (c >= '0' && c <= '9') return static_cast<std::uint8_t>(c - '0');
     if (c >= 'a' && c <= 'f') return static_cast<std::uint8_t>(c - 'a' + 10);
-    throw RecordingError(std::string(key) + ": is not a sequence of bytes; expected two digits for each");
+    throw RecordingError(std::string(key) + ": is not a sequence of bytes; expected two digits per byte");
   };
   if (text.size() % 2 != 0)
     throw RecordingError(std::string(key) + ": ends in half a byte; expected two digits");
@@ -174,7 +174,7 @@ Fault fault_at(const Json& object, const KnownDevices& devices) {
   if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
   FaultText text{};
   for (const auto& [name, value] : fault.items()) {
-    if (!value.is_string()) throw RecordingError("fault: has a value that is not text; expected texts");
+    if (!value.is_string()) throw RecordingError("fault: has a value that is not text; expected text");
     if (&value != &fault.front()) {
       text.fields.emplace_back(name, value.get<std::string>());
       continue;

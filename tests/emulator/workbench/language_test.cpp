@@ -228,7 +228,7 @@ TEST(Languages, AScenarioExpectsThatAProgramIsRefused) {
   EXPECT_EQ(failure(wrong + "    refused: true\n  - expect: { it.Program_Refused: 1 }\n"), "");
   EXPECT_EQ(failure(wrong + "    refused: \"line 2, column 1: 'FLY'\"\n"), "");
   EXPECT_NE(
-      failure(wrong + "    refused: is full\n").find("it refused the program for another reason: line 2"),
+      failure(wrong + "    refused: is full\n").find("it refused the program for a different reason: line 2"),
       std::string::npos);
   EXPECT_NE(failure(good + "    refused: true\n").find("it accepted the program; expected a refusal"),
             std::string::npos);

@@ -219,8 +219,7 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
        "it.Output_2 = 1, Output_3 = 0, Output_4 = 1"},
       {"01 01 10 00 07 D0",
        "read coils 0x1000 it.Relay_0, Relay_1, Relay_2, Relay_3, Relay_4, Relay_5, Relay_6, Relay_7, and "
-       "1992 "
-       "bits more",
+       "1992 more bits",
        "01 01 01 05", "01 in bytes"},
       {"01 02 00 10 00 02", "read discrete inputs 0x0010 it.DRIVING_X, Always_On_X", "01 02 01 02",
        "it.DRIVING_X = 0, Always_On_X = 1"},

@@ -155,11 +155,11 @@ TEST(Super40ncOtherReadings, OfBlocksBehindAnOutputAndLabelsOfAll) {
   options = {};
   options.choose(option("label_scope", "the_first_area_has_it"));
   const std::string text = "AREA C\nNOP\nLAB K1\nEND\nAREA X\nLAB K2\nLAB K1\nEND\n";
-  EXPECT_EQ(codes(text), "(7:1: label K1 is one of area C as well; expected one)");
+  EXPECT_EQ(codes(text), "(7:1: label K1 also exists in area C; expected one)");
   EXPECT_EQ(check(text, options).warnings.at(0).step, 1501);
   EXPECT_EQ(check(text, options).warnings.at(0).other_step, 1);
   options.choose(option("duplicate_label", "refused_at_load"));
-  EXPECT_EQ(codes(text), "7:1: label K1 is one of area C as well; expected one;");
+  EXPECT_EQ(codes(text), "7:1: label K1 also exists in area C; expected one;");
 }
 
 TEST(Super40ncOtherReadings, OfTimersInLargerUnits) {

@@ -86,7 +86,7 @@ TEST_F(ScenarioErrors, TheBench) {
       "scenario.yaml:2: bench: none.yaml cannot be read (No such file or directory); expected a bench file");
   folder_.write("bad.yaml", "understudy: 1\nlines: {}\n");
   EXPECT_EQ(folder_.diagnostic("understudy: 1\nbench: bad.yaml\nsteps: []\n"),
-            "bad.yaml:2: lines: has no line; expected at least one");
+            "bad.yaml:2: lines: has no lines; expected at least one");
   EXPECT_EQ(folder_.diagnostic(with("nv: { feeder: none.json }")),
             "scenario.yaml:3: nv.feeder: none.json cannot be read (No such file or directory); expected an "
             "NV image");
@@ -314,7 +314,7 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"memory: { feeder: none.json }",
        ".memory.feeder: none.json cannot be read (No such file or directory); expected an NV image"},
       {"save: { feeder: nowhere/x.json }",
-       ".save.feeder: nowhere is not a folder; expected one for the file"},
+       ".save.feeder: nowhere is not a folder; expected a folder for the file"},
       {"save: { feder: x.json }", ".save.feder: no device is called 'feder'; the nearest is 'feeder'"},
   });
   const auto diagnostic = [&](const std::string& steps) {

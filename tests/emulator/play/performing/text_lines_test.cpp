@@ -162,7 +162,7 @@ TEST(TextSteps, WhatTheyCannotSayIsReportedBeforehand) {
   EXPECT_EQ(refusal("  - send: { text: a, bytes: 01 }\n"),
             "test.yaml:5: steps[0].send.bytes: is not a key here; expected one of line, text, reply, within");
   EXPECT_EQ(refusal("  - send: { text: \"a\\rb\" }\n"),
-            "test.yaml:5: steps[0].send.text: has several lines; expected one, without its end");
+            "test.yaml:5: steps[0].send.text: has several lines; expected one line, without its end");
   EXPECT_EQ(refusal("  - hear: { within: 1s }\n").substr(0, 28), "test.yaml:5: steps[0].hear: ");
   EXPECT_EQ(refusal("  - hear: { text: a, within: 0s }\n"),
             "test.yaml:5: steps[0].hear.within: takes no time; expected a duration above 0");

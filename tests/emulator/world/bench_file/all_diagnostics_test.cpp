@@ -426,7 +426,7 @@ scenario.yaml:6: steps[2].inject.name: 'all' cannot be the name of a fault; expe
 scenario.yaml:7: steps[3].power.feeder: 'maybe' is unknown; expected on, off or cycle
 scenario.yaml:7: steps[3].power.q: no device is called 'q'; expected one of feeder, turner
 scenario.yaml:8: steps[3].advance: is a second step in one entry; expected `- ` before it
-scenario.yaml:9: steps[4].save.feeder: nosuch is not a folder; expected one for the file
+scenario.yaml:9: steps[4].save.feeder: nosuch is not a folder; expected a folder for the file
 scenario.yaml:9: steps[4].save.q: no device is called 'q'; expected one of feeder, turner
 scenario.yaml:10: steps[5].program.feeder: nosuch.lst cannot be read (No such file or directory); expected a listing
 scenario.yaml:10: steps[5].program.q: no device is called 'q'; expected one of feeder, turner

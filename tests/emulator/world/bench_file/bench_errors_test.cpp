@@ -117,7 +117,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
 TEST(BenchErrors, Lines) {
   expect_diagnostics({
       {"understudy: 1\n", "1: bench: 'lines' is missing; expected it here"},
-      {"understudy: 1\nlines: {}\n", "2: lines: has no line; expected at least one"},
+      {"understudy: 1\nlines: {}\n", "2: lines: has no lines; expected at least one"},
       {"understudy: 1\nlines: [ a ]\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines: a\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines:\n  a.b: { " + kStation + " }\n",

@@ -189,24 +189,24 @@ TEST(Expression, WithoutAResultItSaysWhyAndWithWhichValues) {
       {"1 + 7 % b", "no result: column 7 of '1 + 7 % b': division by zero  (b is 0)"},
       {"1.0 / b", "no result: column 5 of '1.0 / b': division by zero  (b is 0)"},
       {"largest + 1",
-       "no result: column 9 of 'largest + 1': the result does not fit 64 bits  (largest is "
+       "no result: column 9 of 'largest + 1': the result does not fit into 64 bits  (largest is "
        "9223372036854775807)"},
       {"smallest - 1",
-       "no result: column 10 of 'smallest - 1': the result does not fit 64 bits  (smallest is "
+       "no result: column 10 of 'smallest - 1': the result does not fit into 64 bits  (smallest is "
        "-9223372036854775808)"},
       {"-smallest",
-       "no result: column 1 of '-smallest': the result does not fit 64 bits  (smallest is "
+       "no result: column 1 of '-smallest': the result does not fit into 64 bits  (smallest is "
        "-9223372036854775808)"},
       {"abs(smallest)",
-       "no result: column 1 of 'abs(smallest)': the result does not fit 64 bits  (smallest is "
+       "no result: column 1 of 'abs(smallest)': the result does not fit into 64 bits  (smallest is "
        "-9223372036854775808)"},
       {"smallest / -1",
-       "no result: column 10 of 'smallest / -1': the result does not fit 64 bits  (smallest is "
+       "no result: column 10 of 'smallest / -1': the result does not fit into 64 bits  (smallest is "
        "-9223372036854775808)"},
       {"smallest % -1", "0"},
       {"3037000500 * 3037000500",  // just above the root of 2^63
-       "no result: column 12 of '3037000500 * 3037000500': the result does not fit 64 bits"},
-      {"1 << 63", "no result: column 3 of '1 << 63': the result does not fit 64 bits"},
+       "no result: column 12 of '3037000500 * 3037000500': the result does not fit into 64 bits"},
+      {"1 << 63", "no result: column 3 of '1 << 63': the result does not fit into 64 bits"},
       {"1 << 64", "no result: column 3 of '1 << 64': a shift by 64 places; expected 0 to 63"},
       {"1 >> c", "no result: column 3 of '1 >> c': a shift by -7 places; expected 0 to 63  (c is -7)"},
       {"feeder.A.speed & 1",

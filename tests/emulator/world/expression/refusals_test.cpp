@@ -73,9 +73,9 @@ TEST(ExpressionRefusals, AnUnexpectedBeginningOrEndIsRefused) {
 TEST(ExpressionRefusals, InvalidNumbersAndNamesAreRefused) {
   expect_refusals({
       {"a > 5m", 5,
-       "'5m' is not a number; expected digits, and a unit at most: ns, us, ms, s, min, h, mV or V"},
+       "'5m' is not a number; expected digits, and optionally a unit: ns, us, ms, s, min, h, mV or V"},
       {"12abc", 1,
-       "'12abc' is not a number; expected digits, and a unit at most: ns, us, ms, s, min, h, mV or V"},
+       "'12abc' is not a number; expected digits, and optionally a unit: ns, us, ms, s, min, h, mV or V"},
       {"0xG", 1, "'0xG' is not a whole number of 64 bits"},
       {"0x", 1, "'0x' is not a whole number of 64 bits"},
       {"0b", 1, "'0b' is not a whole number of 64 bits"},
@@ -96,8 +96,8 @@ TEST(ExpressionRefusals, InvalidNumbersAndNamesAreRefused) {
       {".5", 1, "unexpected '.'; expected a name, a number or '('"},
       {"5.", 2, "unexpected '.'; expected an operator or the end"},
       {"1.5.5", 4, "unexpected '.'; expected an operator or the end"},
-      {"feeder.", 7, "expected a name or the number of a bit after '.'"},
-      {"feeder. STATUS", 7, "expected a name or the number of a bit after '.'"},
+      {"feeder.", 7, "expected a name or a bit number after '.'"},
+      {"feeder. STATUS", 7, "expected a name or a bit number after '.'"},
       {"feeder[5]", 7, "'[' without a name; expected a quoted one, [\"Like This\"]"},
       {"feeder[\"X", 8, "the quoted name is not closed"},
       {"feeder[\"\"]", 8, "an empty name"},

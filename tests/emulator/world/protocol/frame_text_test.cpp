@@ -48,7 +48,7 @@ TEST_F(FrameText, RequestsNameTheirRegisters) {
       {framed({1, 16, 0x40, 0x00, 0, 10, 20, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0}),
        "write 0x4000 feeder.MAIN_LINE0_CMD = 256, MAIN_LINE0_DATA1 = 256, MAIN_LINE0_DATA2 = 256, "
        "MAIN_LINE0_JMP = 256, MAIN_LINE1_CMD = 256, MAIN_LINE1_DATA1 = 256, MAIN_LINE1_DATA2 = 256, "
-       "MAIN_LINE1_JMP = 256, and 2 words more"},
+       "MAIN_LINE1_JMP = 256, and 2 more words"},
       {framed({9, 3, 0x00, 0x01, 0, 1}), "station 9: read 0x0001 0x0001"},
       {framed({0, 6, 0x10, 0x13, 0, 1}), "station 0: write 0x1013 feeder.ALL_SVON = 1"},
       {framed({1, 5, 0x00, 0x01, 0, 1}), "01 05 00 01 00 01 5D CA"},

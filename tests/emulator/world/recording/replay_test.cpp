@@ -247,7 +247,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0"})"),
             "a.jsonl:2: bytes: ends in half a byte; expected two digits");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0G"})"),
-            "a.jsonl:2: bytes: is not a sequence of bytes; expected two digits for each");
+            "a.jsonl:2: bytes: is not a sequence of bytes; expected two digits per byte");
   EXPECT_EQ(event(R"({"t":1,"do":"input","device":0,"terminal":99,"level":0})").substr(0, 22),
             "a.jsonl:2: terminal: i");
   EXPECT_EQ(event(R"({"t":1,"do":"power","device":0,"on":1})"),

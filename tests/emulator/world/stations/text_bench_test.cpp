@@ -101,7 +101,7 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsReportedWithItsLine) {
             "b.yaml:5: lines.a.stations[0].set.N0: 'fast' is not a number; expected one");
   EXPECT_EQ(
       refusal(with(robot + " }\nfaults: [ { busy: r } ]\n")),
-      "b.yaml:6: faults[0]: busy: is a fault of Modbus frames, and r speaks text; expected another one");
+      "b.yaml:6: faults[0]: busy: is a fault of Modbus frames, but r uses text; expected a different fault");
   EXPECT_EQ(refusal(with(robot + " }\nfaults: [ { drop: r, function: 3 } ]\n")),
             "b.yaml:6: faults[0].function: r speaks text, which has none; expected none");
 }

@@ -102,7 +102,7 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
        "feeder.B",
        {{"counts", "3"}},
        "feeder.B has no hand wheel; expected `encoder: { on: wheel }` in `plant`"},
-      {"busy", "arm", {}, "busy: is a fault of Modbus frames, and arm speaks text; expected another one"},
+      {"busy", "arm", {}, "busy: is a fault of Modbus frames, but arm uses text; expected a different fault"},
       {"stall",
        "feeder.A",
        {{"when", "feeder.A.greatest_speed > 5"}},
