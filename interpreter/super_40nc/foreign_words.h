@@ -12,7 +12,7 @@
 namespace understudy::interpreter::super_40nc {
 
 constexpr bool is_decimal_digit(char letter) { return letter >= '0' && letter <= '9'; }
-/// Parses digits with an optional sign; returns nothing if they do not fit 64 bits.
+/// Parses digits with an optional sign; returns nothing if they do not fit into 64 bits.
 std::optional<std::int64_t> decimal(std::string_view text);
 
 /// Finds a mnemonic in capitals; null if there is no such mnemonic.
