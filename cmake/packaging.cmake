@@ -100,7 +100,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "firmware-faithful emulator of industrial motion controllers")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Host software that drives a motion controller over a serial line (an
 operator panel, a PLC, a test bench) opens a pseudo-terminal instead and
-meets the same registers, the same frames, the same exceptions, and the
+finds the same registers, the same frames, the same exceptions, and the
 same motion to the millisecond and the pulse.
 .
 The systemd service understudy@NAME serves the bench /etc/understudy/NAME.yaml.")

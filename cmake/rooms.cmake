@@ -80,7 +80,7 @@ function(refuse_stray_includes folder known seen)
     file(STRINGS ${source} includes REGEX "^#include \"(base|motion|interpreter|pty|emulator|tests|benchmarks)/")
     foreach(include IN LISTS includes)
       if(NOT include MATCHES "${allowed}" OR (unknown AND include MATCHES "^#include \"(${unknown})/"))
-        message(FATAL_ERROR "${source}: the room '${folder}' may not know this: ${include}\n"
+        message(FATAL_ERROR "${source}: the room '${folder}' may not include this: ${include}\n"
                             "It may include: ${folder} ${known} ${seen} (${folder}/CMakeLists.txt)")
       endif()
     endforeach()

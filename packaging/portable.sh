@@ -70,7 +70,7 @@ ldd "$build/understudy" | while read -r library arrow place rest; do
   ! is_glibc "$library" || continue
   [ "$arrow" = "=>" ] && [ -f "$place" ] || fail "$library: is not found; expected it where the loader looks"
   cp -L "$place" "$libraries/$library"
-  # The path of the libraries is not relative to the program: they only find the C library.
+  # The libraries do not search relative to the program: they find only the C library.
   for needed in $(objdump -p "$place" | sed -n 's/^ *NEEDED *//p'); do
     is_glibc "$needed" || fail "$library: needs $needed; expected its static archive, so that it becomes part of the program"
   done
@@ -81,7 +81,7 @@ glibc=$(for file in "$tree/bin/understudy" "$libraries"/*; do objdump -T "$file"
   sed -n 's/.*[( ]GLIBC_\([0-9.]*\)).*/\1/p' | sort -uV | tail -1)
 newest=$(printf '%s\n' "$glibc" "$newest_glibc" | sort -V | tail -1)
 [ "$newest" = "$newest_glibc" ] || [ -n "${UNDERSTUDY_ANY_GLIBC:-}" ] ||
-  fail "the program needs glibc $glibc; expected $newest_glibc, as from Debian 12 (UNDERSTUDY_ANY_GLIBC=1 packs it)"
+  fail "the program needs glibc $glibc; expected at most $newest_glibc, that of Debian 12 (UNDERSTUDY_ANY_GLIBC=1 packs it)"
 
 # --- the list of parts (CycloneDX) and their licences ----------------------------------------------
 . /etc/os-release
