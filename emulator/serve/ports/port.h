@@ -107,6 +107,7 @@ class Port {
   void add_tcp_place(const std::string& place) { tcp_places_.push_back(place); }
 
  private:
+  static constexpr WallTime kRecovery = std::chrono::milliseconds(100);  // between tries to open a port again
   class Overflow;
   void hand_over();
   void on_data(std::uint32_t ready);

@@ -96,8 +96,8 @@ TEST(Eeprom, WhatIsWrittenLaterWaitsForWhatIsBeingDone) {
 
 TEST(Eeprom, AValueThatWaitsIsChangedInItsPlace) {
   Memory memory;
-  memory.write(1, 7);  // 6
-  memory.write(2, 8);  // 11
+  memory.write(1, 7);   // 6
+  memory.write(2, 8);   // 11
   memory.write(1, 70);  // its write has not begun either
   memory.run_to(3);
   memory.write(2, 80);
