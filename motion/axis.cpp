@@ -31,7 +31,7 @@ void require_distance(std::int64_t distance_pulses) {
 int sign_of(std::int64_t pulses) { return pulses < 0 ? -1 : +1; }
 
 /// Returns true if the drive is still at its very beginning. A drive that was changed at this moment, and
-/// continues by a profile that begins now, is not.
+/// continues with a profile that begins now, is not.
 bool not_begun(const PulseDrive& drive, Instant at) {
   return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }

@@ -40,7 +40,7 @@ struct HomingPhase {
   // Where homing goes: the number of a row, or one of these.
   static constexpr std::int8_t kRowBelow = -1;  // the row below; below the last row, home is found
   static constexpr std::int8_t kFail = -2;
-  static constexpr std::int8_t kNext = -3;   // continues as `next` says
+  static constexpr std::int8_t kNext = -3;   // continues with `next`
   static constexpr std::int8_t kAwait = -4;  // stays in the row: the signal must go off and come on again
 
   Does does = Does::search;
@@ -58,10 +58,12 @@ struct HomingPhase {
   Signals ignores = 0;             // signals that the axis does not react to during this phase
 
   // The row that follows:
-  std::int8_t next =
-      kRowBelow;  // after the signal is met and, unless the phase runs on, the axis has stopped
-  std::int8_t if_already = kNext;  // if `until` is as sought when the phase begins; kNext: it counts as met
-  std::int8_t if_gone = kNext;     // if the axis is at rest and `until` is no longer as sought
+  // After the signal is met and, unless the phase runs on, the axis has stopped.
+  std::int8_t next = kRowBelow;
+  // If `until` is in the state that is sought when the phase begins; kNext: it counts as met.
+  std::int8_t if_already = kNext;
+  // If, once the axis is at rest, `until` is no longer in the state that was sought.
+  std::int8_t if_gone = kNext;
   // If a limit ahead stops the phase, or keeps it from starting, before the signal is met. Unless this is
   // kFail, a limit after the signal is met does no harm.
   std::int8_t if_limit = kFail;

@@ -34,7 +34,8 @@ PortError cannot_have(const std::string& link_path, const std::string& what, int
                    port_trouble(error));
 }
 
-/// Our descriptor is read-only, so that its closing (IN_CLOSE_NOWRITE) differs from a usual host's.
+/// Our descriptor is read-only, so that closing it (IN_CLOSE_NOWRITE) can be told apart from an ordinary
+/// host's close.
 Descriptor open_slave(const std::string& path) {
   for (;;) {
     Descriptor slave(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));

@@ -112,8 +112,8 @@ SimTime RtuFramer::patience() const {
   return state_.is_paused ? std::max(framing_.rest_patience, usual_patience()) : usual_patience();
 }
 
-/// Returns true if the line has been quiet long enough at `at` to end the undecided part, or to be a pause
-/// in it.
+/// Returns true if, at `at`, the line has been quiet long enough to end the undecided part, or for the
+/// silence to count as a pause in it.
 bool RtuFramer::is_silent(SimTime at) const {
   return state_.undecided < used() && at >= state_.last_end + patience();
 }

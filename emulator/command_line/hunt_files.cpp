@@ -59,7 +59,8 @@ void write_found(const std::string& path, const std::string& text, ContentKind k
   if (!why.empty()) throw GrowingFileError("--found: " + path + " cannot be written: " + why);
 }
 
-/// Returns the words of the command as they are written to a file, where nothing in them is a parameter.
+/// Returns the words of the command with each `${` escaped as `$${`, so that nothing in them is read as a
+/// parameter when the file is loaded.
 std::vector<std::string> without_parameters(std::vector<std::string> words) {
   for (std::string& word : words) {
     for (std::size_t at = 0; (at = word.find("${", at)) != std::string::npos; at += 3) word.insert(at, "$");

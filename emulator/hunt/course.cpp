@@ -42,7 +42,9 @@ SimTime draw_time(const Ground& ground, SimTime low, SimTime high, Dice& dice) {
     SimTime near = edge - kNear + kFine * static_cast<std::int64_t>(dice.below(2 * kNear / kFine + 1));
     if (!ground.moments.empty() && dice.one_in(2)) {
       near = ground.moments[dice.below(ground.moments.size())];
-      near += kFine * draw_distance(dice);  // compilers differ in which operand of a sum they draw first
+      // A separate statement, because both operands draw, and compilers differ in which operand of a sum they
+      // evaluate first.
+      near += kFine * draw_distance(dice);
     }
     if (near >= low && near <= high) return near;
   }

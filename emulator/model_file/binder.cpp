@@ -42,8 +42,8 @@ std::uint32_t mask_of(const Spot& spot) {
   return spot.is_whole() ? ~0U : bits(spot.bit, "", spot.width).mask();
 }
 
-/// Reports a condition or relation without any of its possible operators, and names the operator that people
-/// often write instead.
+/// Reports the operator of a condition or relation if it is not allowed here (such as '='), or has no spaces
+/// around it.
 void require_known_sign(const YamlFields& field, const std::string& text,
                         std::initializer_list<std::string_view> known, std::string_view expected,
                         std::string_view example) {

@@ -54,8 +54,8 @@ std::uint64_t first_of(const Json& look, const char* key, const char* next_key) 
   return (list.empty() ? look.at(next_key) : list.front().at("number")).get<std::uint64_t>();
 }
 
-/// Takes the frames or events from a look, if it has any. If they were discarded after the request, the list
-/// no longer fits and is ignored.
+/// Takes the frames or events from a look, if it has any. If the page has discarded its own list since the
+/// request, the look's list no longer continues it and is ignored.
 template <class Ring>
 void take_list(const Json& look, const char* key, const char* next_key, std::uint64_t asked, Ring& ring,
                std::uint64_t& next) {

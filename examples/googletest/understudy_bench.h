@@ -1,8 +1,9 @@
-// A bench for tests: starts `understudy serve`, knows its ports, asks and breaks things through `understudy
-// ctl`, and is gone at the end. One header, C++17 and POSIX; take a copy.
+// A bench for tests: starts `understudy serve`, provides its ports, reads values and injects faults through
+// `understudy ctl`, and stops the server at the end. This single header needs C++17 and POSIX; copy it into
+// your project.
 //
 //   UnderstudyBench bench("bench.yaml");
-//   host.open(bench.port());                          // the first line's
+//   host.open(bench.port());                          // the port of the first line
 //   bench.ctl({"inject", "stall", "feeder.A"});
 //   EXPECT_EQ(bench.get("feeder.Cord_A"), 3200);
 #pragma once
@@ -25,8 +26,9 @@ class UnderstudyBench {
  public:
   using Words = std::vector<std::string>;
 
-  /// Ready when it returns. `flags` are those of `understudy serve`, such as {"--speed", "10x"}. The program
-  /// is `understudy` of PATH, or what the environment's UNDERSTUDY names. Throws std::runtime_error.
+  /// Returns when the bench is ready. `flags` are flags of `understudy serve`, such as {"--speed", "10x"}.
+  /// The program is `understudy` in PATH, or the one that the environment variable UNDERSTUDY names. Throws
+  /// std::runtime_error.
   explicit UnderstudyBench(const std::string& bench_file, const Words& flags = {}) {
     std::string folder = "/tmp/bench-XXXXXX";
     if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no folder can be made in /tmp");
@@ -41,13 +43,13 @@ class UnderstudyBench {
   UnderstudyBench(const UnderstudyBench&) = delete;
   UnderstudyBench& operator=(const UnderstudyBench&) = delete;
 
-  /// Returns the port that a host opens: the one of that line, or the first one.
+  /// Returns the port that a host opens: the port of that line, or of the first line.
   const std::string& port(const std::string& line = "") const {
     return line.empty() ? first_port_ : ports_.at(line);
   }
   std::string control() const { return folder_ + "/control"; }
 
-  /// `understudy ctl WORDS`, which must succeed; what it prints.
+  /// Runs `understudy ctl WORDS` and returns its output. Throws std::runtime_error if it fails.
   std::string ctl(const Words& words) const {
     Words command{program(), "ctl", "--control", control()};
     command.insert(command.end(), words.begin(), words.end());
@@ -97,7 +99,8 @@ class UnderstudyBench {
     return {pid, ends[0]};
   }
 
-  /// False at its end.
+  /// Appends what can be read from `output` to `text`. Returns false at the end of the output, or on an
+  /// error.
   static bool read_some(int output, std::string& text) {
     char buffer[4096];
     const ssize_t size = read(output, buffer, sizeof buffer);
@@ -105,7 +108,8 @@ class UnderstudyBench {
     return size > 0;
   }
 
-  /// "ready rs485 /dev/pts/3 /tmp/bench-x/rs485.port", a line for each port, all at once when all are open.
+  /// Reads the lines that the server prints at once when all ports are open, one for each port, such as
+  /// "ready rs485 /dev/pts/3 /tmp/bench-x/rs485.port".
   void read_ports() {
     std::string text;
     pollfd readable{server_.output, POLLIN, 0};
@@ -133,7 +137,7 @@ class UnderstudyBench {
       close(server_.output);
       server_ = {};
     }
-    rmdir(folder_.c_str());  // it has taken its links away
+    rmdir(folder_.c_str());  // the server has removed its links
   }
 
   std::string folder_;

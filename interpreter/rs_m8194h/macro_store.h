@@ -23,8 +23,8 @@ class MacroStore {
     SharedText text;
   };
 
-  /// Replaces the stored macros with these, each of which may appear only once. A text that is not a listing
-  /// of its macro counts as no macro.
+  /// Replaces the stored macros with these, each of which may appear only once. If a text is not a listing of
+  /// its macro, find() returns null for that macro.
   void update(std::span<const Stored> stored);
 
   /// Returns null if there is no such macro. The pointer is valid until the next update().

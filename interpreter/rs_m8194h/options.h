@@ -1,4 +1,4 @@
-// The options of commands and macros that are in effect: the code of the language looks them up with this.
+// The options in effect for commands and macros. The interpreter looks them up through this header.
 #pragma once
 
 #include <string_view>

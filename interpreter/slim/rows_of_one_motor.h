@@ -12,7 +12,7 @@ namespace understudy::interpreter::slim::rows {
 using enum Slot;
 using enum Condition;
 
-/// Abbreviations for rows: one name for the contents of the manual's columns.
+/// Shorthand for rows: each constant is one combination of the manual's three columns.
 struct PrintedColumns {
   Printed program, immediate, external;
 };

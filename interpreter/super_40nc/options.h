@@ -1,4 +1,4 @@
-// The options of the languages that are in effect: the code of the languages looks them up with this.
+// The options in effect for the languages. The interpreter looks them up through this header.
 #pragma once
 
 #include <cstdint>

@@ -34,13 +34,13 @@ FrameLength reply_length(std::span<const std::uint8_t> bytes);
 /// Returns true if `reply` can answer `request`: station, function and repeated fields agree.
 bool may_answer(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// Makes a frame of a serial line from one of Modbus TCP; nothing if it is none. `bytes` begins with the
-/// header and may go on after the frame.
 struct TcpFrame {
   CapturedBytes bytes{};
   std::size_t size = 0;  // on TCP
   std::uint16_t transaction = 0;
 };
+/// Converts the Modbus TCP frame at the beginning of `bytes` into a serial frame. Returns nothing if there is
+/// no complete one. Other bytes may follow the frame.
 std::optional<TcpFrame> take_tcp_frame(std::span<const std::uint8_t> bytes);
 
 /// Bytes of one direction, or of both if `role` is `either`.
@@ -49,9 +49,10 @@ class FrameFinder {
   explicit FrameFinder(FrameRole role) : role_(role) {}
 
   void add(const CapturedPiece& piece);
-  /// Returns the next frame. Bytes that begin none are dropped, and counted in dropped(). While a frame may
-  /// still be completed, returns nothing, unless `gives_up`. `pending` is the request that waits for a reply.
-  /// If bytes were dropped it returns nothing, too, so that they can be accounted for before the next frame.
+  /// Returns the next frame. Bytes that do not begin a frame are dropped, and counted in take_dropped().
+  /// While a frame may still be completed, returns nothing, unless `gives_up`. `pending` is the request that
+  /// is waiting for a reply. Also returns nothing if bytes were dropped, so that they can be accounted for
+  /// before the next frame.
   std::optional<FoundFrame> next(const CapturedBytes* pending, bool gives_up);
 
   bool is_empty() const { return begin_ == bytes_.size(); }
@@ -63,7 +64,7 @@ class FrameFinder {
 
  private:
   struct Mark {           // of a piece
-    std::size_t end = 0;  // counted from the beginning of all bytes
+    std::size_t end = 0;  // counted from the first byte ever added
     std::optional<SimTime> at{};
     std::size_t place = 0;
   };
@@ -71,7 +72,7 @@ class FrameFinder {
   struct Match {
     std::size_t size = 0;  // 0: it is no frame, or not a whole one yet
     FrameRole role = FrameRole::request;
-    bool answers = false;  // the request that waits
+    bool answers = false;  // it answers the pending request
     bool is_tcp = false;
     bool waits = false;  // more bytes may make it a frame
   };

@@ -28,7 +28,7 @@ struct CompareSettings {
 
 struct Judgement {
   Verdict verdict = Verdict::same;
-  bool has_times = false;  // of both replies
+  bool has_times = false;  // true if both replies have a time
   SimTime later{0};        // how much later the reply was than the bench's
   std::string request{};   // in words; only for Extent::whole
   std::string box{};

@@ -145,7 +145,7 @@ struct SpeedMeter {
   bool wraps = false;  // true: wraps beyond 16 bits; false: stays at their limits
 };
 
-/// Returns the revolutions per minute over the last ticks, as 16 bits with a sign.
+/// Returns the revolutions per minute over the last ticks, as a signed 16-bit value.
 std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& meter);
 
 /// Returns the speed in the commanded direction, at the end of tick `now`.

@@ -270,7 +270,7 @@ constexpr bool is_phase_of(Activity activity, Phase phase) {
   return false;
 }
 
-/// Returns true if an event can come in a phase.
+/// Returns true if an event can occur in a phase.
 constexpr bool can_come(Phase phase, Event event) {
   using namespace transitions;
   if (phase == servo_off) return has(kCommands, event);

@@ -104,7 +104,7 @@ void HostLint::restart() {
 
 void HostLint::on_character(const pty::TimedByte& character, bool is_received) {
   const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
-  if (!follows || !is_received) restart();  // a host that no device receives has other problems
+  if (!follows || !is_received) restart();  // a host whose bytes no device receives has other problems
   last_number_ = character.number;
   under_way_.reset();
   if (!is_received) return;

@@ -31,7 +31,8 @@ void define(const world::YamlFields& field, Parameters& parameters, const std::s
 void read_snapshot(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   const std::string name = value.text();
   if (name.empty()) value.fail("is empty; expected a name");
-  reader.story().snapshots[name] = reader.story();  // NOLINT(cppcoreguidelines-slicing): only the moment
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): intended; a snapshot keeps only the StoryMoment part
+  reader.story().snapshots[name] = reader.story();
   reader.add(step, "snapshot " + name, SnapshotStep{name});
 }
 

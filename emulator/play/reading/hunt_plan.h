@@ -50,7 +50,7 @@ class HuntPlan {
     SimTime within{-1};             // all of them happen within this time; negative: at any time
     std::size_t first = 0;          // the steps of the scenario before which it may happen
     std::size_t last = 0;
-    std::size_t at_step = 0;              // the step before which it comes if it waits for its moment
+    std::size_t at_step = 0;  // the step before which it is placed if it then waits for a time or a message
     std::vector<Disturbance::When> ways;  // the moments that it may have
     bool has_end = false;                 // a fault that ends by itself
   };

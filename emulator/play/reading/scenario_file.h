@@ -67,13 +67,14 @@ std::vector<Scenario> load_scenarios(const std::string& path, const std::string&
 std::vector<Scenario> parse_scenarios(ModelList models, const std::string& text, const std::string& path,
                                       const std::string& save_below = "");
 
-/// The kind of a file, judged by its keys. Throws FileError if the file cannot be read.
+/// The kind of a file.
 enum class FileKind : std::uint8_t {
   bench,
   scenario,
   steps,  // for other scenarios to include
   model,  // used by benches, which refer to it by its path (docs/import.md)
 };
+/// Determines the kind of a file from its keys. Throws FileError if the file cannot be read.
 FileKind kind_of_file(const std::string& path);
 
 }  // namespace understudy::emulator::play

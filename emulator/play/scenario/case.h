@@ -20,7 +20,7 @@ std::string to_text(const Case& which);
 /// Returns a hash of the scenario's name, and of the names and values. It depends neither on their order nor
 /// on other cases, so it is the same in every shard, and does not change when cases are added to the file.
 std::uint64_t identity_of(const Case& which);
-/// Returns the 16 digits that people and results use.
+/// Returns the identity as 16 hexadecimal digits, the form in which users type it and results show it.
 std::string identity_text(std::uint64_t identity);
 
 }  // namespace understudy::emulator::play

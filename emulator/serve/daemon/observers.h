@@ -43,7 +43,8 @@ struct Observers {
   }
   std::unique_ptr<world::Scope> scope;  // null: not armed
   world::Debugger debugger;
-  /// The events since debugging began, for going back; null: nobody debugs, or the bench was restored.
+  /// The events since debugging began, for going back; null if nobody is debugging, or if the bench has been
+  /// restored.
   std::unique_ptr<world::RecentCourse> course;
   struct Kept {
     SimTime at{0};

@@ -1,6 +1,6 @@
-// Connects one line of the world to its host, which has opened a pseudo-terminal or is a guest that came
-// through another door. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach
-// the model.
+// Connects one line of the world to its host, which either has opened the pseudo-terminal or is a Guest, such
+// as a TCP client. Only bytes cross here; effects at this edge (a slow host, a full buffer) never reach the
+// model.
 #pragma once
 
 #include <sys/stat.h>

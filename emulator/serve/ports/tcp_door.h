@@ -86,7 +86,7 @@ class TcpDoor final : private Port::Guest {
   std::vector<std::unique_ptr<TcpClient>> clients_;
   std::size_t turn_ = 0;     // the client whose request is next
   Descriptor next_;          // a client that waits until a finished one has its replies
-  bool is_serving_ = false;  // serve_line() runs; the line may send meanwhile
+  bool is_serving_ = false;  // serve_line() is running; the line may send in the meantime
   std::vector<std::unique_ptr<Listener>> listeners_;
 };
 

@@ -18,7 +18,7 @@
 namespace understudy::emulator::models::rs_m8194h {
 
 struct TriggerState {
-  std::vector<std::uint8_t> queued_triggers{};  // channels whose MP waits for its turn
+  std::vector<std::uint8_t> queued_triggers{};  // channels whose MP is waiting for its turn
 
   bool operator==(const TriggerState&) const = default;
 };
@@ -46,9 +46,9 @@ class Triggers final : public Part {
   void enable(bool on);
   /// Forgets that the level of a channel holds an axis, because the channel has another trigger now.
   void replaced(int channel);
-  /// Starts the MP of the first channel that waits, if it may start now.
+  /// Starts the MP of the first waiting channel, if it may start now.
   void start_queued();
-  /// Returns true if no MP waits, and no level is about to call its own again.
+  /// Returns true if no MP is waiting, and no level is about to call its MP again.
   bool rests() const { return state_.queued_triggers.empty() && !a_level_calls_again(); }
 
  private:

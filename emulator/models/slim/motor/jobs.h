@@ -46,7 +46,7 @@ struct Job {
   double smooth_corner_deg = 0;           // PR7
   double path_acceleration_units_s2 = 0;  // PR2; 0: the value when the job starts
   bool servo_on = false;
-  bool begun = false;  // job of one module: the module has moved for it
+  bool begun = false;  // for a job of one module: its motion has begun
   OutputOrder output{};
 
   bool operator==(const Job&) const = default;

@@ -1,5 +1,5 @@
-// The commands that a module executes alone at the head of its FIFO (MA, MR and H); pauses and AVM slow it
-// down.
+// The commands that a module executes alone at the head of its FIFO (MA, MR and H). Pauses and AVM slow their
+// motion down.
 #pragma once
 
 #include "base/simulated_time.h"

@@ -129,7 +129,7 @@ inline constexpr Transition kTransitions[] = {
      Event::stop,
      {Outcome::ends, Outcome::cannot_be, Outcome::ends_after_routine},
      "emergency_stop_program"},
-    // --- PZ and REDO: like TAPZ and TAREDO for motions; for programs by separate rows
+    // --- PZ and REDO: like TAPZ and TAREDO for motions; programs have rows of their own
     {ActiveTask::line, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::move, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},
     {ActiveTask::homing, Event::pause_q, transitions::any(Outcome::decelerates), "pause_scope"},

@@ -50,7 +50,7 @@ struct AxisState {
   std::uint8_t compares_by_tick = 0;  // comparators that the chip cannot evaluate, checked every tick
   motion::Events latching = 0;        // events of the chip's comparators that latch
   std::array<std::int64_t, kComparators>
-      compared{};                  // the last values seen by the comparators that are checked by tick
+      compared{};                  // the last values seen by the comparators that are checked every tick
   std::int64_t offset_lu = 0;      // offset of the work coordinate from the machine's
   motion::UnitScale scale_seen{};  // CMX and CDV as last applied
   std::int64_t encoder_counts = 0;

@@ -1,7 +1,7 @@
-// Events on the axes of a SUPER-40NC inside a tick, at the very pulse (motion/shared_tick.h): latches at the
-// DOG and at the chip's comparators; comparators of numbers other than the travel or an encoder (COUNTER3,
-// the hand wheel's counts, the remaining distance, the speed); and the pins LTC and CLR, if a switch of the
-// machine is wired to them.
+// Events on the axes of a SUPER-40NC within a tick, each at the exact pulse at which it occurs
+// (motion/shared_tick.h): latches at the DOG and at the chip's comparators; comparators of numbers other than
+// the travel or an encoder (COUNTER3, the hand wheel's counts, the remaining distance, the speed); and the
+// pins LTC and CLR, if a switch of the machine is wired to them.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ struct ProgramState {
   std::int32_t file = 0;          // the loaded file, selected by D9001
   bool file_is_left_out = false;  // the loaded file is too long: it is not in memory and stays unchanged
   std::int32_t recipe = 0;        // the recipe that D9002 selects
-  Tick flash_until = 0;           // no scan before this, while the flash is written
+  Tick flash_until = 0;           // no scan before this, because the flash is being written
   UserTable table;
   TextBlocks blocks;
 

@@ -67,7 +67,8 @@ class Programs : protected Chips, public Watched {
 
   // --- programs.cpp
   void handle(interpreter::super_40nc::Event event, Area area);
-  /// Resets, or pauses, a program that has lost a motion.
+  /// Handles a program's motion that was cut off, for example at a limit: unless the program has ended,
+  /// resets it or, if so chosen, pauses it.
   void broken(const Broken& broken);
   void path_broken(motion::Cause why);
   /// Executes a slice of each step program, if one of them is busy.
