@@ -115,7 +115,7 @@ double measure_suite(const std::string& folder) {
   std::printf("%zu scenarios of %s: %.1f simulated seconds in %.1f ms, %.0f times real time\n",
               played.scenarios, folder.c_str(), played.simulated_s, 1000 * each_s,
               played.simulated_s / each_s);
-  print_verdict("the suite's processor time, in 2000ths of its simulated time",
+  print_verdict("the suite's processor time, relative to 1/2000 of its simulated time",
                 each_s / played.simulated_s / kSuiteBar, 1);
   print_verdict("the suite with recordings, relative to without", median(ratios), kRecordingBar);
   return 1000 * each_s / static_cast<double>(played.scenarios);

@@ -368,7 +368,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
     {"photograph", "Read everything that a real controller reports, into an NV image",
      &CommandLine::add_photograph},
-    {"probe", "Play proofs on a real controller, to find out which options of choices it has",
+    {"probe", "Play the proofs of choices on a real controller, to find out which options it follows",
      &CommandLine::add_probe},
     {"compare", "Compare the replies of a real controller with those of a bench", &CommandLine::add_compare},
     {"calibrate", "Find the choices with which a bench replies like a real controller",

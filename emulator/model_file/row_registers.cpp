@@ -106,7 +106,7 @@ Firmware since_of(const ListRow& row) {
   if (version != 0 && is_known) return version == (known.empty() ? 0 : known.front()) ? 0 : version;
   row.fail(Column::since,
            quoted(row.text(Column::since)) +
-               " is not a firmware of the model; expected one of its `firmware`, such as 1.52");
+               " is not a firmware of the model; expected a version listed under `firmware`, such as 1.52");
 }
 
 /// Returns one register for each quantity, or for each word of a type that only holds words.

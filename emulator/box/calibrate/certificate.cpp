@@ -123,14 +123,16 @@ std::string certificate_page(const Certificate& certificate, const std::string& 
   constexpr std::array<std::string_view, 3> kSourceColumns{"file", "", "SHA-256"};
   const std::string sign = "ssh-keygen -Y sign -f KEY -n " + std::string(kSignatureNamespace) + " " + name;
   const std::string verify = "understudy certificate --verify " + name + " --signers SIGNERS";
-  return play::plain_page(
-      "Certificate of " + certificate.box, certificate.summary(),
-      play::table_section("Measured", kChoiceColumns, choices) +
-          play::table_section("Evidence", kSourceColumns, sources) + "<section>\n<h2>Signature</h2>\n<p>" +
-          play::xml_escaped(name) +
-          " has the digest of this page. Its owner signs it, and you verify it:</p>\n<pre>" +
-          play::xml_escaped(sign) + "\n" + play::xml_escaped(verify) + "</pre>\n</section>\n",
-      version);
+  const std::string how =
+      " contains the digest of this page. The owner of the key signs that file with the first command, and "
+      "you verify it with the second:";
+  return play::plain_page("Certificate of " + certificate.box, certificate.summary(),
+                          play::table_section("Measured", kChoiceColumns, choices) +
+                              play::table_section("Evidence", kSourceColumns, sources) +
+                              "<section>\n<h2>Signature</h2>\n<p>" + play::xml_escaped(name) + how +
+                              "</p>\n<pre>" + play::xml_escaped(sign) + "\n" + play::xml_escaped(verify) +
+                              "</pre>\n</section>\n",
+                          version);
 }
 
 std::string certificate_text(const Certificate& certificate, const std::string& page_name,

@@ -160,21 +160,21 @@ inline constexpr auto kSpeedSetRows = section("預存速度表", kMemory, {
 });
 
 inline constexpr auto kIncrementalBySetRows = section("預存位置表相關運動指令(增量位置移動)", kMotion, {
-    reg(0x2100, "ALL_ParmsMove_INC",     u16, W).means("starts an incremental move of all axes with the position set of this number", "所有軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAllAxes),
-    reg(0x2101, "Aaxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis A with the position set of this number", "A 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisA),
-    reg(0x2102, "Baxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis B with the position set of this number", "B 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisB),
+    reg(0x2100, "ALL_ParmsMove_INC",     u16, W).means("starts an incremental move of all axes, using the position set with this number", "所有軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAllAxes),
+    reg(0x2101, "Aaxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis A, using the position set with this number", "A 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisA),
+    reg(0x2102, "Baxis_ParmsMove_INC",   u16, W).means("starts an incremental move of axis B, using the position set with this number", "B 軸使用寫入的預存位置表號碼開始增量位置移動").range(0, 16).triggers<start_incremental_by_set>(kAxisB),
 });
 
 inline constexpr auto kVelocityBySetRows = section("預存速度表相關運動指令", kMotion, {
-    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).means("runs all axes at the speed set of this number", "所有軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAllAxes),
-    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).means("runs axis A at the speed set of this number", "A 軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAxisA),
-    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).means("runs axis B at the speed set of this number", "B 軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAxisB),
+    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).means("runs all axes, using the speed set with this number", "所有軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAllAxes),
+    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).means("runs axis A, using the speed set with this number", "A 軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAxisA),
+    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).means("runs axis B, using the speed set with this number", "B 軸使用寫入的預存速度號碼開始運動").range(0, 16).triggers<run_velocity_by_set>(kAxisB),
 });
 
 inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動指令(絕對位置移動)", kMotion, {
-    reg(0x2106, "ALL_ParmsMove_ABS",     u16, W).means("starts an absolute move of all axes with the position set of this number", "所有軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAllAxes),
-    reg(0x2107, "Aaxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis A with the position set of this number", "A 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisA),
-    reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B with the position set of this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
+    reg(0x2106, "ALL_ParmsMove_ABS",     u16, W).means("starts an absolute move of all axes, using the position set with this number", "所有軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAllAxes),
+    reg(0x2107, "Aaxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis A, using the position set with this number", "A 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisA),
+    reg(0x2108, "Baxis_ParmsMove_ABS",   u16, W).means("starts an absolute move of axis B, using the position set with this number", "B 軸使用寫入的預存位置表號碼開始絕對位置移動").range(0, 16).triggers<start_absolute_by_set>(kAxisB),
 });
 
 // A program cell is sent as 16 bits but holds 8.
@@ -202,10 +202,10 @@ inline constexpr auto kSystemRows = section("系統參數相關", kMemory, {
     reg(0xF008, "Baxis_DirectmRPM",    s32, RW).means("speed of axis B in velocity mode; a write enters this mode", "B 軸速度模式下輸出速度").range(kS32Min, kS32Max).in("mRPM").does<command_velocity>(kAxisB).may(kMotion),
     reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).means("homing acceleration and deceleration time of axis A", "A 軸回原點加減速時間").also("Axis_Home_AccTime").range(0, 3000).in("10ms").persists(),
     reg(0xF011, "Baxis_Home_AccTime",  u16, RW).means("homing acceleration and deceleration time of axis B", "B 軸回原點加減速時間").range(0, 3000).in("10ms").persists(),
-    reg(0xF012, "Aaxis_SVON_Polarity", u16, RW).means("level of the servo-on output of axis A: 1 conducts while on", "A 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
-    reg(0xF013, "Baxis_SVON_Polarity", u16, RW).means("level of the servo-on output of axis B: 1 conducts while on", "B 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
-    reg(0xF014, "Aaxis_ALM_Polarity",  u16, RW).means("level of the alarm input of axis A: 0 conducts at an alarm", "A 軸警報 ALM 輸入極性").range(0, 1).persists().may(kMemory | kMotion),
-    reg(0xF015, "Baxis_ALM_Polarity",  u16, RW).means("level of the alarm input of axis B: 0 conducts at an alarm", "B 軸警報 ALM 輸入極性").range(0, 1).persists().may(kMemory | kMotion),
+    reg(0xF012, "Aaxis_SVON_Polarity", u16, RW).means("polarity of the servo-on output of axis A: 1 means that the output conducts while the servo is on", "A 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
+    reg(0xF013, "Baxis_SVON_Polarity", u16, RW).means("polarity of the servo-on output of axis B: 1 means that the output conducts while the servo is on", "B 軸伺服啟動 SVON 輸出極性").range(0, 1).from_factory(1).persists().may(kMemory | kOutput | kMotion),
+    reg(0xF014, "Aaxis_ALM_Polarity",  u16, RW).means("polarity of the alarm input of axis A: 0 means that the input conducts during an alarm", "A 軸警報 ALM 輸入極性").range(0, 1).persists().may(kMemory | kMotion),
+    reg(0xF015, "Baxis_ALM_Polarity",  u16, RW).means("polarity of the alarm input of axis B: 0 means that the input conducts during an alarm", "B 軸警報 ALM 輸入極性").range(0, 1).persists().may(kMemory | kMotion),
     reg(0xF016, "Aaxis_DIR_Polarity",  u16, RW).means("1 reverses the direction output of axis A", "A 軸運動方向腳 DIR 極性").range(0, 1).persists().may(kMemory | kMotion),
     reg(0xF017, "Baxis_DIR_Polarity",  u16, RW).means("1 reverses the direction output of axis B", "B 軸運動方向腳 DIR 極性").range(0, 1).persists().may(kMemory | kMotion),
     reg(0xF018, "Axis_ENC_Polarity",   u16, RW).means("1 reverses the counting direction of encoder A", "A 軸編碼信號 AB 相序").also("Aaxis_ENC_Polarity").range(0, 1).persists().may(kMemory | kMotion),

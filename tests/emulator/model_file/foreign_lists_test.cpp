@@ -274,8 +274,8 @@ TEST(ForeignList, MayBelongToSeveralFirmwares) {
   EXPECT_TRUE(model.registers->find("B", 152));
   EXPECT_EQ(model.firmwares.back(), 152);
   EXPECT_EQ(diagnostic_about(model_with(list, "")),
-            "m.yaml:6:5: since: '1.52' is not a firmware of the model; expected one of its `firmware`, such "
-            "as 1.52");
+            "m.yaml:6:5: since: '1.52' is not a firmware of the model; expected a version listed under "
+            "`firmware`, such as 1.52");
   EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n", "firmware: [ '1.52', '1.00' ]\n")),
             "m.yaml:6:21: firmware[1]: '1.00' is not above the version before it; expected the oldest first");
   EXPECT_NE(starter_model(imported(list), {}, "one", "l.csv").find("firmware: [ '1.00', '1.52' ]"),

@@ -24,8 +24,8 @@ inline constexpr ChoiceRow kProgramChoices[] = {
     // --- contacts, registers, terminals ---
     // --- programs and the PLC ---
     {"plc_several_axes", "DRV 指令",
-     "What do DRV and HOM of the PLC for several axes do if one axis is in use?", "each_that_is_free|none",
-     kProposal, "The manual is silent. Each axis moves independently."},
+     "What do the PLC's DRV and HOM for several axes do if one of the axes is in use?",
+     "each_that_is_free|none", kProposal, "The manual is silent. Each axis moves independently."},
     {"both_jogs", "Motion指令一覽表", "What happens if both jog directions are ON?",
      "first_goes_on_from_rest_none|both_stop_it", kProposal, "The manual is silent."},
     // --- step programs ---
