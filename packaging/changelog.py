@@ -87,7 +87,7 @@ def faults_of_changelog(text, version):
             if line[4:] not in KINDS.values():
                 yield number, f"is not a kind of change; expected one of {', '.join(KINDS.values())}"
             elif line in kinds:
-                yield number, "appears twice in one release; expected it once"
+                yield number, "appears twice in one release; expected it only once"
             kinds.append(line)
 
 

@@ -155,7 +155,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
   }
   if (kind == "ArgumentMismatch") {
     if (message.find("At Most") != std::string::npos)
-      return before(message, ":") + ": is given twice; expected it once";
+      return before(message, ":") + ": is given twice; expected it only once";
     if (message.find("flag override") == std::string::npos)
       return before(message, ":") + ": has no value; expected one";
     return before(message, " was given") + ": has a value; expected none";

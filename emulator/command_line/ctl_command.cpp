@@ -41,7 +41,7 @@ Json assignments(const ControlArguments& arguments) {
                        " is not understood; expected NAME=VALUE");
     if (values.contains(name))
       throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(name) +
-                       " is given twice; expected it once");
+                       " is given twice; expected it only once");
     if (const auto whole = parse_integer(text)) {
       values[name] = *whole;
     } else if (const auto real = parse_real(text)) {
@@ -65,7 +65,7 @@ Json levels(const ControlArguments& arguments) {
       throw UsageError("ctl input: " + understudy::quoted(operand) +
                        " is not understood; expected NAME=LEVEL");
     if (values.contains(name))
-      throw UsageError("ctl input: " + understudy::quoted(name) + " is given twice; expected it once");
+      throw UsageError("ctl input: " + understudy::quoted(name) + " is given twice; expected it only once");
     const std::string level = operand.substr(equals + 1);
     if (const auto number = parse_integer(level)) {
       values[name] = *number;
@@ -87,7 +87,7 @@ Json fault_of(const std::vector<std::string>& operands) {
       throw UsageError("ctl inject: " + understudy::quoted(operands[i]) +
                        " is not understood; expected NAME=VALUE");
     if (fault.contains(name))
-      throw UsageError("ctl inject: " + understudy::quoted(name) + " is given twice; expected it once");
+      throw UsageError("ctl inject: " + understudy::quoted(name) + " is given twice; expected it only once");
     fault[name] = operands[i].substr(equals + 1);
   }
   return fault;

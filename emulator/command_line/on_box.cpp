@@ -35,7 +35,7 @@ std::map<std::string, box::PortName> ports_of(const OnArguments& arguments) {
     try {
       if (!ports.emplace(text.substr(0, equals), box::parse_port_name(text.substr(equals + 1))).second)
         throw UsageError("--on: " + quoted(text.substr(0, equals)) +
-                         " is given twice; expected each line once");
+                         " is given twice; expected each line only once");
     } catch (const box::PortNameError& error) {
       throw UsageError("--on: " + std::string(error.what()));
     }

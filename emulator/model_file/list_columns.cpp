@@ -184,7 +184,7 @@ class Planner {
     diagnostics_.attempt([&] {
       if (lower(row().cells[claim.cell].text) != lower(row().cells[*other].text)) return;
       throw FileError(place_of(claim.cell), "columns: " + quoted(row().cells[claim.cell].text) +
-                                                " appears twice; expected it once");
+                                                " appears twice; expected it only once");
     });
   }
 

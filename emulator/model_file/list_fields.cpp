@@ -43,7 +43,8 @@ void add_column(ListReading& reading, const std::string& name, const std::string
   }
   const bool is_present = std::any_of(reading.columns.begin(), reading.columns.end(),
                                       [&](const auto& entry) { return entry.first == *column; });
-  if (is_present) throw std::invalid_argument(understudy::quoted(name) + " appears twice; expected it once");
+  if (is_present)
+    throw std::invalid_argument(understudy::quoted(name) + " appears twice; expected it only once");
   reading.columns.emplace_back(*column, heading);
 }
 

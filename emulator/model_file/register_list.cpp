@@ -90,7 +90,7 @@ void require_apart(const std::vector<BitName>& all) {
     taken |= mask;
     const auto same =
         std::count_if(all.begin(), all.end(), [&](const BitName& other) { return other.name == name.name; });
-    if (same > 1) throw std::invalid_argument(quoted(name.name) + " appears twice; expected it once");
+    if (same > 1) throw std::invalid_argument(quoted(name.name) + " appears twice; expected it only once");
   }
 }
 

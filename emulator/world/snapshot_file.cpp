@@ -70,7 +70,7 @@ Json parse_json(const std::string& text) {
     parsed = parse_strict_json<Json>(
         text,
         [](const std::string& key) {
-          return SnapshotError(understudy::quoted(key) + ": appears twice; expected it once");
+          return SnapshotError(understudy::quoted(key) + ": appears twice; expected it only once");
         },
         {.deepest = kDeepest});
   } catch (const TooDeepJson& error) {

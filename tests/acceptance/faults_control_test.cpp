@@ -218,7 +218,7 @@ TEST(ControlInput, TakesVoltagesWordsAndSwitches) {
                  "input: AIN_A: '2.5' is not a level; expected a voltage such as 2.5V");
   expect_refused(daemon, {"input", "DIN_3=high"}, "input: DIN_3: 'high' is not a level; expected on or off");
   expect_refused(daemon, {"input", "DIN_3=on", "DIN_3=off"},
-                 "input: 'DIN_3' is given twice; expected it once");
+                 "input: 'DIN_3' is given twice; expected it only once");
   expect_refused(daemon, {"input", "DIN_3="}, "input: 'DIN_3=' is not understood; expected NAME=LEVEL");
   expect_refused(daemon, {"input"}, "input: nothing to do; expected NAME=LEVEL");
 }

@@ -93,7 +93,7 @@ TEST_F(Mistakes, OfFlagsAndWordsAreReportedInOneLine) {
       {{"run", "s.yaml", "--junit", ""}, 2, "understudy: --junit: is empty; expected a value"},
       {{"run", "s.yaml", "--junit", "a", "--junit", "b"},
        2,
-       "understudy: --junit: is given twice; expected it once"},
+       "understudy: --junit: is given twice; expected it only once"},
       {{"run", "s.yaml", "--lint=maybe"}, 2, "understudy: --lint: has a value; expected none"},
       {{"run"},
        2,

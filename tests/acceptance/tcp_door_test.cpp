@@ -104,7 +104,7 @@ TEST(TcpDoor, SaysWhyItCannotListen) {
         Case{"modbus-tcp://:0?timeout=2h", 2, "expected a duration of 1ms to 1h such as 200ms, or 0"},
         Case{"modbus-tcp://:0?unit=300", 2, "expected the number of a station, 1 to 247, or any"},
         Case{"modbus-tcp://:0?exception=no", 2, "has exception 'no'; expected on or off"},
-        Case{"modbus-tcp://:0?unit=1&unit=2", 2, "has unit twice; expected it once"},
+        Case{"modbus-tcp://:0?unit=1&unit=2", 2, "has unit twice; expected it only once"},
         Case{"modbus-tcp://:0?time=1s", 2, "which is not a setting; the nearest is 'timeout'"},
         Case{"other=rtu://:0", 2, "is not a line"}}) {
     const Finished refused = understudy({"serve", "--model", "simple2-r3", "--listen", c.wish});

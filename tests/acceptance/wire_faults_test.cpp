@@ -138,7 +138,7 @@ TEST(WireFaults, ThatAreWrongAreRefusedWithOneLine) {
             "nearest "
             "is 'pulses'\n");
   EXPECT_EQ(refused({"inject", "drop", "device", "nth=3", "nth=4"}),
-            "understudy: ctl inject: 'nth' is given twice; expected it once\n");
+            "understudy: ctl inject: 'nth' is given twice; expected it only once\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
 }
 

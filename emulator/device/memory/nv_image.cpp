@@ -118,7 +118,7 @@ Parsed parse_strictly(const std::string& text) {
     if (!keys.back().insert(key).second) {
       const bool is_block = outermost == "blocks" && depth > 1;
       throw NvError(
-          (is_block ? "blocks: " : "") + understudy::quoted(key) + ": appears twice; expected it once",
+          (is_block ? "blocks: " : "") + understudy::quoted(key) + ": appears twice; expected it only once",
           lines.at(seen));
     }
     if (depth == 1) outermost = key;

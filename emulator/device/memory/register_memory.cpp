@@ -145,7 +145,8 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     const auto slot = static_cast<std::size_t>(found->place.slot);
     if (is_named[slot]) {
-      throw refused_value(list, name, quoted(name) + ": appears twice, under two names; expected it once");
+      throw refused_value(list, name,
+                          quoted(name) + ": appears twice, under two names; expected it only once");
     }
     is_named[slot] = true;
     values[slot] = bits;

@@ -52,7 +52,7 @@ void read_inputs(StepsReader& reader, const world::YamlFields& step, const world
     const world::InputSetup input = world::read_input(field, name, reader.trial().known());
     for (const world::InputSetup& other : inputs.inputs) {
       if (other.device == input.device && other.terminal == input.terminal) {
-        field.fail("is the same input as another; expected it once");
+        field.fail("is the same input as another; expected it only once");
       }
     }
     text += (inputs.inputs.empty() ? " " : ", ") + name + "=" + field.text();

@@ -113,7 +113,7 @@ Json input_message(Daemon& daemon, const Json& message) {
     const world::InputName input = world::find_input(known, name);
     for (const world::InputSetup& other : wanted) {
       if (other.device == input.device && other.terminal == input.terminal) {
-        throw MessageError(name + ": appears twice; expected it once");
+        throw MessageError(name + ": appears twice; expected it only once");
       }
     }
     wanted.push_back({.device = input.device,

@@ -129,7 +129,7 @@ Json parsed(const std::string& line) {
   Json message = world::parse_strict_json<Json>(
       line,
       [](const std::string& key) {
-        return MessageError(understudy::quoted(key) + " appears twice; expected it once");
+        return MessageError(understudy::quoted(key) + " appears twice; expected it only once");
       },
       {.deepest = kDeepest, .max_members = kMaxNamed});
   for (const auto& [key, value] : message.items()) {

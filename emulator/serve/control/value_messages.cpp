@@ -244,7 +244,7 @@ Json set_message(Daemon& daemon, const Json& message) {
     // Two bits or halves of one register would be checked separately.
     for (const world::RegisterName& other : places) {
       if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
-        throw MessageError(name + ": its register appears twice; expected it once");
+        throw MessageError(name + ": its register appears twice; expected it only once");
       }
     }
     places.push_back(place);

@@ -133,7 +133,7 @@ TcpAddress parse_tcp_address(std::string_view text) {
       const std::string_view setting = rest.substr(0, end);
       given.push_back(setting.substr(0, setting.find('=')));
       if (std::ranges::count(given, given.back()) > 1)
-        throw ListeningError("has " + std::string(given.back()) + " twice; expected it once");
+        throw ListeningError("has " + std::string(given.back()) + " twice; expected it only once");
       read_setting(address.gateway, setting);
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }

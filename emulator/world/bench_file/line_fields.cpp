@@ -65,7 +65,7 @@ void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, 
       if (std::ranges::any_of(other.tcp, is_present))
         place.fail("line " + understudy::quoted(other.name) + " listens there; expected another port");
     }
-    if (std::ranges::any_of(line.tcp, is_present)) place.fail("appears twice; expected it once");
+    if (std::ranges::any_of(line.tcp, is_present)) place.fail("appears twice; expected it only once");
     line.tcp.push_back(address);
   };
   const auto places = listen.is_list() ? listen.elements() : std::vector{listen};

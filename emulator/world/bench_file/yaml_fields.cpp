@@ -239,7 +239,8 @@ void YamlFields::require_keys_of(const std::span<const Key>* known) const {
   diagnostics.require([&] {
     for_each_entry([&](const std::string& key, const YamlNode& value) {
       if (!seen.insert(key).second) {
-        diagnostics.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
+        diagnostics.attempt(
+            [&] { part(value, field_of(key)).fail("is given twice; expected it only once"); });
       } else if (!is_known(key)) {
         diagnostics.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
       }

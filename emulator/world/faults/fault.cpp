@@ -193,7 +193,7 @@ void set_fields(const KnownDevices& devices, const FaultKindRow& kind, const Fau
   std::vector<std::string> given;
   for (const auto& [name, value] : text.fields) {
     if (std::find(given.begin(), given.end(), name) != given.end()) {
-      throw NameError(name + ": is given twice; expected it once");
+      throw NameError(name + ": is given twice; expected it only once");
     }
     given.push_back(name);
     const auto is_it = [&field = name](const FaultFieldRow& row) { return row.name == field; };

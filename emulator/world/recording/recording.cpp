@@ -84,7 +84,7 @@ std::string hex_of(const std::vector<std::uint8_t>& bytes) {
 Json parse_line(std::string_view line) {
   try {
     Json parsed = parse_strict_json<Json>(line, [](const std::string& key) {
-      return RecordingError(understudy::quoted(key) + ": appears twice; expected it once");
+      return RecordingError(understudy::quoted(key) + ": appears twice; expected it only once");
     });
     if (!parsed.is_object()) throw RecordingError("line: is not an object; expected one");
     return parsed;

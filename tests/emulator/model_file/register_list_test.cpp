@@ -42,7 +42,8 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"adress,name\n0,A\n",
        "l.csv:1:1: columns: there is no address, but 'adress'; expected a first line such as "
        "address,name,access,width,unit,min,max,default, or --columns address=HEADING"},
-      {"address,name,Address\n0,A,1\n", "l.csv:1:14: columns: 'Address' appears twice; expected it once"},
+      {"address,name,Address\n0,A,1\n",
+       "l.csv:1:14: columns: 'Address' appears twice; expected it only once"},
       {"address,name\n0\n", "l.csv:2:1: name: is missing; expected one in every row"},
       {"address,name\n,A\n", "l.csv:2:1: address: is missing; expected one in every row"},
       {"address,name\n65536,A\n",
@@ -92,7 +93,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:5: bits: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
       {"address,name,bits\n0,A,\"0-3 X, 2 Y\"\n",
        "l.csv:2:5: bits: Y shares a bit with another name; expected separate bits"},
-      {"address,name,bits\n0,A,\"0 X, 1 X\"\n", "l.csv:2:5: bits: 'X' appears twice; expected it once"},
+      {"address,name,bits\n0,A,\"0 X, 1 X\"\n", "l.csv:2:5: bits: 'X' appears twice; expected it only once"},
       {"address,name,width\n65535,A,32\n",
        "l.csv:2:1: address: has no room for 32 bits; expected 0xFFFE or below"},
       {"address,name\n0,\"A\n", "l.csv:2:3: registers: a quoted cell is not closed; expected a second \""},

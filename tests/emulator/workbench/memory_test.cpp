@@ -184,7 +184,7 @@ TEST(WorkbenchMemory, RefusesBadBlocksByLineAndName) {
   EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\",\n\"\xFF\"]}"),
             "line 6: blocks: files: '07': is not UTF-8; expected text");
   EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\"],\n\"07\":[\"b\"]}"),
-            "line 6: blocks: '07': appears twice; expected it once");
+            "line 6: blocks: '07': appears twice; expected it only once");
   // Writes that the device itself refuses.
   EXPECT_EQ(with("\"recipes\":{},\n\"fils\":{\"07\":[\"a\"]}").substr(0, 46),
             "line 5: blocks: 'fils' is not a kind of block;");

@@ -159,15 +159,16 @@ TEST(NvImage, RefusesWhatIsNoImage) {
       {"an unknown key", head + R"("firmware": "1.52", "registers": {}, "extra": 1})",
        "'extra': is not a key of an NV image; expected none"},
       {"a key twice", R"({"understudy": 1, "understudy": 1})",
-       "line 1: 'understudy': appears twice; expected it once"},
+       "line 1: 'understudy': appears twice; expected it only once"},
       {"a register twice", with_registers(R"({"A": 1, "B": 2, "A": 1})"),
-       "line 1: 'A': appears twice; expected it once"},
+       "line 1: 'A': appears twice; expected it only once"},
       {"a list of kinds of blocks",
        head + R"("firmware": "1.52", "registers": {}, "blocks": [{"files": {}}]})",
        "blocks: is not an object; expected kinds of blocks"},
       {"a list of blocks, cut off", R"({"blocks": [{"files": {"f1": "a)",
        "line 1: is damaged or not JSON; expected an NV image"},
-      {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})", "'a?b': appears twice; expected it once"},
+      {"a key with a newline, twice", R"({"a\nb": 1, "a\nb": 1})",
+       "'a?b': appears twice; expected it only once"},
   };
   for (const Refused& c : cases) {
     const std::string found = diagnostic(c.text);
@@ -205,7 +206,7 @@ TEST(NvImage, HoldsRealNumbersAndAProgram) {
   EXPECT_EQ(reals("[1]"), "reals: is not an object; expected names and values");
   EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is not a number; expected one");
   EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is too large; expected one that fits in 64 bits");
-  EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "line 1: 'R0': appears twice; expected it once");
+  EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "line 1: 'R0': appears twice; expected it only once");
 }
 
 TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {

@@ -49,7 +49,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
        "3: stepps: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, "
        "parameters, environment, "
        "cases, choice, vary, hunt, steps, plays (the nearest is 'steps')"},
-      {with("seed: 1\nseed: 2"), "4: seed: is given twice; expected it once"},
+      {with("seed: 1\nseed: 2"), "4: seed: is given twice; expected it only once"},
       {with("seed: -1"), "3: seed: '-1' is not valid; expected a whole number from 0 to 9223372036854775807"},
       {with("gap: 5"), "3: gap: '5' is not a duration; expected one such as 250ms"},
       {with("name: [ a ]"), "3: name: expected a word or a number"},
@@ -100,7 +100,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
   expect_diagnostics({
       {with("parameters: { a: 1 }"),
        "3: parameters.a: 'a' is not used; expected ${a} somewhere in the scenario"},
-      {with("parameters: { a: 1, a: 2 }\n" + used), "3: parameters.a: is given twice; expected it once"},
+      {with("parameters: { a: 1, a: 2 }\n" + used), "3: parameters.a: is given twice; expected it only once"},
       {with("parameters: { and: 1 }"),
        "3: parameters.and: 'and' is not a parameter name; expected letters, digits and _, beginning with a "
        "letter"},
@@ -117,7 +117,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),
        "3: cases[1]: makes a second scenario called '1'; expected different values  (a=1)"},
-      {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it once"},
+      {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it only once"},
       {with("gap: ${a}"), "3: gap: column 1 of 'a': no parameter is called 'a'; there are none"},
       {"understudy: 1\nbench: feeder.yaml\nparameters: { a: 1 }\nsteps: [ { say: ${a} } ]\n",
        "4: scenario: is not YAML: a '{' inside braces begins a map; expected quotes around a ${...} between "
@@ -147,7 +147,7 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"{ write: { feeder.DOUT_ALL.1: 1 }, reply: nothing }",
        ".write.feeder.DOUT_ALL.1: the register of a bit is read before the write; expected whole registers "
        "with `reply: nothing`"},
-      {"{ say: x, say: y }", ".say: is given twice; expected it once"},
+      {"{ say: x, say: y }", ".say: is given twice; expected it only once"},
       {"advance: 0ms", ".advance: takes no time; expected a duration above 0"},
       {"advance: 250", ".advance: '250' is not a duration; expected one such as 250ms"},
       {"reset: all", ".reset: 'all' cannot be reset; expected peaks"},
@@ -194,7 +194,7 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { 0x1014: 1 }",
        ".write.0x1014: '0x1014' must begin with its device; expected one of feeder.0x1014, turner.0x1014"},
       {"write: { feeder.Aaxis_SVON: 1, feeder.Aaxis_SVON: 0 }",
-       ".write.feeder.Aaxis_SVON: is given twice; expected it once"},
+       ".write.feeder.Aaxis_SVON: is given twice; expected it only once"},
       {"write: { 'feeder[\"Cord_A\"': 1 }",
        ".write.feeder[\"Cord_A\": column 16 of 'feeder[\"Cord_A\"': expected ']' after the quoted name"},
       {"write: { feeder.HW_Code: 1 }",
@@ -345,7 +345,8 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
       {"restore: homed", ".restore: no earlier snapshot is called 'homed'; there is none"},
       {"fork: {}", ".fork: is empty; expected branches by name"},
       {"fork: { a: [] }", ".fork.a: is empty; expected at least one step"},
-      {"fork: { a: [ advance: 1ms ], a: [ advance: 1ms ] }", ".fork.a: is given twice; expected it once"},
+      {"fork: { a: [ advance: 1ms ], a: [ advance: 1ms ] }",
+       ".fork.a: is given twice; expected it only once"},
       {"repeat: { steps: [ advance: 1ms ] }", ".repeat: 'times' is missing; expected it here"},
       {"repeat: { times: 0, steps: [ advance: 1ms ] }",
        ".repeat.times: '0' is not valid; expected a whole number from 1 to 100000"},

@@ -346,7 +346,7 @@ TEST(ControlMessages, AKeyThatIsThereTwiceIsRefusedAndDoesNothing) {
             "feeder.Aaxis_Speed"}}) {
     const Json reply = rig.ask(message);
     EXPECT_EQ(reply["ok"], false) << message;
-    EXPECT_EQ(reply["error"], "'" + key + "' appears twice; expected it once");
+    EXPECT_EQ(reply["error"], "'" + key + "' appears twice; expected it only once");
   }
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], false);
   EXPECT_TRUE(rig.is_untouched());

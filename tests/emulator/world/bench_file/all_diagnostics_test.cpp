@@ -261,7 +261,7 @@ bench.yaml:10: lines.a.timing: 'never' is not a timing; expected wire or instant
 bench.yaml:11: lines.a.link: is empty; expected a path
 bench.yaml:12: lines.a.listen[0]: 'modbus-tcp://:99999' has port 99999; expected 0 to 65535
 bench.yaml:12: lines.a.listen[1]: 'foo://x' is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as rtu://127.0.0.1:5020
-bench.yaml:12: lines.a.listen[3]: appears twice; expected it once
+bench.yaml:12: lines.a.listen[3]: appears twice; expected it only once
 bench.yaml:13: lines.a.stations: is empty; expected at least one station
 bench.yaml:14: lines.b.pty: leaves the line without a port; expected `listen` as well
 bench.yaml:14: lines.b.stations: is empty; expected at least one station)");
@@ -313,7 +313,7 @@ bench.yaml:6: wires[0]: 'DOUT_99' is not an output of simple2-r3; the nearest is
 bench.yaml:6: wires[0]: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
 bench.yaml:8: faults[0]: no axis of u is called 'C'; expected one of A, B
 bench.yaml:8: faults[0].one_in: 'none' is not valid; expected a whole number
-bench.yaml:8: faults[0].nth: is given twice; expected it once
+bench.yaml:8: faults[0].nth: is given twice; expected it only once
 bench.yaml:9: faults[1].pulses: expected a word or a number
 bench.yaml:9: faults[1].at: 'x' is not valid; expected a duration such as 250ms)");
 }

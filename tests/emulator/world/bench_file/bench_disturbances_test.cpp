@@ -142,7 +142,7 @@ TEST(BenchErrors, DrivesEncodersAndHysteresis) {
       {machine("limits: { hysteresis: 1.5 }"),
        at + "limits.hysteresis: '1.5' is not valid; expected a whole number from 0 to 1000000000000"},
       {machine("home: { at: 0, width: 5, hysteresis: 1, hysteresis: 2 }"),
-       at + "home.hysteresis: is given twice; expected it once"},
+       at + "home.hysteresis: is given twice; expected it only once"},
   });
   EXPECT_EQ(diagnostic(machine("drive: { ready_after: 1.5s }")), "");
   EXPECT_EQ(parse(machine("drive: { ready_after: 1.5s }")).machines[0].plant.drive->ready_after, 1500);
@@ -159,7 +159,7 @@ TEST(BenchErrors, SwitchesOnTheHousing) {
        at + ".dip.DIP1: 'maybe' is neither on nor off; expected one of them"},
       {and_then("", "dip: { DIP1: 2 }"), at + ".dip.DIP1: '2' is neither on nor off; expected one of them"},
       {and_then("", "dip: [ DIP1 ]"), at + ".dip: expected a map, as in `key: value`"},
-      {and_then("", "dip: { DIP1: on, DIP1: off }"), at + ".dip.DIP1: is given twice; expected it once"},
+      {and_then("", "dip: { DIP1: on, DIP1: off }"), at + ".dip.DIP1: is given twice; expected it only once"},
       {"understudy: 1\nlines:\n  a: { baud: 19200, stations: [ { name: x, model: simple2-r3, dip: { DIP1: on "
        "} } ] }\n",
        "3: lines.a.stations[0].dip: the switches select 115200 baud, but the line has 19200; expected the "
@@ -219,7 +219,7 @@ TEST(BenchErrors, Inputs) {
       {inputs("x.DIN_11: on"), at + "x.DIN_11: no input of x is called 'DIN_11'; the nearest is 'DIN_1'"},
       {inputs("x.DOUT_1: on"),
        at + "x.DOUT_1: no input of x is called 'DOUT_1'; expected one such as 'DIN_0'"},
-      {inputs("x.DIN_1: on, x.DIN_1: off"), at + "x.DIN_1: is given twice; expected it once"},
+      {inputs("x.DIN_1: on, x.DIN_1: off"), at + "x.DIN_1: is given twice; expected it only once"},
   });
   EXPECT_EQ(diagnostic(inputs("x.AIN_A: 12V, x.AIN_B: 12000mV, DIN_1: on")), "");
 }
@@ -246,7 +246,7 @@ TEST(BenchErrors, Faults) {
        "6: faults[0].one_in: 'on' is not valid; expected a whole number"},
       {fault("lost_steps: x.A, one_in: 99999999999999999999"),
        "6: faults[0].one_in: '99999999999999999999' is not valid; expected a whole number"},
-      {fault("stall: x.A, stall: x.B"), "6: faults[0].stall: is given twice; expected it once"},
+      {fault("stall: x.A, stall: x.B"), "6: faults[0].stall: is given twice; expected it only once"},
       {fault("stuck: x.DIN_1"), at + "stuck: level is missing; expected on or off"},
       {fault("stuck: x.DIN_1, level: high"), "6: faults[0].level: 'high' is not valid; expected on or off"},
       {fault("stuck: x.DIN_1, level: 2"), "6: faults[0].level: 2 is out of range; expected 0 to 1"},

@@ -81,8 +81,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "2: line: is not a key here; expected one of understudy, lines, devices, plant, wires, inputs, "
        "faults, "
        "seed (the nearest is 'lines')"},
-      {"understudy: 1\n" + kLines + "lines: {}\n", "3: lines: is given twice; expected it once"},
-      {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it once"},
+      {"understudy: 1\n" + kLines + "lines: {}\n", "3: lines: is given twice; expected it only once"},
+      {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it only once"},
       {with_line("speed: 1, " + kStation),
        "3: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, "
        "byte_timeout, timing, echo, stations"},
@@ -95,9 +95,9 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "5: lines.a.stations[0].address:2: has no space after its ':'; expected `address: 2`"},
       {with("set: { Aaxis_Speed:1 }"),
        "5: lines.a.stations[0].set.Aaxis_Speed:1: has no space after its ':'; expected `key: value`"},
-      {with("model: simple2-r3"), "5: lines.a.stations[0].model: is given twice; expected it once"},
+      {with("model: simple2-r3"), "5: lines.a.stations[0].model: is given twice; expected it only once"},
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),
-       "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it once"},
+       "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it only once"},
       {and_then("devices:\n  x2: { model: simple2-r3, address: 2 }\n"),
        "7: devices.x2.address: is not a key here; expected one of model, firmware, modules, set, choices, "
        "dip, "
@@ -110,7 +110,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "(the "
        "nearest is "
        "'travel')"},
-      {and_then("plant:\n  x.A: {}\n  x.A: {}\n"), "8: plant.x.A: is given twice; expected it once"},
+      {and_then("plant:\n  x.A: {}\n  x.A: {}\n"), "8: plant.x.A: is given twice; expected it only once"},
   });
 }
 
@@ -152,7 +152,7 @@ TEST(BenchErrors, Lines) {
       {with_line("listen: 'rtu://:99999', " + kStation),
        "3: lines.a.listen: 'rtu://:99999' has port 99999; expected 0 to 65535"},
       {with_line("listen: [ 'rtu://:1', 'rfc2217://127.0.0.1:1' ], " + kStation),
-       "3: lines.a.listen[1]: appears twice; expected it once"},
+       "3: lines.a.listen[1]: appears twice; expected it only once"},
       {with_line("listen: 'modbus-tcp://:1', stations: [ { name: x, model: slim } ]"),
        "3: lines.a.listen: the line carries lines of text, not Modbus; expected rtu:// or rfc2217://, which "
        "carry any bytes"},

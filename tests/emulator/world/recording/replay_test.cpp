@@ -234,7 +234,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
                         .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
                     "\n"),
             "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
-  EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': appears twice; expected it once");
+  EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': appears twice; expected it only once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
             "a.jsonl:3: line: follows the end; expected nothing more");
   EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected one");

@@ -259,7 +259,7 @@ TEST(TextBench, AnImageThatDoesNotSuitIsRefused) {
   };
   EXPECT_EQ(parse(R"("reals":{"R0":"1"})"), "reals: 'R0': is not a number; expected one");
   EXPECT_EQ(parse(R"("reals":[1])"), "reals: is not an object; expected names and values");
-  EXPECT_EQ(parse(R"("reals":{"R0":1,"R0":2})"), "line 1: 'R0': appears twice; expected it once");
+  EXPECT_EQ(parse(R"("reals":{"R0":1,"R0":2})"), "line 1: 'R0': appears twice; expected it only once");
   EXPECT_EQ(parse(R"("program":"A")"), "program: is not a list of lines; expected one");
   EXPECT_EQ(parse(R"("program":["A",1])"), "program: is not a list of lines; expected one");
 }
