@@ -174,8 +174,10 @@ bool Paths::begin_path(const PathPlan& plan) {
 }
 
 bool Paths::joins_paths() const {
-  return ground_.language_options().joins_paths && axes_.path.engaged &&
-         registers().is_on(stored_d(d9::kContinuousPath));
+  namespace language = interpreter::super_40nc;
+  const bool may_join =
+      ground_.language_options().chose(language::option("continuous_path", "corners_are_run_through"));
+  return may_join && axes_.path.engaged && registers().is_on(stored_d(d9::kContinuousPath));
 }
 
 bool Paths::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {
