@@ -136,6 +136,7 @@ struct TypeWord {
   TypeKind kind;
   Type type;
   int words;
+  int bits = 0;
 };
 /// Two's complement and IEEE 754; INT has 16 bits, as in PLCs (IEC 61131-3).
 constexpr std::array kTypeWords{
@@ -159,10 +160,10 @@ constexpr std::array kTypeWords{
     TypeWord{"16bitflags", TypeKind::number, Type::u16, 1},
     TypeWord{"8bitflags", TypeKind::number, Type::u16, 1},
     TypeWord{"16bit", TypeKind::number, Type::u16, 1},
-    TypeWord{"u8", TypeKind::number, Type::u16, 1},
-    TypeWord{"uint8", TypeKind::number, Type::u16, 1},
-    TypeWord{"byte", TypeKind::number, Type::u16, 1},
-    TypeWord{"usint", TypeKind::number, Type::u16, 1},
+    TypeWord{"u8", TypeKind::number, Type::u16, 1, 8},
+    TypeWord{"uint8", TypeKind::number, Type::u16, 1, 8},
+    TypeWord{"byte", TypeKind::number, Type::u16, 1, 8},
+    TypeWord{"usint", TypeKind::number, Type::u16, 1, 8},
     TypeWord{"无符号", TypeKind::number, Type::u16, 1},
     TypeWord{"無符號", TypeKind::number, Type::u16, 1},
     TypeWord{"s16", TypeKind::number, Type::s16, 1},
@@ -178,9 +179,9 @@ constexpr std::array kTypeWords{
     TypeWord{"integer", TypeKind::number, Type::s16, 1},
     TypeWord{"integer16", TypeKind::number, Type::s16, 1},
     TypeWord{"sunssf", TypeKind::number, Type::s16, 1},
-    TypeWord{"s8", TypeKind::number, Type::s16, 1},
-    TypeWord{"int8", TypeKind::number, Type::s16, 1},
-    TypeWord{"sint", TypeKind::number, Type::s16, 1},
+    TypeWord{"s8", TypeKind::number, Type::s16, 1, 8},
+    TypeWord{"int8", TypeKind::number, Type::s16, 1, 8},
+    TypeWord{"sint", TypeKind::number, Type::s16, 1, 8},
     TypeWord{"有符号", TypeKind::number, Type::s16, 1},
     TypeWord{"有符號", TypeKind::number, Type::s16, 1},
     TypeWord{"u32", TypeKind::number, Type::u32, 2},
@@ -284,7 +285,7 @@ const TypeWord* find_type(std::string_view key) {
 }
 
 TypeMeaning meaning_of(const TypeWord& word) {
-  return {.kind = word.kind, .type = word.type, .words = word.words};
+  return {.kind = word.kind, .type = word.type, .words = word.words, .bits = word.bits};
 }
 
 /// Returns the meaning of a type that says how its words are ordered: "uint32sw".

@@ -77,7 +77,7 @@ struct TypeMeaning {
   } kind = Kind::number;
   Type type = Type::u16;
   int words = 1;  // 0: the list says how many
-  int bits = 0;   // the number of bits of a part
+  int bits = 0;   // of a part, or of a number that has fewer than 16
   WordOrder order{};
 };
 /// Returns nothing for an unknown word.

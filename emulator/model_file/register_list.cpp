@@ -195,6 +195,7 @@ class ListReader {
                                   .bits = {*made.part}};
       }
     }
+    if (taken_.join(row, made.registers, list_.registers)) return;
     taken_.place(row, made.registers);
     taken_.take(row, made.registers, list_.registers.size());
     list_.registers.insert(list_.registers.end(), std::make_move_iterator(made.registers.begin()),

@@ -1,11 +1,14 @@
 #include "emulator/model_file/row_registers.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,23 +60,28 @@ WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& 
   row.fail(Column::address, quoted(row.text(Column::address)) + " is not an address; expected " + expected);
 }
 
-/// Reads a name as the manual prints it. If expressions cannot contain this name, they use one with other
-/// characters.
+/// Returns true for words that mean something else in expressions.
+bool is_taken_word(const std::string& name) {
+  constexpr std::array<std::string_view, 7> kWords{"and", "or", "not", "true", "false", "on", "off"};
+  return std::find(kWords.begin(), kWords.end(), name) != kWords.end() || table_called(name).has_value();
+}
+
+/// Takes a name as the manual prints it. If expressions or commands cannot contain it, they use one with
+/// other letters. A sign at the beginning would make a flag or a comment of it.
 void read_name(const ListRow& row, ListedRegister& listed) {
   const std::string& name = row.text(Column::name);
   if (name.empty()) row.fail(Column::name, "is missing; expected one in every row");
-  const bool begins_well = !(name[0] >= '0' && name[0] <= '9');
+  const auto first = static_cast<unsigned char>(name[0]);
+  const bool begins_well = std::isalpha(first) != 0 || first == '_' || first >= 0x80;
   const bool is_plain = name.find_first_of(".{}\"") == std::string::npos && one_line(name) == name;
   listed.name = name;
-  if (!begins_well || !is_plain) {
+  if (!begins_well || !is_plain || is_taken_word(name)) {
     listed.name = as_word(name);
+    if (is_taken_word(listed.name)) listed.name.insert(0, "_");
+    if (listed.name.empty()) listed.name = "Register_" + std::to_string(listed.address);
     listed.printed = one_line(name);
     row.remark("name", Column::name, quoted(name) + " is called " + quoted(listed.name) + " here");
   }
-  if (listed.name.empty() || table_called(listed.name))
-    row.fail(Column::name, quoted(name) +
-                               " cannot be used as a name; expected one that has a letter and is "
-                               "not the name of a table");
 }
 
 Access access_of(const ListRow& row, Table table) {

@@ -14,7 +14,11 @@ namespace understudy::emulator::model_file {
 
 class TakenPlaces {
  public:
-  /// Renames a register that has the name of an earlier one. Throws FileError if an address is in use.
+  /// Joins a row's registers with those of the list (joined_rows.h) if all of them are in it. Throws
+  /// FileError if the rows contradict each other.
+  bool join(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,
+            std::vector<models::imported::ListedRegister>& list);
+  /// Renames a register that has the name of an earlier one. Throws FileError if an address is taken.
   void place(const ListRow& row, std::vector<models::imported::ListedRegister>& registers);
   /// Remembers registers; the first of them has this number in the list.
   void take(const ListRow& row, const std::vector<models::imported::ListedRegister>& registers,
@@ -24,12 +28,16 @@ class TakenPlaces {
 
  private:
   struct Place {
-    std::size_t number = 0;  // the number of the register in the list, plus 1
-    int line = 0;
+    std::size_t number = 0;  // of the register in the list, plus 1
+    const ListRow* row = nullptr;
     std::string name{};
   };
   static std::vector<std::string> names_of(const models::imported::ListedRegister& listed);
   int line_of_name(const models::imported::ListedRegister& listed) const;
+  /// Returns the name, or one with the address appended if it is taken.
+  std::string free_name(const models::imported::ListedRegister& listed) const;
+  void join_one(const ListRow& row, const models::imported::ListedRegister& again,
+                models::imported::ListedRegister& whole, const ListRow& first_row);
 
   std::array<std::vector<Place>, 4> words_;  // the registers, by table and address
   std::array<std::unordered_map<std::string, int>, 4> names_;

@@ -39,6 +39,7 @@ struct ListedRegister {
   std::uint16_t address = 0;
   std::string name{};
   std::string printed{};  // the manual's name, if it cannot serve as `name`
+  std::string alias{};    // the name that another row of the list gives it
   Type type = Type::u16;
   WordOrder order{};
   Access access = Access::read_write;

@@ -43,6 +43,7 @@ std::vector<RegisterRow> plain_rows(std::span<const ListedRegister> registers, c
     if (listed.ranged) row.range(listed.min, listed.max);
     row.in(listed.unit).from_factory(listed.factory);
     row.section = listed.printed;
+    row.alias = listed.alias;
     row.since_firmware(listed.since);
     const bool low_first = listed.order.words == WordOrder::Words::low_first;
     const bool is_own_order = listed.order.words != WordOrder::Words::as_the_model;

@@ -43,6 +43,7 @@ std::string line_of(const ListedRegister& listed) {
     text += " " + bit.name + ":" + std::to_string(bit.bit) +
             (bit.width > 1 ? "+" + std::to_string(bit.width) : "");
   if (!listed.printed.empty()) text += " (" + listed.printed + ")";
+  if (!listed.alias.empty()) text += " or " + listed.alias;
   return text;
 }
 
@@ -158,6 +159,75 @@ TEST(ForeignList, HasNamesAsManualsPrintThem) {
   EXPECT_EQ(remarks_on(list),
             "l.csv:2:3: name: 'P0.01' is called 'P0_01' here (and 2 more)\n"
             "l.csv:8:3: name: 'Speed' is already a name in line 7; here it is called 'Speed_6'\n");
+}
+
+TEST(ForeignList, HasNamesThatMeanSomethingElseHere) {
+  const char* const list =
+      "address,name\n0,and\n1,=cmd\n2,#x\n3,-speed\n4,on\n5,coil\n6,Input\n7,a=b\n8,速度\n9,_x\n12,%\n10,* "
+      "top "
+      "*\n11,_on\n";
+  EXPECT_EQ(lines_in(list),
+            "0 _and u16 (and)\n1 _cmd u16 (=cmd)\n2 _x u16 (#x)\n3 _speed u16 (-speed)\n4 _on u16 (on)\n"
+            "5 _coil u16 (coil)\n6 Input u16\n7 a=b u16\n8 速度 u16\n9 _x_9 u16\n12 Register_12 u16 (%)\n10 "
+            "_top u16 (* top *)\n"
+            "11 _on_11 u16\n");
+  EXPECT_EQ(remarks_on("address,name\n0,and\n1,=cmd\n"),
+            "l.csv:2:3: name: 'and' is called '_and' here (and 1 more)\n");
+}
+
+TEST(ForeignList, MayDescribeARegisterTwice) {
+  const Foreign kLists[] = {
+      {"address,name,access\n0,A,R\n0,A,W\n", "0 A u16\n"},
+      {"address,name,access,unit\n0,A,R,\n0,B,W,V\n", "0 A u16 V or B\n"},
+      {"address,name,function,min,max,default\n0,A,3,,,\n0,A set,6,1,9,\n", "0 A u16 1..9 =1 or A set\n"},
+      {"address,name,function,min,max,default\n0,A,3,1,9,\n0,A set,6,,,4\n", "0 A u16 1..9 =4 or A set\n"},
+      {"address,name,min,max\n0,A,1,9\n0,A,,\n", "0 A u16 1..9 =1\n"},
+      {"address,name,bits\n0,A,0 X\n0,A,\"0 X, 1 Y\"\n", "0 A u16 X:0 Y:1\n"},
+      {"address,name,type,access\n0,A,u32,R\n0,B,u32,R\n2,B_L,u16,R\n", "0 A u32 r or B\n2 B_L_2 u16 r\n"},
+      {"address,name,type,default\n0,A high,uint8,1\n0,A low,uint8,2\n",
+       "0 Register_0 u16 =258 A_high:8+8 A_low:0+8\n"},
+      {"address,name,type\n0,Year (LSB),uint8\n0,Month,uint8\n", "0 Register_0 u16 Year_LSB:0+8 Month:8+8\n"},
+      {"address,name,type,access\n0,A,uint8,R\n0,A set,uint8,W\n", "0 A u16 or A set\n"},
+      {"address,name,type\n0,A,u32\n0,A high,u16\n1,A low,u16\n", "0 A u32\n"},
+      {"address,name,type\n0,A,string4\n0,A,string4\n", "0 A_1 u16\n1 A_2 u16\n"},
+      {"address,name\n0,A\n1,B\n0,B\n", "0 A u16 or B_0\n1 B u16\n"},
+  };
+  for (const Foreign& one : kLists) EXPECT_EQ(lines_in(one.list), one.registers) << one.list;
+  EXPECT_EQ(remarks_on("address,name,access\n0,A,R\n0,A,W\n1,C,R\n1,D,W\n2,Reserved,R\n2,Reserved,R\n"),
+            "l.csv:3:3: name: 'A' is also in line 2; the rows are one register (and 1 more)\n");
+  EXPECT_EQ(remarks_on("address,name,access\n0,C,R\n0,D,W\n"),
+            "l.csv:3:3: name: 'D' is another name of 'C' in line 2\n");
+  EXPECT_EQ(remarks_on("address,name,type\n0,A high,uint8\n0,A low,uint8\n"),
+            "l.csv:3:3: name: 'A low' is a byte of 'Register_0', as 'A high' in line 2\n");
+  EXPECT_EQ(remarks_on("address,name,type\n0,A,u32\n1,A low,u16\n"),
+            "l.csv:3:3: name: 'A low' is half of 'A' in line 2; it has no name of its own\n");
+  const Model& model =
+      described_models().parse(model_with("address,name,type\n4,A,u32\n4,B,u32\n", ""), "m.yaml");
+  for (const char* const name : {"A", "B", "B_H"})
+    EXPECT_EQ(model.registers->find(name, 100)->place.row->address, 4) << name;
+}
+
+TEST(ForeignList, NamesBothRowsThatContradict) {
+  const Foreign kRows[] = {
+      {"A,u32,,,,\n0,B,u16,,,,\n", "another type (u32, here u16)"},
+      {"A,u16,V,,,\n0,B,u16,A,,,\n", "another unit (V, here A)"},
+      {"A,u16,,0,5,\n0,B,u16,,0,6,\n", "another range (0..5, here 0..6)"},
+      {"A,u16,,,,1\n0,B,u16,,,,2\n", "another default (1, here 2)"},
+      {"A,f32,,,,\n0,B,floatsw,,,,\n", "another order of its words or bytes"},
+      {"A,uint8,,,,\n0,B,uint8,,,,\n",
+       "8 bits as well, and the names do not say which byte is high (10.b8 and 10.b0 do)"},
+      {"A low,uint8,,,,\n0,B low,uint8,,,,\n", "the same byte, by the two names"},
+  };
+  for (const Foreign& one : kRows) {
+    const std::string first(one.list, std::string(one.list).find(','));
+    EXPECT_EQ(lines_in("address,name,type,unit,min,max,default\n0," + std::string(one.list)),
+              "l.csv:3:1: address: '0' is taken by " + first + " in line 2, which has " + one.registers +
+                  "; expected rows that agree, or a free address");
+  }
+  EXPECT_EQ(
+      lines_in("address,name\n0,A\n0,B\n0,C\n"),
+      "l.csv:4:1: address: '0' is taken by A in line 2, which has two names already (A and B); expected rows "
+      "that agree, or a free address");
 }
 
 TEST(ForeignList, HasAddressesAsManualsPrintThem) {

@@ -51,13 +51,12 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name\n0,A,B\n",
        "l.csv:2:5: columns: the row has 3 cells; expected 2, and quotes around a cell with a separator in "
        "it"},
-      {"address,name\n0,A\n0,B\n",
-       "l.csv:3:1: address: '0' is taken by A in line 2; expected a free one in the table holding"},
+      {"address,name,unit\n0,A,V\n0,B,mV\n",
+       "l.csv:3:1: address: '0' is taken by A in line 2, which has another unit (V, here mV); expected rows "
+       "that "
+       "agree, or a free address"},
       {"address,name,width\n0,A,32\n1,B,16\n",
        "l.csv:3:1: address: '1' is taken by A in line 2; expected a free one in the table holding"},
-      {"address,name\n0,coil\n",
-       "l.csv:2:3: name: 'coil' cannot be used as a name; expected one that has a letter and is not "
-       "the name of a table"},
       {"address,name,table\n0,A,holdings\n",
        "l.csv:2:5: table: 'holdings' is not a table; expected holding, input, coil or discrete"},
       {"address,name,access\n0,A,RX\n", "l.csv:2:5: access: 'RX' is unknown; expected R, W or R/W"},
@@ -192,8 +191,8 @@ TEST(RegisterList, IsWhatDescribePrints) {
 
 /// Lines of a list inside a model file are counted in that file.
 TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
-  EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n0,B\n", "")),
-            "m.yaml:6:1: address: '0' is taken by A in line 5; expected a free one in the table holding");
+  EXPECT_EQ(diagnostic_about(model_with("address,name,width\n0,A,32\n1,B,16\n", "")),
+            "m.yaml:6:1: address: '1' is taken by A in line 5; expected a free one in the table holding");
 }
 
 TEST(Starter, IsAModelThatCanBeReadAndEdited) {
