@@ -21,7 +21,8 @@ std::string text_of(std::span<const Strike> strikes) {
 }
 
 std::string comment_of(const CapturedPacket& packet) {
-  std::string text(text_of(packet.remark));
+  const bool has_no_crc = packet.is_text && packet.remark == Remark::wrong_checksum;
+  std::string text(has_no_crc ? "dropped: bad LRC" : text_of(packet.remark));
   for (const std::string_view more : {packet.faults, packet.command}) {
     if (!text.empty() && !more.empty()) text += "; ";
     text += more;

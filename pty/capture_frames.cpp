@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "pty/ascii_frame.h"
+#include "pty/ascii_framer.h"
 #include "pty/capture.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
@@ -32,12 +35,12 @@ Remark why_dropped(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text)
-    : line_(line), sink_(std::move(sink)), framer_(framing), is_text_(is_text) {}
+CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, Packets packets)
+    : line_(line), sink_(std::move(sink)), framer_(framing), packets_(packets) {}
 
 void CaptureFrames::on_start_bit(SimTime at) {
   give_strikes();
-  if (is_text_) return;
+  if (is_text()) return;
   framer_.start_bit(at);
   give_what_was_dropped();
 }
@@ -48,19 +51,30 @@ void CaptureFrames::on_character(const TimedByte& character, bool is_received) {
     finish();  // the host has changed its speed
     is_received_ = is_received;
   }
+  if (packets_ == Packets::ascii_frames) return take_ascii(character);
+  if (packets_ == Packets::lines) return take_text(character);
   waiting_.push_back(character);
-  if (is_text_) {
-    constexpr std::uint8_t kEscape = 0x1B;
-    const bool is_behind_return = waiting_.size() == 1 && character.value == '\n';
-    const bool is_end = character.value == '\r' || character.value == '\n' || character.value == kEscape;
-    if ((is_end && !is_behind_return) || waiting_.size() == kLongestNoise) give_text();
-    return;
-  }
   framer_.push(character);
   give_what_was_dropped();
 }
 
+void CaptureFrames::take_text(const TimedByte& character) {
+  waiting_.push_back(character);
+  constexpr std::uint8_t kEscape = 0x1B;
+  const bool is_behind_return = waiting_.size() == 1 && character.value == '\n';
+  const bool is_end = character.value == '\r' || character.value == '\n' || character.value == kEscape;
+  if ((is_end && !is_behind_return) || waiting_.size() == kLongestNoise) give_text();
+}
+
+void CaptureFrames::take_ascii(const TimedByte& character) {
+  const bool is_late = !waiting_.empty() && character.start - waiting_.back().end > kAsciiPatience;
+  if (character.value == ':' || is_late) give_ascii();
+  waiting_.push_back(character);
+  if (character.value == '\n' || waiting_.size() == kAsciiMaxFrame) give_ascii();
+}
+
 void CaptureFrames::on_nothing_more() {
+  if (packets_ == Packets::ascii_frames) return give_ascii();
   framer_.give_up_waiting();
   give_what_was_dropped();
 }
@@ -69,7 +83,7 @@ void CaptureFrames::on_transmission(const Transmission& transmission) {
   const Remark remark = transmission.has_collided  ? Remark::collided
                         : transmission.is_for_host ? Remark::none
                                                    : Remark::to_nobody;
-  sink_({line_, Direction::to_host, transmission.start, transmission.bytes, remark, is_text_, faults_});
+  sink_({line_, Direction::to_host, transmission.start, transmission.bytes, remark, is_text(), faults_});
   faults_.clear();
 }
 
@@ -78,13 +92,13 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
   give_strikes();
   faults_ = text_of(message.strikes);
   struck_at_ = message.time;
-  if (message.is_sent && !is_text_) return;
+  if (message.is_sent && packets_ != Packets::lines) return;
   sink_({line_,
          message.is_reply ? Direction::to_host : Direction::from_host,
          message.time,
          {},
          Remark::none,
-         is_text_,
+         is_text(),
          faults_});
   faults_.clear();
 }
@@ -92,7 +106,7 @@ void CaptureFrames::on_strike(const StruckMessage& message) {
 /// Reports strikes on a reply that was never sent.
 void CaptureFrames::give_strikes() {
   if (faults_.empty()) return;
-  sink_({line_, Direction::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
+  sink_({line_, Direction::to_host, struck_at_, {}, Remark::none, is_text(), faults_});
   faults_.clear();
 }
 
@@ -112,7 +126,8 @@ void CaptureFrames::run(SimTime now) {
 
 void CaptureFrames::finish() {
   give_strikes();
-  if (is_text_) return give_text();
+  if (packets_ == Packets::lines) return give_text();
+  if (packets_ == Packets::ascii_frames) return give_ascii();
   framer_.give_up_waiting();
   run(SimTime::max());
   give_dropped(waiting_.size());
@@ -122,6 +137,21 @@ void CaptureFrames::finish() {
 /// Emits all waiting characters, which are at most one packet.
 void CaptureFrames::give_text() {
   if (!waiting_.empty()) give_packet(waiting_.size(), Remark::none);
+}
+
+/// Emits all waiting characters as a frame, or as what the stations drop.
+void CaptureFrames::give_ascii() {
+  if (waiting_.empty()) return;
+  std::vector<std::uint8_t> bytes;
+  for (const TimedByte& character : waiting_) bytes.push_back(character.value);
+  Remark remark = Remark::none;
+  if (!rtu_of_ascii(bytes)) {
+    const bool is_cut = bytes.front() == ':' && bytes.back() != '\n';
+    remark = has_ascii_form(bytes) ? Remark::wrong_checksum
+             : is_cut              ? Remark::incomplete
+                                   : Remark::not_a_frame;
+  }
+  give_packet(waiting_.size(), remark);
 }
 
 /// Emits characters that the framer has dropped, once no further ones can belong to them.
@@ -145,12 +175,12 @@ void CaptureFrames::give_dropped(std::size_t count) {
   }
 }
 
-/// Emits the first `count` waiting characters, at most kRtuMaxFrame.
+/// Emits the first `count` waiting characters, at most kAsciiMaxFrame.
 void CaptureFrames::give_packet(std::size_t count, Remark remark) {
-  std::array<std::uint8_t, kRtuMaxFrame> bytes;
+  std::array<std::uint8_t, kAsciiMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
   sink_({line_, Direction::from_host, waiting_.front().start, std::span(bytes).first(count),
-         is_received_ ? remark : Remark::unheard, is_text_});
+         is_received_ ? remark : Remark::unheard, is_text()});
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -13,28 +14,39 @@
 
 namespace understudy::pty {
 
+/// What makes a packet of a line.
+enum class Packets : std::uint8_t {
+  frames,        // of Modbus RTU
+  ascii_frames,  // of Modbus ASCII: from ':' to LF
+  lines,         // of text; an LF after its CR begins the next one, and ESC ends one as well
+};
+
 class CaptureFrames final : public LineObserver {
  public:
   using Sink = std::function<void(const CapturedPacket&)>;
 
-  /// `framing` is that of the line's stations, with the shortest silence if they differ. On a text line, each
-  /// line of text is a packet (an LF after its CR begins the next one); ESC also ends a packet.
-  CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
+  /// `framing` is that of the line's stations, with the shortest silence if they differ. It matters for
+  /// frames of Modbus RTU only.
+  CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, Packets packets = Packets::frames);
 
   void on_start_bit(SimTime at) override;
   void on_character(const TimedByte& character, bool is_received) override;
   void on_nothing_more() override;
   void on_transmission(const Transmission& transmission) override;
   void on_strike(const StruckMessage& message) override;
-  std::optional<SimTime> due() const override { return framer_.due(); }  // none on a text line
+  std::optional<SimTime> due() const override { return framer_.due(); }  // none on other lines
   void run(SimTime now) override;
-  std::size_t quiet_characters() const override { return is_text_ ? 0 : framer_.quiet_characters(); }
+  std::size_t quiet_characters() const override { return is_text() ? 0 : framer_.quiet_characters(); }
 
   /// Ends the capture: characters of an incomplete packet become a packet now.
   void finish();
 
  private:
+  bool is_text() const { return packets_ != Packets::frames; }
+  void take_text(const TimedByte& character);
+  void take_ascii(const TimedByte& character);
   void give_text();
+  void give_ascii();
   void give_strikes();
   void give_packet(std::size_t count, Remark remark);
   void give_dropped(std::size_t count);
@@ -43,7 +55,7 @@ class CaptureFrames final : public LineObserver {
   std::size_t line_;
   Sink sink_;
   RtuFramer framer_;
-  bool is_text_;
+  Packets packets_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
   bool is_received_ = true;         // whether they were received: the same for all of them
   std::string faults_;              // those of the next reply

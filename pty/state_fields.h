@@ -5,6 +5,7 @@
 #include "base/state/fields.h"
 #include "base/state/queue_fields.h"
 #include "base/state/state_bytes.h"
+#include "pty/ascii_framer.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
 #include "pty/text_lines.h"
@@ -162,6 +163,23 @@ struct StateOf<pty::TextLines::State> {
 
 template <>
 struct StateOf<pty::TextLines> : StateHeldBy<pty::TextLines> {};
+
+template <>
+struct StateOf<pty::AsciiFramer::State> {
+  using Value = pty::AsciiFramer::State;
+  static constexpr auto fields =
+      FieldList{field<&Value::characters>(), field<&Value::last_end>(), field<&Value::dropped>()};
+};
+
+template <>
+struct StateOf<pty::AsciiFramer> : StateHeldBy<pty::AsciiFramer> {};
+
+template <>
+struct StateOf<pty::AsciiFrame> {
+  using Value = pty::AsciiFrame;
+  static constexpr auto fields = FieldList{field<&Value::bytes>(), field<&Value::rtu>(), field<&Value::end>(),
+                                           field<&Value::last_character>()};
+};
 
 template <>
 struct StateOf<pty::ReceivedText> {

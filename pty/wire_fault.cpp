@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pty/ascii_frame.h"
 #include "pty/line_settings.h"
 
 namespace understudy::pty {
@@ -22,6 +23,16 @@ void collide(Bytes& bytes, const Bytes& other) {
   for (std::size_t i = 0; i < common; ++i) bytes[i] &= other.empty() ? kSomebody : other[i];
   if (other.size() > common) {
     bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(common), other.end());
+  }
+}
+
+/// In a frame of Modbus ASCII the last digit of the LRC becomes another one, because CR and LF come after it.
+void corrupt_checksum(Bytes& bytes) {
+  if (rtu_of_ascii(bytes)) {
+    std::uint8_t& digit = bytes[bytes.size() - 3];
+    digit = digit == '0' ? '1' : '0';
+  } else if (!bytes.empty()) {
+    bytes.back() ^= 0xFF;
   }
 }
 
@@ -56,9 +67,7 @@ std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
         case WireFault::Kind::duplicate:
         case WireFault::Kind::split: break;
         case WireFault::Kind::delay: late += stage.time; break;
-        case WireFault::Kind::corrupt_checksum:
-          if (!bytes.empty()) bytes.back() ^= 0xFF;
-          break;
+        case WireFault::Kind::corrupt_checksum: corrupt_checksum(bytes); break;
         case WireFault::Kind::truncate: bytes.resize(std::min(bytes.size(), stage.size)); break;
         case WireFault::Kind::noise:
           bytes.insert(bytes.begin(), stage.before.begin(), stage.before.end());

@@ -24,6 +24,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/device/command_window.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
@@ -98,6 +99,14 @@ void read_value_of(Item& item, const std::string& text) {
   item.value = value_of_real(single);
 }
 
+void require_rtu(const Model& model) {
+  const bool is_ascii = is_modbus_ascii(model);
+  if (model.rtu && model.registers != nullptr && !is_ascii) return;
+  throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
+                   (is_ascii ? ", and poll only Modbus RTU; expected another host"
+                             : ", not Modbus; expected a model with registers, or a terminal program"));
+}
+
 /// `low_word_first` overrides the word order of the model's table.
 Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments,
                 std::optional<bool> low_word_first) {
@@ -132,10 +141,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
   const Model& model = require_model(models, arguments.model);
-  if (!model.rtu || model.registers == nullptr) {
-    throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
-                     ", not Modbus; expected a model with registers, or a terminal program");
-  }
+  require_rtu(model);
   const auto found = find_register(model, what, model.firmwares.back());
   if (!found) {
     throw UsageError("poll: " + why_no_register(model, what, model.firmwares.back()));

@@ -91,6 +91,19 @@ void read_identity(const YamlFields& field, Line& line) {
   }
 }
 
+void read_framing(const YamlFields& field, Line& line) {
+  line.is_ascii = read_word(field, kFramingSchema) == 1;
+  if (!line.is_ascii) return;
+  line.data_bits = 7;  // the standard's settings, 7E1
+  line.parity = pty::Parity::even;
+}
+
+void read_data_bits(const YamlFields& field, Line& line) {
+  line.data_bits = static_cast<int>(field.integer(kDataBitsSchema));
+  if (line.data_bits != 8 && !line.is_ascii)
+    field.fail("a frame of Modbus RTU has bytes of 8 bits; expected 8, or `framing: ascii`");
+}
+
 }  // namespace
 
 std::size_t read_word(const YamlFields& field, const Schema& schema) {
@@ -109,6 +122,8 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
       if (const auto field = fields.find(key)) how(*field);
     });
   };
+  read("framing", [&](const YamlFields& field) { read_framing(field, line); });
+  read("data_bits", [&](const YamlFields& field) { read_data_bits(field, line); });
   read("baud", [&](const YamlFields& field) {
     std::vector<int> bauds;
     const auto add = [&](const YamlFields& one) {
@@ -129,6 +144,7 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("stop_bits",
        [&](const YamlFields& field) { line.stop_bits = static_cast<int>(field.integer(kStopBitsSchema)); });
   read("silence", [&](const YamlFields& field) {
+    if (line.is_ascii) field.fail("ends frames of Modbus RTU; expected it without `framing: ascii`");
     line.silence = field.duration();
     constexpr pty::SimTime kLongest = std::chrono::seconds(1);
     if (*line.silence <= pty::SimTime{0} || *line.silence > kLongest)

@@ -41,9 +41,16 @@ inline constexpr std::array kIdentityKeys{
     Key{"model_name", "Object 5.", &world::kText},
     Key{"application", "Object 6, the user application.", &world::kText}};
 inline constexpr Schema kIdentitySchema = world::keys_schema(kIdentityKeys);
+inline constexpr std::array<std::string_view, 2> kFramings{"rtu", "ascii"};
+inline constexpr Schema kFramingSchema = world::words_schema(kFramings);
+inline constexpr Schema kDataBitsSchema = world::integer_schema(7, 8);
 inline constexpr std::array kLineKeys{
-    Key{"baud", "The supported speeds, with the factory setting first ([19200, 9600]).", &kBaudOrBaudsSchema},
-    Key{"parity", "none (default), even or odd.", &kParitySchema},
+    Key{"framing", "rtu (default), or ascii: frames of hexadecimal digits that begin with ':'.",
+        &kFramingSchema},
+    Key{"baud", "The speeds that it can be set to, the factory setting first ([19200, 9600]).",
+        &kBaudOrBaudsSchema},
+    Key{"data_bits", "8 (default), or 7 with `framing: ascii` (its default).", &kDataBitsSchema},
+    Key{"parity", "none (default), even (default with `framing: ascii`) or odd.", &kParitySchema},
     Key{"stop_bits", "1 (default) or 2.", &kStopBitsSchema},
     Key{"silence", "The silence that ends a frame (3.5 characters; above 19200 baud 1.75 ms).",
         &world::kDuration},

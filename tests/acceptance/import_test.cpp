@@ -126,6 +126,51 @@ TEST_P(ImportedWithPymodbus, IsWhatItsHostExpects) {
 INSTANTIATE_TEST_SUITE_P(, ImportedWithPymodbus,
                          testing::Values(std::pair("drive", 19200), std::pair("oven", 19200)));
 
+/// A folder with a controller that speaks Modbus ASCII, and a scenario for it.
+void write_ascii_model(const std::string& folder) {
+  std::ofstream(folder + "/m.yaml") << "understudy: 1\nmodel: m\nline: { framing: ascii }\nregisters: |\n"
+                                       "  address,name,min,max\n  0,A,0,100\n  1,B,0,100\n  100~224,X,,\n";
+  std::ofstream(folder + "/b.yaml")
+      << "understudy: 1\nlines:\n  a: { link: port, stations: [ { name: it, model: "
+         "m.yaml, address: 17 } ] }\n";
+  std::ofstream(folder + "/s.yaml")
+      << "understudy: 1\nname: ascii\nbench: b.yaml\nsteps:\n"
+         "  - write: { it.B: 42 }\n  - wait: { until: it.B == 42, poll: 20ms, within: 1s }\n"
+         "  - write: { it.B: 101 }\n    exception: 3\n";
+}
+
+TEST(ImportedAscii, IsDrivenByPymodbus) {
+  if (!fs::exists("/usr/lib/python3/dist-packages/pymodbus"))
+    GTEST_SKIP() << "python3-pymodbus is not installed";
+  const PrivateFolder folder;
+  write_ascii_model(folder.path());
+  const auto daemon = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  a: { link: port, stations: [ { name: it, model: " + folder.path() +
+      "/m.yaml, address: 17 } ] }\n");
+  const Finished host = run({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/imported_host.py",
+                             daemon->port(), "19200", "ascii"});
+  EXPECT_EQ(host.exit_code, 0) << host.output << host.errors;
+  EXPECT_EQ(daemon->errors(), "");
+  const std::string frames = daemon->ctl({"frames", "--once"}).output;
+  EXPECT_NE(frames.find("write 0x0001 it.B = 42"), std::string::npos) << frames;
+  EXPECT_NE(frames.find("exception 3"), std::string::npos) << frames;
+}
+
+TEST(ImportedAscii, PlaysItsScenariosInBothTimes) {
+  const PrivateFolder folder;
+  write_ascii_model(folder.path());
+  for (const Words& flags : {Words{"run"}, Words{"run", "--real-time"}}) {
+    Words words = flags;
+    words.push_back(folder.path() + "/s.yaml");
+    const Finished played = understudy(words);
+    EXPECT_EQ(played.exit_code, 0) << played.output << played.errors;
+  }
+  const Finished polled = understudy({"poll", "nowhere", "--model", folder.path() + "/m.yaml", "A"});
+  EXPECT_EQ(polled.exit_code, 2);
+  EXPECT_NE(polled.errors.find("m speaks Modbus ASCII, and poll only Modbus RTU"), std::string::npos)
+      << polled.errors;
+}
+
 TEST(ImportedModels, AreInTheirRecordings) {
   const PrivateFolder folder;
   fs::copy(kExamples, folder.path(), fs::copy_options::recursive);

@@ -14,6 +14,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/memory/nv_entry_error.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "pty/line_settings.h"
@@ -74,8 +75,17 @@ void settle_image(PhotoWork& work, NvImage image) {
   work.photo.image = std::move(image);
 }
 
+void require_rtu(const Model& model, const PortName& port) {
+  if (!is_modbus_ascii(model) || port.is_modbus_tcp()) return;
+  throw BoxError(
+      one_line(port.place) + ": " + std::string(model.name) +
+      " speaks Modbus ASCII, which is only emulated; expected a gateway (modbus-tcp://), or a model "
+      "of Modbus RTU");
+}
+
 Photograph photograph(const Model& model, const PortName& port, const PhotoSettings& settings,
                       const PhotoProgress& progress) {
+  require_rtu(model, port);
   const bool is_modbus = model.rtu.has_value();
   if (!is_modbus && port.is_modbus_tcp())
     throw BoxError(one_line(port.place) + ": carries Modbus, but " + std::string(model.name) +

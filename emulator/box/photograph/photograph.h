@@ -61,6 +61,9 @@ struct PhotoSettings {
   bool has_arrays = false;  // also reads the long arrays of a text controller
 };
 
+/// Throws BoxError for a model of Modbus ASCII, which is only emulated, except behind a gateway.
+void require_rtu(const Model& model, const PortName& port);
+
 /// Reads everything. Only reads are sent. Throws BoxError and WireError.
 Photograph photograph(const Model& model, const PortName& port, const PhotoSettings& settings,
                       const PhotoProgress& progress);

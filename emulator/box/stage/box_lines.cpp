@@ -38,6 +38,7 @@ constexpr int kLongestRtuFrame = 270;
 
 LineHost::LineHost(const PortName& port, const Model& model, int station, WallTime timeout)
     : port_(port), wire_(open_wire(port)), timeout_(timeout) {
+  require_rtu(model, port);
   find_settings(model, station);
 }
 

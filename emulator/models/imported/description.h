@@ -211,7 +211,9 @@ struct Terminal {
 // --- the line ----------------------------------------------------------------------------------------
 
 struct Line {
+  bool is_ascii = false;  // frames of Modbus ASCII
   std::vector<int> bauds{19200, 9600};
+  int data_bits = 8;
   pty::Parity parity = pty::Parity::none;
   int stop_bits = 1;
   std::optional<pty::SimTime> silence{};  // silence that ends a frame; none: 3.5 characters

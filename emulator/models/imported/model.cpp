@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
@@ -100,7 +101,7 @@ Model ImportedModel::made_model() {
   ports_ = {{.kind = PortRow::Kind::rs485,
              .name = "RS485",
              .bauds = line.bauds,
-             .settings = {.data_bits = 8, .parity = line.parity, .stop_bits = line.stop_bits}}};
+             .settings = {.data_bits = line.data_bits, .parity = line.parity, .stop_bits = line.stop_bits}}};
   pty::LineSettings factory = ports_.front().settings;
   factory.baud = line.bauds.front();
   for (const Terminal& terminal : description_.terminals) {
@@ -141,7 +142,7 @@ Model ImportedModel::made_model() {
                .axes = axes_,
                .state_registers = state_registers_,
                .known_limitations = kKnownLimitations,
-               .line = {.protocol = kModbusRtu,
+               .line = {.protocol = line.is_ascii ? kModbusAscii : kModbusRtu,
                         .ports = ports_,
                         .station_numbers = StationNumbers{.lowest = line.lowest_station,
                                                           .highest = line.highest_station,

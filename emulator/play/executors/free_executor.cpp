@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/executors/condition_watch.h"
 #include "emulator/play/executors/executor.h"
@@ -22,6 +23,8 @@
 #include "emulator/world/protocol/received_lines.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
+#include "pty/ascii_frame.h"
+#include "pty/ascii_framer.h"
 #include "pty/line.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
@@ -39,7 +42,10 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
 class FreeExecutor::Host final : public pty::LineObserver {
  public:
   Host(world::World& world, std::size_t number)
-      : world_(world), number_(number), settings_(line().options().settings) {
+      : world_(world),
+        number_(number),
+        settings_(line().options().settings),
+        is_ascii_(&world.line(number).protocol.protocol() == &kModbusAscii) {
     world_.host_settings(number_,
                          pty::HostSettings{.baud = settings_.baud, .stop_bits = settings_.stop_bits});
     world_.add_observer(number_, *this);
@@ -50,9 +56,11 @@ class FreeExecutor::Host final : public pty::LineObserver {
 
   const pty::Line& line() const { return world_.line(number_).line; }
   void send_text(std::span<const std::uint8_t> bytes) { world_.receive(number_, bytes); }
-  SimTime silence() const { return silence_between_frames(settings_); }
+  bool is_ascii() const { return is_ascii_; }
+  /// Returns the silence before a frame.
+  SimTime silence() const { return is_ascii_ ? SimTime{0} : silence_between_frames(settings_); }
   /// Returns the longest time between two bytes of one reply: the next may begin just before t3.5 is over.
-  SimTime longest_pause() const { return silence() + duration_of(1); }
+  SimTime longest_pause() const { return is_ascii_ ? pty::kAsciiPatience : silence() + duration_of(1); }
   SimTime duration_of(std::size_t count) const {
     if (line().options().timing == pty::Timing::instant) return SimTime{0};
     return settings_.duration_of(static_cast<std::int64_t>(count));
@@ -99,7 +107,8 @@ class FreeExecutor::Host final : public pty::LineObserver {
  private:
   world::World& world_;
   std::size_t number_;
-  pty::LineSettings settings_;  // the line's initial settings, because a host does not follow a DIP switch
+  pty::LineSettings settings_;  // the line's at the beginning, because a host does not follow a DIP switch
+  bool is_ascii_;
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;
 };
@@ -155,18 +164,20 @@ HostReply FreeExecutor::write_message(std::size_t line, int station, std::uint16
 
 HostReply FreeExecutor::ask(Host& host, const std::vector<std::uint8_t>& request) {
   const Tick written_before = tick_of_last_write_;
-  send(host, request);
+  send(host, host.is_ascii() ? pty::ascii_of_rtu(request) : request);
   std::vector<std::uint8_t> reply;
   SimTime limit = host.quiet_since() + options_.timeout;
   while (true) {
     const std::size_t before = reply.size();
     host.take(reply);
-    if (reply.size() >= wanted_size(request, reply)) break;
+    const bool is_over = host.is_ascii() ? !reply.empty() && reply.back() == '\n'
+                                         : reply.size() >= wanted_size(request, reply);
+    if (is_over) break;
     if (reply.size() > before) limit = world_.now() + host.longest_pause();
     if (world_.now() >= limit) break;
     advance_to_next(limit);
   }
-  HostReply judged = judge_reply(request, reply);
+  HostReply judged = host.is_ascii() ? judge_ascii_reply(request, reply) : judge_reply(request, reply);
   // The write was refused.
   if (judged.kind == HostReply::Kind::exception) tick_of_last_write_ = written_before;
   return judged;
@@ -257,7 +268,8 @@ void FreeExecutor::send(Host& host, std::span<const std::uint8_t> bytes) {
     world_.advance_to(start);  // a station may still send something
   }
   host.discard();
-  if (world::is_write(bytes)) {
+  const auto carried = host.is_ascii() ? pty::rtu_of_ascii(bytes) : std::nullopt;
+  if (world::is_write(carried ? std::span<const std::uint8_t>(*carried) : bytes)) {
     writing_ = &host;
     requests_before_ = host.requests();
   }

@@ -224,6 +224,12 @@ std::vector<std::string> LibmodbusHost::exchange_text(const std::optional<std::s
   return received.lines;
 }
 
+std::vector<std::uint8_t> LibmodbusHost::receive(serve::WallTime within) {
+  std::vector<std::uint8_t> bytes;
+  if (read_some(bytes, serve::wall_now() + within) != 0) quiet_since_ = serve::wall_now();
+  return bytes;
+}
+
 std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                                   serve::WallTime sending, serve::WallTime within) {
   keep_silence();

@@ -33,6 +33,9 @@ class LibmodbusHost {
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
+  /// Returns the bytes that arrive next: all that are there at once. Empty: none within that time.
+  std::vector<std::uint8_t> receive(serve::WallTime within);
+
   /// Exchanges lines of text without libmodbus; see Executor::exchange_text().
   std::vector<std::string> exchange_text(const std::optional<std::string>& text,
                                          const world::LinesWanted& wanted, serve::WallTime sending,

@@ -10,6 +10,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/world/stations/server.h"
+#include "pty/ascii_frame.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::play {
@@ -130,6 +131,13 @@ HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std
   } else if (std::equal(request.begin(), request.begin() + 6, reply.begin())) {
     made.kind = HostReply::Kind::good;
   }
+  return made;
+}
+
+HostReply judge_ascii_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) {
+  const auto frame = pty::rtu_of_ascii(reply);
+  HostReply made = judge_reply(request, frame ? std::span<const std::uint8_t>(*frame) : reply);
+  made.bytes.assign(reply.begin(), reply.end());
   return made;
 }
 

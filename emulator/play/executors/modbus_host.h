@@ -25,4 +25,7 @@ std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const s
 /// write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
+/// The same for the reply on a line of Modbus ASCII, to the request in that frame of RTU.
+HostReply judge_ascii_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
+
 }  // namespace understudy::emulator::play

@@ -19,19 +19,23 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/free_executor.h"
 #include "emulator/play/executors/libmodbus_host.h"
+#include "emulator/play/executors/modbus_host.h"
 #include "emulator/play/executors/write_clock.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/daemon_thread.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "emulator/world/protocol/received_lines.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
+#include "pty/ascii_frame.h"
 #include "pty/line.h"
 
 namespace understudy::emulator::play {
@@ -97,7 +101,9 @@ RealExecutor::RealExecutor(serve::Daemon& daemon, RealExecutorOptions options)
   with_world([&](world::World& world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
       lines_.push_back(world.line(i).line.options());
-      has_silences.push_back(world.line(i).protocol.is_framed_by_silence());
+      const world::LineProtocol& protocol = world.line(i).protocol;
+      has_silences.push_back(protocol.is_framed_by_silence());
+      are_ascii_.push_back(&protocol.protocol() == &kModbusAscii);
     }
   });
   for (std::size_t i = 0; options_.has_hosts && i < lines_.size(); ++i) {
@@ -225,17 +231,34 @@ LibmodbusHost& RealExecutor::host(std::size_t line) {
 }
 
 HostReply RealExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+  if (are_ascii_[line]) return ask_ascii(line, read_request(station, table, first, count));
   return host(line).read(station, table, first, count);
 }
 
 HostReply RealExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
                               std::span<const std::uint16_t> words) {
+  if (are_ascii_[line]) return ask_ascii(line, write_request(station, table, first, words));
   return host(line).write(station, table, first, words);
 }
 
 HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16_t first,
                                       std::span<const std::uint16_t> words) {
+  if (are_ascii_[line]) return ask_ascii(line, message_request(station, first, words));
   return host(line).write_message(station, first, words);
+}
+
+/// Exchanges frames of Modbus ASCII, which libmodbus does not know. `request` is that of RTU.
+HostReply RealExecutor::ask_ascii(std::size_t line, const std::vector<std::uint8_t>& request) {
+  const std::vector<std::uint8_t> frame = pty::ascii_of_rtu(request);
+  constexpr std::size_t kException = 11;
+  std::vector<std::uint8_t> reply = exchange(line, frame, kException, options_.timeout);
+  // The rest arrives without a request; whatever the reply is, it ends with LF.
+  while (!reply.empty() && reply.back() != '\n') {
+    const std::vector<std::uint8_t> more = host(line).receive(options_.timeout);
+    if (more.empty()) break;
+    reply.insert(reply.end(), more.begin(), more.end());
+  }
+  return judge_ascii_reply(request, reply);
 }
 
 std::vector<std::uint8_t> RealExecutor::exchange(std::size_t line, std::span<const std::uint8_t> bytes,

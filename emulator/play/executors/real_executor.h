@@ -66,6 +66,7 @@ class RealExecutor final : public Executor {
   class DeadlineWatch;
 
   LibmodbusHost& host(std::size_t line);
+  HostReply ask_ascii(std::size_t line, const std::vector<std::uint8_t>& request);
   SimTime time_to_send(std::size_t line, const std::string& text) const;
   void throw_if_given_up() const;
   /// Returns how long simulated time needs to reach `time`, by the wall clock, or nothing while the clock is
@@ -78,7 +79,8 @@ class RealExecutor final : public Executor {
   std::unique_ptr<WriteClock> writes_;
   std::vector<pty::LineOptions> lines_;  // the initial settings, because hosts do not follow a DIP switch
   std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one per line
-  std::optional<SimTime> found_at_;  // the result of run_until(), if no time has passed since
+  std::vector<bool> are_ascii_;                        // lines of Modbus ASCII
+  std::optional<SimTime> found_at_;                    // by run_until(), if no time has passed since
 };
 
 /// Makes an executor in real time with the scenario's bench and gap, and with ports of its own. The devices'

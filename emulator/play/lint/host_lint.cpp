@@ -76,6 +76,7 @@ HostLint::HostLint(world::World& world, std::size_t line)
                .patience = world.line(line).framing.patience,
                .rest_patience = world.line(line).framing.rest_patience}) {
   const world::WorldLine& watched = world_.line(line);
+  if (!watched.protocol.is_framed_by_silence()) return;
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
   if (std::none_of(watched.stations.begin(), watched.stations.end(), is_modbus)) return;
   if (has_time()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/world.h"
+#include "pty/ascii_frame.h"
 #include "pty/capture.h"
 
 namespace understudy::emulator::serve {
@@ -51,7 +53,8 @@ void MissingStations::check(const pty::CapturedPacket& packet) {
                           packet.remark == pty::Remark::none && !packet.bytes.empty();
   if (!is_request) return;
   const world::WorldLine& line = world_.line(packet.line);
-  const std::uint8_t address = packet.bytes.front();
+  const auto carried = packet.is_text ? pty::rtu_of_ascii(packet.bytes) : std::nullopt;
+  const std::uint8_t address = carried ? carried->front() : packet.bytes.front();
   if (line.stations.empty() || may_receive(line, address) || !is_new(packet.line, address)) return;
   log_("line " + line.line.name() + ": a host asks for station " + std::to_string(address) +
        ", which does not exist; the line has " + stations_of(line));

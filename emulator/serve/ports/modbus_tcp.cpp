@@ -1,5 +1,6 @@
 #include "emulator/serve/ports/modbus_tcp.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "pty/ascii_frame.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::serve {
@@ -76,7 +78,8 @@ std::optional<std::chrono::milliseconds> ModbusTcp::patience() const {
 }
 
 ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
-  while (room >= kLongestFrame && !on_line_ && to_client_.empty()) {
+  const std::size_t longest = rules_.is_ascii ? pty::kAsciiMaxFrame : kLongestFrame;
+  while (room >= longest && !on_line_ && to_client_.empty()) {
     const auto size = size_of_message(received_);
     if (!size) break;
     const auto end = received_.begin() + static_cast<std::ptrdiff_t>(*size);
@@ -90,7 +93,7 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     on_line_ = Request{.transaction = transaction, .unit = unit, .station = frame[0], .function = frame[1]};
     reply_.clear();
     pty::append_rtu_crc(frame);
-    return frame;
+    return rules_.is_ascii ? pty::ascii_of_rtu(frame) : frame;
   }
   return {};
 }
@@ -99,18 +102,39 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
 void ModbusTcp::receive_from_line(std::span<const std::uint8_t> bytes) {
   if (!on_line_) return;
   reply_.insert(reply_.end(), bytes.begin(), bytes.end());
+  if (rules_.is_ascii) return take_ascii_reply();
   while (reply_.size() >= kExceptionFrame) {
     const std::size_t size = size_of_reply(reply_).value_or(reply_.size());
     if (reply_.size() < size) return;
     const std::span<const std::uint8_t> frame = std::span<const std::uint8_t>(reply_).first(size);
     const bool is_good = pty::rtu_crc_ok(frame);
     if (!is_good && !size_of_reply(reply_)) return;  // it may be incomplete
-    if (is_good && frame[0] == on_line_->station && (frame[1] & ~kException) == on_line_->function) {
+    if (is_good && is_reply(frame)) {
       answer(frame.subspan(1, size - 3));
       reply_.clear();
       return;
     }
     reply_.erase(reply_.begin(), reply_.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+}
+
+bool ModbusTcp::is_reply(std::span<const std::uint8_t> frame) const {
+  return frame[0] == on_line_->station && (frame[1] & ~kException) == on_line_->function;
+}
+
+void ModbusTcp::take_ascii_reply() {
+  while (true) {
+    const auto end = std::find(reply_.begin(), reply_.end(), '\n');
+    if (end == reply_.end()) return;
+    const Bytes line(reply_.begin(), end + 1);
+    reply_.erase(reply_.begin(), end + 1);
+    const auto begin = std::find(line.rbegin(), line.rend(), ':');
+    if (begin == line.rend()) continue;
+    const auto frame =
+        pty::rtu_of_ascii(std::span(line).subspan(static_cast<std::size_t>(line.rend() - begin) - 1));
+    if (!frame || !is_reply(*frame)) continue;
+    reply_.clear();
+    return answer(std::span(*frame).subspan(1, frame->size() - 3));
   }
 }
 

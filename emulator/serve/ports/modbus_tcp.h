@@ -1,6 +1,6 @@
-// Converts Modbus TCP to RTU and back, as a gateway does: one request at a time is on the line, the others
-// wait for their turn. Bytes in, bytes out; the caller does the waiting. Source: MODBUS Messaging on TCP/IP
-// 1.0b, 3.1.3 and 4.4.2.
+// Converts Modbus TCP to RTU or ASCII and back, as a gateway does: one request at a time is on the line, the
+// others wait for their turn. Bytes in, bytes out; the caller does the waiting. Source: MODBUS Messaging on
+// TCP/IP 1.0b, 3.1.3 and 4.4.2.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,9 @@ namespace understudy::emulator::serve {
 
 /// The gateway's settings, and the stations on its line.
 struct GatewayRules {
-  std::chrono::milliseconds timeout{1000};  // the time within which a station must answer
-  bool reports_timeout = true;              // sends exception 11 if it does not
+  std::chrono::milliseconds timeout{1000};  // for a station to answer
+  bool reports_timeout = true;              // by exception 11 that it has not
+  bool is_ascii = false;                    // the line carries Modbus ASCII
   /// Returns the station for a unit; null: the station with that number.
   std::function<std::uint8_t(std::uint8_t unit, std::uint8_t function)> station_of{};
 };
@@ -38,8 +39,8 @@ class ModbusTcp final : public ClientProtocol {
   bool is_idle() const override;
   void client_gone() override;
 
-  /// Returns the next request as an RTU frame with its checksum. Empty if there is none, while another is on
-  /// the line, and until the client has taken the last answer.
+  /// Returns the next request as a frame of the line with its checksum. Empty if there is none, while another
+  /// is on the line, and until the client has taken the last answer.
   Bytes take_for_line(std::size_t room) override;
   Bytes take_for_client() override;
 
@@ -59,6 +60,8 @@ class ModbusTcp final : public ClientProtocol {
     std::uint8_t function = 0;
   };
   void answer(std::span<const std::uint8_t> pdu);
+  void take_ascii_reply();
+  bool is_reply(std::span<const std::uint8_t> frame) const;
 
   GatewayRules rules_;
   Bytes received_;           // from the client: whole requests, and the beginning of one

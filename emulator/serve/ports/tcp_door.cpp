@@ -19,6 +19,7 @@
 
 #include "base/files/descriptor.h"
 #include "base/simulated_time.h"
+#include "emulator/device/modbus/modbus_ascii.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/listener.h"
 #include "emulator/serve/ports/client_protocol.h"
@@ -31,6 +32,7 @@
 #include "emulator/serve/ports/tcp_places.h"
 #include "emulator/world/bench/listening.h"
 #include "emulator/world/faults/fault.h"
+#include "emulator/world/protocol/line_protocol.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
 
@@ -90,8 +92,10 @@ std::unique_ptr<ClientProtocol> TcpDoor::make_protocol() {
     }
     return station;
   };
+  const bool is_ascii = &port_.world_line().protocol.protocol() == &kModbusAscii;
   return std::make_unique<ModbusTcp>(GatewayRules{.timeout = address_.gateway.timeout,
                                                   .reports_timeout = address_.gateway.reports_timeout,
+                                                  .is_ascii = is_ascii,
                                                   .station_of = station_of});
 }
 

@@ -36,7 +36,14 @@ void require_room(const YamlFields& station, const StationSetup& wanted, const L
   const auto is_alone = [&](const StationSetup& some) {
     return !rules_of(some).station_numbers || rules_of(some).ports[some.port].kind == PortRow::Kind::rs232;
   };
-  if (line.stations.empty() || (!is_alone(wanted) && !is_alone(line.stations.front()))) return;
+  if (line.stations.empty()) return;
+  if (!is_alone(wanted) && !is_alone(line.stations.front())) {
+    const Protocol& first = rules_of(line.stations.front()).protocol;
+    const Protocol& other = rules_of(wanted).protocol;
+    if (&first == &other) return;
+    station.fail(quoted(bench.devices[wanted.device].settings.name) + " speaks " + std::string(other.name) +
+                 ", and the line " + std::string(first.name) + "; expected one protocol on a line");
+  }
   const StationSetup& lone = is_alone(wanted) ? wanted : line.stations.front();
   const LineRules& rules = rules_of(lone);
   const std::string why =

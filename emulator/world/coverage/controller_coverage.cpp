@@ -22,6 +22,7 @@
 #include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
+#include "pty/ascii_frame.h"
 #include "pty/capture.h"
 #include "pty/capture_frames.h"
 #include "pty/line_observer.h"
@@ -138,6 +139,12 @@ class ControllerCoverage::Counting final : private OutsideListener {
         packet.remark == pty::Remark::incomplete || packet.remark == pty::Remark::not_a_frame ||
         packet.remark == pty::Remark::unheard) {
       return;
+    }
+    if (const auto carried = packet.is_text ? pty::rtu_of_ascii(packet.bytes) : std::nullopt) {
+      pty::CapturedPacket frame = packet;
+      frame.bytes = *carried;
+      frame.is_text = false;
+      return take(frame);
     }
     if (packet.is_text) return take_text(packet);
     Line& line = lines_[packet.line];

@@ -8,7 +8,8 @@
 namespace understudy::emulator::world {
 
 const LineProtocol& protocol_of(const Model& model) {
-  for (const LineProtocol* const protocol : std::array{&modbus_protocol(), &text_protocol()}) {
+  for (const LineProtocol* const protocol :
+       std::array{&modbus_protocol(), &ascii_protocol(), &text_protocol()}) {
     if (&protocol->protocol() == &model.line.protocol) return *protocol;
   }
   throw std::logic_error(std::string(model.name) + ": no line of a world carries " +

@@ -86,8 +86,9 @@ class LineProtocol {
   ~LineProtocol() = default;
 };
 
-// Defined in modbus_protocol.cpp and text_protocol.cpp.
+// Defined in modbus_protocol.cpp, ascii_protocol.cpp and text_protocol.cpp.
 const LineProtocol& modbus_protocol();
+const LineProtocol& ascii_protocol();
 const LineProtocol& text_protocol();
 
 /// Returns the object for a model's protocol. Throws std::logic_error if there is none.

@@ -48,7 +48,7 @@ class TextLineProtocol final : public LineProtocol {
 
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
                                               pty::CaptureFrames::Sink sink) const override {
-    return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink), true);
+    return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink), pty::Packets::lines);
   }
   std::string request_text(const LineStations& /*stations*/,
                            std::span<const std::uint8_t> request) const override {

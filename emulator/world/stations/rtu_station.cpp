@@ -1,7 +1,7 @@
 #include "emulator/world/stations/rtu_station.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,28 +11,14 @@
 #include "base/state/difference.h"
 #include "base/state/state_bytes.h"
 #include "emulator/device/modbus/modbus_station.h"
-#include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/stations/frame_faults.h"
-#include "emulator/world/stations/server.h"
+#include "emulator/world/stations/modbus_answer.h"
 #include "emulator/world/stations/station_fields.h"
 #include "pty/line_settings.h"
-#include "pty/rtu_crc.h"
 #include "pty/rtu_framer.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::world {
-
-namespace {
-
-ModbusReply refusal(std::uint8_t function, int exception) {
-  ModbusReply reply;
-  reply.pdu[0] = function | 0x80;
-  reply.pdu[1] = static_cast<std::uint8_t>(exception);
-  reply.size = 2;
-  return reply;
-}
-
-}  // namespace
 
 std::optional<pty::SimTime> RtuStation::due() const {
   const std::optional<pty::SimTime> frame = state_.framer.due();
@@ -93,28 +79,12 @@ void RtuStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t 
 }
 
 void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out) {
-  const std::uint8_t address = frame.bytes[0];
-  const Addressing addressing = device_.modbus()->addressing(address);
-  if (addressing == Addressing::ignore) return;
-  ++counters_.requests;
   const ReceivedFrame request = received_frame(frame, now);
-  const FrameFaults::Treatment treatment = wire_.treatment_of(request);
-  const ModbusReply reply = treatment.exception != 0
-                                ? refusal(frame.bytes[1], treatment.exception)
-                                : serve(device_, std::span(frame.bytes).subspan(1, frame.size - 3));
-  if (addressing == Addressing::execute_silently || !treatment.is_answered) return;
-
-  const bool refuses = (reply.pdu[0] & 0x80) != 0;
-  if (refuses && treatment.exception == 0 && !device_.modbus()->answers_refusals()) return;
-
-  ++counters_.replies;
-  if (refuses) ++counters_.exceptions;
-  if (reply.refused.objection) device_.register_bank()->exception_answered(reply.refused);
-  std::array<std::uint8_t, pty::kRtuMaxFrame> buffer;
-  buffer[0] = address;
-  std::copy_n(reply.pdu.begin(), reply.size, buffer.begin() + 1);
-  wire_.answer(request, std::span(buffer).first(pty::append_rtu_crc(buffer, reply.size + 1)), out,
-               device_.modbus()->reply_delay());
+  ReplyFrame reply;
+  const std::size_t size =
+      answer_frame(device_, wire_, counters_, request, std::span(frame.bytes).first(frame.size), reply);
+  if (size == 0) return;
+  wire_.answer(request, std::span(reply).first(size), out, device_.modbus()->reply_delay());
 }
 
 void RtuStation::transmit(std::span<const std::uint8_t> bytes, std::uint64_t last_character,

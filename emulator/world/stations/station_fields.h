@@ -7,6 +7,7 @@
 #include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "emulator/world/stations/ascii_station.h"
 #include "emulator/world/stations/rtu_station.h"
 #include "emulator/world/stations/text_station.h"
 #include "pty/state_fields.h"
@@ -33,6 +34,14 @@ struct StateOf<emulator::world::RtuStation::State> {
   static constexpr auto fields =
       FieldList{field<&Value::framer>(), field<&Value::counters>(), field<&Value::late>()};
   static void check(const Value& state) { emulator::world::FaultyWire::check(state.late); }
+};
+
+template <>
+struct StateOf<emulator::world::AsciiStation::State> {
+  using Value = emulator::world::AsciiStation::State;
+  static constexpr auto fields = FieldList{field<&Value::framer>(), field<&Value::counters>(),
+                                           field<&Value::waiting>(), field<&Value::late>()};
+  static void check(const Value& state);
 };
 
 template <>

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Uses pymodbus as the host of the controllers of examples/import: imported_host.py PORT BAUD CASE
+"""Uses pymodbus as the host of the controllers of examples/import, and of one that speaks Modbus ASCII:
+imported_host.py PORT BAUD CASE
 
 Exits with 0, or with one line that says what was read and what the example's list expects.
 """
@@ -8,6 +9,7 @@ import time
 
 from pymodbus.client import ModbusSerialClient
 from pymodbus.constants import Endian
+from pymodbus.framer.ascii_framer import ModbusAsciiFramer
 from pymodbus.payload import BinaryPayloadBuilder, BinaryPayloadDecoder
 
 PATIENCE_S = 10
@@ -77,12 +79,26 @@ def oven(client):
     expect("a function that it has not", client.write_coil(0, True, slave=1).exception_code, 1)
 
 
+def ascii_frames(client):
+    expect("one", client.write_register(1, 42, slave=17).isError(), False)
+    expect("several", client.write_registers(0, [5, 6], slave=17).isError(), False)
+    expect("registers", client.read_holding_registers(0, 2, slave=17).registers, [5, 6])
+    expect("many", client.write_registers(100, list(range(123)), slave=17).isError(), False)
+    expect("many", client.read_holding_registers(100, 125, slave=17).registers, [*range(123), 0, 0])
+    expect("beyond the range", client.write_register(0, 101, slave=17).exception_code, 3)
+    expect("a hole", client.read_holding_registers(9, 1, slave=17).exception_code, 2)
+
+
 def main():
     port, baud, case = sys.argv[1:]
-    client = ModbusSerialClient(port, baudrate=int(baud), parity="N", timeout=2)
+    if case == "ascii":
+        client = ModbusSerialClient(port, framer=ModbusAsciiFramer, baudrate=int(baud), bytesize=7, parity="E",
+                                    timeout=2)
+    else:
+        client = ModbusSerialClient(port, baudrate=int(baud), parity="N", timeout=2)
     if not client.connect():
         sys.exit("the port cannot be opened")
-    {"drive": drive, "oven": oven}[case](client)
+    {"drive": drive, "oven": oven, "ascii": ascii_frames}[case](client)
     client.close()
 
 

@@ -176,7 +176,7 @@ TEST(ReportedFaults, ALineOfTextIsReportedNextToIt) {
         lines.push_back((packet.direction == pty::Direction::from_host ? "in " : "out ") +
                         std::string(packet.bytes.begin(), packet.bytes.end()) + pty::comment_of(packet));
       },
-      true);
+      pty::Packets::lines);
   world.add_observer(0, frames);
   world.inject(find_fault(world.known(), fault_words("drop chain nth=1")));
   world.inject(find_fault(world.known(), fault_words("delay chain of=request by=20ms nth=2")));

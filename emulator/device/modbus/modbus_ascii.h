@@ -1,0 +1,13 @@
+// Modbus ASCII, the other framing of Modbus on a serial line.
+#pragma once
+
+#include "emulator/device/model.h"
+
+namespace understudy::emulator {
+
+/// Frames of hexadecimal digits. Such a model has RtuRules and the facet ModbusStation, too.
+inline constexpr Protocol kModbusAscii{"Modbus ASCII"};
+
+inline bool is_modbus_ascii(const Model& model) { return &model.line.protocol == &kModbusAscii; }
+
+}  // namespace understudy::emulator
