@@ -48,7 +48,7 @@ struct OperandWords {
 };
 std::vector<OperandWords> operand_words(ModelList models) {
   return {{"understudy describe", 0, names_of(models)},
-          {"understudy describe", 1, "registers parameters instructions commands choices ports blocks"},
+          {"understudy describe", 1, "registers parameters instructions commands choices ports blocks thing"},
           {"understudy schema", 0, "bench scenario model"},
           {"understudy completion", 0, "bash zsh fish"},
           {"understudy ctl inject", 0, fault_names()},

@@ -16,6 +16,7 @@
 #include "emulator/device/describe/describe.h"
 #include "emulator/device/describe/fidelity_page.h"
 #include "emulator/device/describe/sheet.h"
+#include "emulator/device/describe/thing_model.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 
@@ -98,6 +99,15 @@ std::vector<box::EvidenceFile> read_evidence(const DescribeArguments& arguments)
   return files;
 }
 
+/// A Thing Model is one JSON object, in whatever format tables are wanted.
+int print_thing(const Model& model, const DescribeArguments& arguments) {
+  if (model.registers == nullptr)
+    throw UsageError(quoted(arguments.model) +
+                     " has no registers, and so no Thing Model; expected a model that speaks Modbus");
+  std::fputs(thing_model(model).c_str(), stdout);
+  return kExitWell;
+}
+
 }  // namespace
 
 int describe_model(ModelList models, const DescribeArguments& arguments) {
@@ -106,12 +116,13 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
   if (!format)
     throw UsageError("--format: " + quoted(arguments.format) +
                      " is unknown; expected table, csv, json or markdown");
+  if (arguments.what == "thing") return print_thing(model, arguments);
   const std::vector<box::EvidenceFile> evidence = read_evidence(arguments);
   auto sheet = describe(model, arguments.what, *format);
   if (!sheet) {
     throw UsageError(quoted(arguments.what) +
                      " cannot be described; expected registers, parameters, instructions, commands, choices, "
-                     "ports or blocks");
+                     "ports, blocks or thing");
   }
   if (sheet->rows.empty() && *format == SheetFormat::table) {
     const bool has_window = arguments.what == "commands" && model.window != nullptr;

@@ -4,9 +4,11 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/files/content_kind.h"
@@ -24,6 +26,7 @@
 #include "emulator/model_file/list_text.h"
 #include "emulator/model_file/register_list.h"
 #include "emulator/model_file/starter.h"
+#include "emulator/model_file/thing_reader.h"
 #include "emulator/models/imported/description.h"
 
 namespace understudy::emulator::command_line {
@@ -36,8 +39,10 @@ bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 
 
 /// Returns the file's name without its ending, reduced to the characters that a model's name may have.
 std::string name_of_list(const std::string& path) {
+  fs::path stem = fs::path(path).stem();
+  if (stem.extension() == ".tm" || stem.extension() == ".td") stem = stem.stem();  // of Things
   std::string name;
-  for (const char c : fs::path(path).stem().string()) name += is_of_name(c) ? c : '-';
+  for (const char c : stem.string()) name += is_of_name(c) ? c : '-';
   return name;
 }
 
@@ -105,6 +110,22 @@ model_file::RegisterList read_list(const std::string& text, const std::string& p
   }
 }
 
+/// Returns what the flags say about the addresses of a Thing, which needs no others.
+std::optional<model_file::AddressReading> require_thing_flags(const ImportArguments& arguments,
+                                                              const model_file::ListReading& reading) {
+  const std::array<std::pair<const char*, const std::string*>, 3> others{
+      {{"--columns", &arguments.columns},
+       {"--table", &arguments.table},
+       {"--encoding", &arguments.encoding}}};
+  for (const auto& [flag, value] : others) {
+    if (!value->empty())
+      throw UsageError(std::string(flag) + ": a Thing Model has none; expected it for lists");
+  }
+  if (reading.addresses == model_file::AddressReading::modicon)
+    throw UsageError("--addresses: a Thing Model has no Modicon numbers; expected wire or from_one");
+  return reading.addresses;
+}
+
 }  // namespace
 
 int import_registers(ModelList models, const ImportArguments& arguments) {
@@ -116,18 +137,24 @@ int import_registers(ModelList models, const ImportArguments& arguments) {
   const auto text = read_text_argument(arguments.list);
   if (!text)
     throw FileError(arguments.list + ": registers: " + text.why + "; expected a list of registers (CSV)");
-  const model_file::RegisterList read = read_list(*text, arguments.list, reading);
+  std::optional<model_file::ThingList> thing;
+  if (model_file::is_thing(*text))
+    thing = model_file::read_thing(*text, arguments.list, require_thing_flags(arguments, reading));
+  const model_file::RegisterList read = thing ? thing->list : read_list(*text, arguments.list, reading);
   for (const FileError::Diagnostic& remark : read.remarks.all())
     std::fprintf(stderr, "%s\n", remark.text.c_str());
-  const fs::path list(arguments.list);
-  const fs::path output =
-      arguments.output.empty() ? list.parent_path() / (name + ".yaml") : fs::path(arguments.output);
+  const fs::path folder = fs::path(arguments.list).parent_path();
+  const fs::path output = arguments.output.empty() ? folder / (name + ".yaml") : fs::path(arguments.output);
+  const fs::path list = thing ? fs::path(output).replace_extension(".csv") : fs::path(arguments.list);
   const fs::path bench = output.parent_path() / (output.stem().string() + "-bench.yaml");
   const fs::path from = output.has_parent_path() ? output.parent_path() : fs::path(".");
   const std::string list_from_there = fs::proximate(list, from).string();
-  const std::vector<NewFile> files{
-      {output.string(), model_file::starter_model(read, reading, name, list_from_there)},
-      {bench.string(), model_file::starter_bench(name, output.filename().string())}};
+  std::vector<NewFile> files;
+  if (thing) files.push_back({list.string(), thing->csv});
+  const int station = thing ? thing->unit.value_or(1) : 1;
+  const model_file::ListReading read_so = thing ? model_file::ListReading() : reading;
+  files.push_back({output.string(), model_file::starter_model(read, read_so, name, list_from_there)});
+  files.push_back({bench.string(), model_file::starter_bench(name, output.filename().string(), station)});
   require_new(files);
   write_all(files);
   std::printf("%s: %s\n", arguments.list.c_str(), counts_text(read.registers).c_str());

@@ -13,7 +13,9 @@ inline void add_import_flags(CLI::App& command, ImportArguments& import) {
   const auto add = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->check(kNotEmpty);
   };
-  command.add_option("REGISTERS", import.list, "A register list (CSV): address, name, access, width, ...")
+  command
+      .add_option("REGISTERS", import.list,
+                  "A register list (CSV: address, name, access, ...), or a W3C Thing Model")
       ->required();
   add("-o,--output", import.output, "Model file to write [NAME.yaml next to the list]");
   add("--name", import.name, "Name of the model [that of the list]");

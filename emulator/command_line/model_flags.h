@@ -14,7 +14,7 @@ inline void add_describe_flags(CLI::App& command, DescribeArguments& describe) {
   command.add_option("MODEL", describe.model, "A name from `understudy models`, or a model file")->required();
   command
       .add_option("WHAT", describe.what,
-                  "registers, parameters, instructions, commands, choices, ports or blocks")
+                  "registers, parameters, instructions, commands, choices, ports, blocks, or thing (W3C)")
       ->required();
   command.add_option("--format", describe.format, "Output format: table, csv, json or markdown")
       ->capture_default_str();

@@ -149,7 +149,7 @@ std::string starter_model(const RegisterList& list, const ListReading& reading, 
   return text;
 }
 
-std::string starter_bench(const std::string& name, const std::string& model_path) {
+std::string starter_bench(const std::string& name, const std::string& model_path, int station) {
   return "understudy: 1\n"
          "lines:\n"
          "  line:\n"
@@ -158,7 +158,7 @@ std::string starter_bench(const std::string& name, const std::string& model_path
          ".port\n"
          "    stations:\n"
          "      - { name: " +
-         name + ", model: " + quoted_yaml(model_path) + ", address: 1 }\n";
+         name + ", model: " + quoted_yaml(model_path) + ", address: " + std::to_string(station) + " }\n";
 }
 
 }  // namespace understudy::emulator::model_file

@@ -17,6 +17,6 @@ RegisterList read_list_file(const std::string& bytes, const std::string& path, c
 std::string starter_model(const RegisterList& list, const ListReading& reading, const std::string& name,
                           const std::string& list_path);
 /// Returns a bench with one device of that model. Its port is NAME.port.
-std::string starter_bench(const std::string& name, const std::string& model_path);
+std::string starter_bench(const std::string& name, const std::string& model_path, int station = 1);
 
 }  // namespace understudy::emulator::model_file

@@ -45,7 +45,7 @@ TEST(ImportPage, CanBePasted) {
     ASSERT_EQ(pasted.exit_code, 0) << block << pasted.output << pasted.errors;
     output += pasted.output;
   }
-  EXPECT_EQ(blocks, 6);
+  EXPECT_EQ(blocks, 7);
   EXPECT_NE(output.find("feeder.csv: 6 registers (6 holding)"), std::string::npos) << output;
   EXPECT_NE(output.find("RAMP 300"), std::string::npos) << output;
   EXPECT_NE(output.find("feeder.yaml: a model with 6 registers and 1 axis"), std::string::npos) << output;

@@ -16,6 +16,7 @@
 #include "emulator/model_file/list_reading.h"
 #include "emulator/model_file/model_files.h"
 #include "emulator/model_file/starter.h"
+#include "emulator/model_file/thing_reader.h"
 #include "emulator/models/imported/model.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
@@ -76,6 +77,13 @@ void run(const Model& model) {
   require(world::hash(world) == world::hash(restored), "a state that is saved is one that goes on alike");
 }
 
+void require_map(const model_file::RegisterList& list) {
+  std::vector<std::vector<BitField>> fields;
+  const RegisterMap map(models::imported::plain_rows(list.registers, {}, fields), {});
+  map.require_distinct_names();
+  require(!list.registers.empty(), "a list has a register");
+}
+
 /// Reads bytes as `import` does, with the first byte choosing how.
 void import_list(const std::string& bytes) {
   constexpr std::array kReadings{model_file::AddressReading::wire, model_file::AddressReading::from_one,
@@ -87,11 +95,8 @@ void import_list(const std::string& bytes) {
   if (choice == 5) reading.encoding = "gbk";
   if (choice == 6) model_file::parse_columns("address=A,name=B", reading);
   try {
-    const model_file::RegisterList list = model_file::read_list_file(bytes, "list.csv", reading);
-    std::vector<std::vector<BitField>> fields;
-    const RegisterMap map(models::imported::plain_rows(list.registers, {}, fields), {});
-    map.require_distinct_names();
-    require(!list.registers.empty(), "a list has a register");
+    require_map(model_file::is_thing(bytes) ? model_file::read_thing(bytes, "thing.json", {}).list
+                                            : model_file::read_list_file(bytes, "list.csv", reading));
   } catch (const FileError& error) {
     require(error.what()[0] != '\0', "an error says something");
   }
