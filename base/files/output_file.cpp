@@ -122,6 +122,16 @@ std::string why_not_writable(const std::string& path, ContentKind kind) {
   }
 }
 
+std::string why_not_openable(const std::string& path, ContentKind kind) {
+  if (std::string why = why_not_writable(path, kind); !why.empty()) return why;
+  const fs::path target = output_target(path);
+  std::error_code error;
+  const bool is_there = fs::exists(target, error);
+  const int refused =
+      is_there ? ::access(target.c_str(), W_OK) : ::access(target.parent_path().c_str(), W_OK | X_OK);
+  return refused == 0 ? "" : error_text(errno);
+}
+
 std::optional<FileAccess> access_of(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;

@@ -43,6 +43,9 @@ void require_replaceable(const std::string& target, ContentKind kind);
 /// Returns why contents of that kind cannot be written to `path`. Empty if they can, or if only opening the
 /// file shows that.
 std::string why_not_writable(const std::string& path, ContentKind kind);
+/// The same, and also returns why opening would fail: a missing folder, or a missing permission. It creates
+/// nothing, so it suits a command that may fail before it has anything to write.
+std::string why_not_openable(const std::string& path, ContentKind kind);
 
 /// The owner, group and permissions of a file.
 struct FileAccess {

@@ -55,7 +55,7 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
       ->check(kNotEmpty);
   command.add_option("--modules", photograph.modules, "Number of modules to read in the chain [as in PN50]");
   command.add_option("--timeout", photograph.timeout, "How long to wait for a reply")->capture_default_str();
-  command.add_flag("--arrays", photograph.arrays, "SLIM: also read NS(0) to RS(2000), which takes minutes");
+  command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes a minute");
 }
 
 /// Adds the flag for the controller's name in evidence.

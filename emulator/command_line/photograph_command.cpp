@@ -10,6 +10,7 @@
 
 #include "base/files/content_kind.h"
 #include "base/files/file_claims.h"
+#include "base/files/growing_file.h"
 #include "base/files/output_file.h"
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
@@ -68,6 +69,9 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
                      (model.max_modules == 0 ? "no modules; expected no --modules"
                                              : "at most " + std::to_string(model.max_modules) +
                                                    "; expected 1 to " + std::to_string(model.max_modules)));
+  if (arguments.arrays && model.rtu)
+    throw UsageError("--arrays: " + std::string(model.name) +
+                     " has no long arrays; expected no --arrays: all its registers are read");
   return {.station = arguments.station,
           .firmware = require_firmware(model, arguments.firmware),
           .timeout = *timeout,
@@ -75,11 +79,11 @@ box::PhotoSettings settings_of(const Model& model, const PhotographArguments& ar
           .has_arrays = arguments.arrays};
 }
 
-/// Checks a path before the controller is read, which takes seconds. Creates no file.
+/// Checks a path before the controller is asked, which takes seconds or minutes. It creates nothing.
 void require_writable(FileClaims& claims, const std::string& path, ContentKind kind) {
   require_output(claims, "--output", path);
-  if (const std::string why = why_not_writable(path, kind); !why.empty())
-    throw UsageError("--output: " + path + " cannot be written: " + why);
+  if (const std::string why = why_not_openable(path, kind); !why.empty())
+    throw GrowingFileError("--output: " + path + " cannot be written: " + why);
 }
 
 /// Shows progress on a terminal.

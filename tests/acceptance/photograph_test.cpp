@@ -281,6 +281,9 @@ TEST(Photograph, RefusesWhatItCannotDoInOneLine) {
   const PrivateFolder folder;
   const std::string good = folder / "b.nv.json";
   const std::string bench = folder.write("bench.nv.json", bench_of("simple2-r3"));
+  const std::string beside = folder / "mine.nv.json";
+  folder.write("mine.photo.json", "notes of mine\n");
+  std::filesystem::create_directory(folder / "sub.nv.json");
   const struct {
     std::string port, model, output;
     Words more;
@@ -300,7 +303,11 @@ TEST(Photograph, RefusesWhatItCannotDoInOneLine) {
       {"rtu://127.0.0.1", "simple2-r3", good, {}, 2, "expected rtu://HOST:PORT"},
       {"modbus-tcp://127.0.0.1:1", "slim", good, {}, 1, "carries Modbus, but slim speaks text"},
       {"/dev/none", "simple2-r3", folder / "b.json", {}, 2, "expected one that ends in .nv.json"},
-      {"/dev/none", "simple2-r3", bench, {}, 2, "it is a bench; expected an NV image to replace"},
+      {"/dev/none", "simple2-r3", bench, {}, 3, "it is a bench; expected an NV image to replace"},
+      {"/dev/none", "simple2-r3", beside, {}, 3, "it is not a photograph; expected one to replace"},
+      {"/dev/none", "simple2-r3", folder / "none/b.nv.json", {}, 3, "No such file or directory"},
+      {"/dev/none", "simple2-r3", folder / "sub.nv.json", {}, 3, "it is a directory"},
+      {"/dev/none", "simple2-r3", good, {"--arrays"}, 2, "simple2-r3 has no long arrays"},
       {"/dev/none", "simple2", good, {}, 2, "the nearest is 'simple2-r3'"},
       {"/dev/none", "simple2-r3", good, {"--firmware", "9.99"}, 2, "is not a version of simple2-r3"},
       {"/dev/none", "simple2-r3", good, {"--modules", "2"}, 2, "has no modules"},
