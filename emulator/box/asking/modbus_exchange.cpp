@@ -74,7 +74,8 @@ Bytes ModbusExchange::ask_tcp(const Bytes& request, Asked& asked) {
     }
     if (wire_.receive(received, deadline)) asked.latency = serve::wall_now() - begin;
   }
-  if (received.size() < kHeader || received.size() < kHeader + length_in(received)) return {};
+  if (received.size() < kHeader || received.size() < kHeader + length_in(received))
+    return received;  // it is not a reply, but something has come
   Bytes reply(received.begin() + kHeader,
               received.begin() + static_cast<std::ptrdiff_t>(kHeader + length_in(received)));
   pty::append_rtu_crc(reply);

@@ -25,8 +25,8 @@ struct HostReply {
     garbled,    // bytes that are not an answer to it
   } kind = Kind::silence;
   int exception = 0;
-  std::vector<std::uint16_t> words;  // the words that were read; in bit tables, one word per bit
-  std::vector<std::uint8_t> bytes;   // as received, with checksum; empty if libmodbus received them
+  std::vector<std::uint16_t> words;  // the words that were read; in tables of bits, one bit each
+  std::vector<std::uint8_t> bytes;   // as received, with checksum; those of a good reply may be missing
 };
 
 /// A condition that may become true at the end of a tick.

@@ -230,21 +230,24 @@ LibmodbusHost& RealExecutor::host(std::size_t line) {
   return *hosts_[line];
 }
 
+HostReply RealExecutor::with_bytes(std::size_t line, HostReply reply) {
+  if (reply.kind == HostReply::Kind::garbled)
+    with_world([&](world::World&) { reply.bytes = writes_->answer_on(line); });
+  return reply;
+}
+
 HostReply RealExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
-  if (are_ascii_[line]) return ask_ascii(line, read_request(station, table, first, count));
-  return host(line).read(station, table, first, count);
+  return with_bytes(line, host(line).read(station, table, first, count));
 }
 
 HostReply RealExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
                               std::span<const std::uint16_t> words) {
-  if (are_ascii_[line]) return ask_ascii(line, write_request(station, table, first, words));
-  return host(line).write(station, table, first, words);
+  return with_bytes(line, host(line).write(station, table, first, words));
 }
 
 HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16_t first,
                                       std::span<const std::uint16_t> words) {
-  if (are_ascii_[line]) return ask_ascii(line, message_request(station, first, words));
-  return host(line).write_message(station, first, words);
+  return with_bytes(line, host(line).write_message(station, first, words));
 }
 
 /// Exchanges frames of Modbus ASCII, which libmodbus does not know. `request` is that of RTU.

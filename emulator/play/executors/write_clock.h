@@ -1,8 +1,10 @@
-// Records when the last write of any host was executed, from the traffic on a world's lines.
+// Records, from the traffic on a world's lines, when the last write of any host was executed, and what was
+// sent back since a line's last request.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "emulator/world/world.h"
@@ -21,7 +23,9 @@ class WriteClock {
   /// Returns the tick from which the last write takes effect, or 0 if there was none. Refused writes do not
   /// count.
   Tick tick_of_last_write() const { return last_; }
-  /// Forgets partly received frames, after the lines have been put into another state.
+  /// Returns the bytes that stations have sent since the line's last request.
+  const std::vector<std::uint8_t>& answer_on(std::size_t line) const { return answers_[line]; }
+  /// Forgets partly received frames, after the lines were put into another state.
   void restart();
 
  private:
@@ -31,6 +35,7 @@ class WriteClock {
 
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
+  std::vector<std::vector<std::uint8_t>> answers_;            // the same
   Tick last_ = 0;
   Tick before_ = 0;  // the tick of the previous write
   static constexpr std::size_t kNone = SIZE_MAX;

@@ -31,12 +31,16 @@ Value require_fitting(const Target& target, world::Number number) {
                   (is_real ? " is too large for a 32-bit real" : " is not a whole number; expected one"));
 }
 
+std::string bytes_text(std::span<const std::uint8_t> bytes) {
+  return bytes.empty() ? "nothing" : world::hex_text(bytes);
+}
+
 std::string to_text(const HostReply& reply) {
   switch (reply.kind) {
     case HostReply::Kind::good: return "done";
     case HostReply::Kind::exception: return "exception " + world::exception_text(reply.exception);
     case HostReply::Kind::silence: return "no reply";
-    case HostReply::Kind::garbled: return "an unexpected reply: " + world::hex_text(reply.bytes);
+    case HostReply::Kind::garbled: return "an unexpected reply: " + bytes_text(reply.bytes);
   }
   return {};
 }
@@ -51,10 +55,6 @@ std::string names_of(const std::vector<Target>& targets, const Request& request)
   std::vector<std::string> names;
   for (const std::size_t entry : request.entries) names.push_back(targets[entry].name);
   return joined(names);
-}
-
-std::string bytes_text(std::span<const std::uint8_t> bytes) {
-  return bytes.empty() ? "nothing" : world::hex_text(bytes);
 }
 
 }  // namespace

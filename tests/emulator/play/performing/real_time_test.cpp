@@ -23,6 +23,16 @@ TEST(RealTime, BringsWhatIsReadAndWhatIsRefused) {
   EXPECT_EQ(bad.failure->what, "feeder.Aaxis_Speed is 200; expected 201");
 }
 
+TEST(RealTime, SaysWhichBytesCameInsteadOfAReply) {
+  const ScenarioResult bad = played_in_real_time(
+      "  - inject: { corrupt_checksum: feeder, nth: 2 }\n"
+      "  - write: { feeder.Aaxis_Speed: 60 }\n  - expect: { feeder.HW_Code: 49153 }\n");
+  ASSERT_TRUE(bad.failure);
+  // The manual's frame, with the last byte inverted.
+  EXPECT_EQ(bad.failure->what,
+            "read feeder.HW_Code: an unexpected reply: 01 03 02 C0 01 29 7B; expected success");
+}
+
 /// When the clock reports that the last write was executed, once its frame is complete and answered.
 class WriteClockTest : public testing::Test {
  protected:
