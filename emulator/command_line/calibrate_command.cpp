@@ -72,6 +72,21 @@ box::EvidenceRow evidence_row(const BoxBench& box, const std::vector<box::Captur
   return row;
 }
 
+/// Returns the bench's version, or those that remain if a capture contradicts it: "1.40".
+std::string firmware_text(const BoxBench& box, std::size_t number, const box::Calibration& found) {
+  for (const box::RowFinding& finding : found.findings) {
+    const bool is_it = finding.key.device == number && finding.key.row == box::ChoiceKey::kFirmware;
+    if (!is_it || finding.remaining.empty() || finding.remaining.contains(finding.before)) continue;
+    std::string text;
+    for (const std::string& version : options_left(box.bench, finding))
+      text += (text.empty() ? "" : " or ") + version;
+    return text;
+  }
+  const world::DeviceSetup& device = box.bench.devices[number];
+  return version_text(device.settings.firmware != 0 ? device.settings.firmware
+                                                    : device.model->firmwares.back());
+}
+
 box::EvidenceFile evidence_of(const BoxBench& box, const std::vector<box::Capture>& captures,
                               const CalibrateArguments& arguments, const box::Calibration& found) {
   box::EvidenceFile evidence{.box = arguments.box,
@@ -81,9 +96,7 @@ box::EvidenceFile evidence_of(const BoxBench& box, const std::vector<box::Captur
   for (const world::StationSetup& station : box.bench.lines[box.settings.line].stations) {
     const world::DeviceSetup& device = box.bench.devices[station.device];
     evidence.devices.push_back(
-        {device.settings.name, std::string(device.model->name),
-         version_text(device.settings.firmware != 0 ? device.settings.firmware
-                                                    : device.model->firmwares.back())});
+        {device.settings.name, std::string(device.model->name), firmware_text(box, station.device, found)});
   }
   for (const box::Capture& capture : captures)
     evidence.captures.push_back(
@@ -160,6 +173,7 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
     std::fputs(box::evidence_table(evidence, "the bench has a different option").c_str(), stdout);
     std::printf("%zu hypotheses were tried\n", found.tried);
   }
+  if (output.is_wanted() && !arguments.choices) std::printf("wrote %s\n", arguments.output.c_str());
   return found.explains ? kExitWell : kExitFailed;
 }
 

@@ -124,6 +124,23 @@ TEST_F(Compare, ShowsWhatIsMeasuredAmongTheChoices) {
             std::string::npos);
 }
 
+TEST_F(Compare, WritesTheFirmwareThatWasFound) {
+  const std::string old = folder_.write("box.yaml",
+                                        "understudy: 1\nlines:\n  line:\n    stations:\n"
+                                        "      - { name: box, model: simple2-r3, firmware: \"1.40\" }\n");
+  ASSERT_EQ(understudy({"run", scenario_on(folder_, old, 140), "--capture", folder_ / "captures"}).exit_code,
+            0);
+  const std::string evidence = folder_ / "evidence.json";
+  const Finished found = understudy(
+      {"calibrate", folder_ / "captures/talk.pcapng", "--bench", plain_, "--power-up", "-o", evidence});
+  EXPECT_EQ(found.exit_code, 0) << found.errors;
+  EXPECT_NE(found.output.find("box.firmware: 1.40  (the bench has a different option)"), std::string::npos)
+      << found.output;
+  EXPECT_TRUE(found.output.ends_with("wrote " + evidence + "\n")) << found.output;
+  const json written = json::parse(run({"cat", evidence}).output, nullptr, false);
+  EXPECT_EQ(written["devices"], (json{{{"name", "box"}, {"model", "simple2-r3"}, {"firmware", "1.40"}}}));
+}
+
 TEST_F(Compare, FindsThatAnotherSlaveIsNoneOfOurs) {
   // libmodbus's debug output of a slave made with pymodbus.
   const std::string log = PROJECT_FOLDER "/tests/emulator/box/captures/other_slave.txt";
