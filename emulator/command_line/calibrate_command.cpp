@@ -16,8 +16,10 @@
 #include "emulator/box/compare/comparison.h"
 #include "emulator/command_line/box_bench.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
+#include "emulator/command_line/terminal.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 
@@ -92,6 +94,7 @@ box::EvidenceFile evidence_of(const BoxBench& box, const std::vector<box::Captur
   box::EvidenceFile evidence{.box = arguments.box,
                              .bench = arguments.compare.bench,
                              .is_explained = found.explains,
+                             .is_interrupted = found.is_interrupted,
                              .drift_ppm = found.drift_ppm};
   for (const world::StationSetup& station : box.bench.lines[box.settings.line].stations) {
     const world::DeviceSetup& device = box.bench.devices[station.device];
@@ -129,7 +132,63 @@ void print_unexplained_calibration(const BoxBench& box, const std::vector<box::C
   std::printf("next: run understudy compare with these options to see the difference\n");
 }
 
-/// Prints the choices that the devices of a bench need, as parts of a bench file.
+/// Returns "812 of 4848 hypotheses, 530/s".
+std::string tried_text(const box::CalibrateTally& tally, double seconds) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%zu of %zu hypotheses, %.0f/s", tally.tried.load(), tally.planned.load(),
+                seconds > 0 ? static_cast<double>(tally.tried) / seconds : 0.0);
+  return text;
+}
+
+/// Returns the line of progress, which should fit into 80 columns.
+std::string progress_of(const box::CalibrateTally& tally, std::size_t captures, std::size_t exchanges,
+                        double seconds) {
+  using enum box::CalibrateTally::Phase;
+  const std::string tried = tried_text(tally, seconds);
+  switch (tally.phase) {
+    case trying_each: return "trying each option: " + tried;
+    case contradicting: return "looking for contradictions: " + tried;
+    case explaining: break;
+  }
+  std::string text = tried + "; explained " + std::to_string(tally.explained) + " of " +
+                     std::to_string(exchanges) + " replies";
+  if (captures > 1)
+    text += ", " + std::to_string(tally.captures) + " of " + std::to_string(captures) + " captures";
+  return text;
+}
+
+/// Searches with a line of progress on a terminal. Ctrl-C ends the search.
+box::Calibration calibrate_with_progress(const BoxBench& box, const std::vector<box::Capture>& captures) {
+  std::size_t exchanges = 0;
+  for (const box::Capture& capture : captures) exchanges += capture.exchanges.size();
+  watch_for_interruption();
+  box::CalibrateTally tally;
+  const ProgressLine progress(
+      [&](double seconds) { return progress_of(tally, captures.size(), exchanges, seconds); });
+  return box::calibrate(box.bench, captures, {.compare = box.settings, .threads = 0},
+                        {.is_over = is_interrupted, .tally = &tally});
+}
+
+/// Prints what was found until Ctrl-C.
+void print_interruption(const BoxBench& box, const std::vector<box::Capture>& captures,
+                        const box::Calibration& found, std::FILE* to) {
+  std::fprintf(to, "interrupted after %zu hypotheses; ", found.tried);
+  if (found.explains) {
+    std::fprintf(to, "these options explain everything: %s\n",
+                 hypothesis_text(box.bench, found.explanations.front()).c_str());
+    std::fprintf(to, "the options of %zu choices were tried; nothing is known about the others\n",
+                 found.findings.size());
+    return;
+  }
+  const box::Capture& capture = captures[found.capture];
+  const box::Exchange& exchange = capture.exchanges[found.exchange];
+  std::fprintf(to, "no options were found that explain everything\n");
+  std::fprintf(to, "the furthest, up to %s:%zu, at %s: %s\n", capture.path.c_str(), exchange.place,
+               format_duration(exchange.at).c_str(),
+               hypothesis_text(box.bench, found.explanations.front()).c_str());
+}
+
+/// Prints what the devices of a bench need, as parts of a bench file.
 void print_measured_choices(const BoxBench& box, const box::Calibration& found) {
   std::size_t device = box.bench.devices.size();
   for (const bool is_firmware : {true, false}) {
@@ -161,20 +220,24 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   const std::vector<box::Capture> captures = read_captures(models, box, arguments.compare.captures);
   // Settings that the model refuses are reported before any other option is tried.
   box::compare(box.bench, captures.front(), box.settings, box::Extent::to_difference);
-  const box::Calibration found =
-      box::calibrate(box.bench, captures, {.compare = box.settings, .threads = 0}, {});
+  const box::Calibration found = calibrate_with_progress(box, captures);
   const box::EvidenceFile evidence = evidence_of(box, captures, arguments, found);
-  if (output.is_wanted()) output.write(box::evidence_text(evidence));
-  if (!found.explains) {
+  // An interruption must not replace what an earlier search has measured by nothing.
+  const bool is_written = output.is_wanted() && (!found.is_interrupted || !found.findings.empty());
+  if (is_written) output.write(box::evidence_text(evidence));
+  if (found.is_interrupted) {
+    print_interruption(box, captures, found, arguments.choices ? stderr : stdout);
+  } else if (!found.explains) {
     print_unexplained_calibration(box, captures, found);
-  } else if (arguments.choices) {
-    print_measured_choices(box, found);
-  } else {
-    std::fputs(box::evidence_table(evidence, "the bench has a different option").c_str(), stdout);
-    std::printf("%zu hypotheses were tried\n", found.tried);
   }
-  if (output.is_wanted() && !arguments.choices) std::printf("wrote %s\n", arguments.output.c_str());
-  return found.explains ? kExitWell : kExitFailed;
+  if (found.explains && arguments.choices) {
+    print_measured_choices(box, found);
+  } else if (found.explains) {
+    std::fputs(box::evidence_table(evidence, "the bench has a different option").c_str(), stdout);
+    if (!found.is_interrupted) std::printf("%zu hypotheses were tried\n", found.tried);
+  }
+  if (is_written && !arguments.choices) std::printf("wrote %s\n", arguments.output.c_str());
+  return found.explains && !found.is_interrupted ? kExitWell : kExitFailed;
 }
 
 }  // namespace understudy::emulator::command_line

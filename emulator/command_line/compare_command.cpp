@@ -15,6 +15,7 @@
 #include "emulator/box/calibrate/calibration.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/comparison.h"
+#include "emulator/box/compare/drift.h"
 #include "emulator/box/compare/judge.h"
 #include "emulator/box/compare/replay_bench.h"
 #include "emulator/command_line/box_bench.h"

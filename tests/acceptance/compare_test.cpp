@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/acceptance/at_terminal.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -139,6 +140,53 @@ TEST_F(Compare, WritesTheFirmwareThatWasFound) {
   EXPECT_TRUE(found.output.ends_with("wrote " + evidence + "\n")) << found.output;
   const json written = json::parse(run({"cat", evidence}).output, nullptr, false);
   EXPECT_EQ(written["devices"], (json{{{"name", "box"}, {"model", "simple2-r3"}, {"firmware", "1.40"}}}));
+}
+
+/// Two minutes of a host that polls in vain: long enough for a search to take seconds.
+std::string many_reads(const std::string& last_reply) {
+  std::string text;
+  constexpr int kReads = 12'000;
+  for (int i = 0; i < kReads; ++i) {
+    const std::string time = std::to_string(1 + i / 100) + "." + std::to_string(100 + i % 100).substr(1);
+    text += time + "0 in  line 01 03 00 01 00 01 D5 CA\n" + time + "9 out line " +
+            (i + 1 < kReads ? "01 03 02 C0 01 29 84" : last_reply) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Compare, ReportsHowFarASearchIsAndEndsItAtCtrlC) {
+  const std::string evidence = folder_ / "evidence.json";
+  const auto search = [&](const std::string& capture) {
+    return Words{UNDERSTUDY_BINARY, "calibrate", capture, "--bench", plain_, "--power-up", "-o", evidence};
+  };
+  const Environment terminal{{"TERM", "xterm"}, {"CI", ""}};
+  const std::string same = folder_.write("same.txt", many_reads("01 03 02 C0 01 29 84"));
+  {
+    AtTerminal calibrate(search(same), terminal);
+    EXPECT_TRUE(calibrate.shows("\rtrying each option: ")) << calibrate.screen();
+    // It is shown four times a second. By then, some choices have been tried.
+    for (int shown = 0; shown < 8; ++shown)
+      EXPECT_TRUE(calibrate.shows(" hypotheses, ")) << calibrate.screen();
+    calibrate.type("\x03");
+    EXPECT_TRUE(calibrate.shows("interrupted after ")) << calibrate.screen();
+    EXPECT_TRUE(calibrate.shows("nothing is known about the others")) << calibrate.screen();
+    EXPECT_TRUE(calibrate.shows("wrote " + evidence)) << calibrate.screen();
+    EXPECT_EQ(calibrate.wait(kPatience), 1);
+  }
+  const std::string written = run({"cat", evidence}).output;
+  const json some = json::parse(written, nullptr, false);
+  EXPECT_EQ(some["interrupted"], true) << written;
+  EXPECT_GE(some["choices"].size(), 1U);
+  EXPECT_LT(some["choices"].size(), 126U);
+  // What was measured before is not replaced by nothing.
+  const std::string other = folder_.write("other.txt", many_reads("01 03 02 C0 02 69 85"));
+  AtTerminal calibrate(search(other), terminal);
+  EXPECT_TRUE(calibrate.shows("; explained 11999 of 12000 replies")) << calibrate.screen();
+  calibrate.type("\x03");
+  EXPECT_TRUE(calibrate.shows("no options were found that explain everything")) << calibrate.screen();
+  EXPECT_TRUE(calibrate.shows(other + ":23999, at 120.99s: the bench's own options")) << calibrate.screen();
+  EXPECT_EQ(calibrate.wait(kPatience), 1);
+  EXPECT_EQ(run({"cat", evidence}).output, written);
 }
 
 TEST_F(Compare, FindsThatAnotherSlaveIsNoneOfOurs) {

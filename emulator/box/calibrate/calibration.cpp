@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -18,6 +17,7 @@
 #include "base/choices.h"
 #include "emulator/box/capture/capture.h"
 #include "emulator/box/compare/comparison.h"
+#include "emulator/box/compare/drift.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/world/bench/bench.h"
@@ -72,11 +72,14 @@ world::Bench bench_with(const world::Bench& bench, const Hypothesis& hypothesis)
   return changed;
 }
 
+/// Ends a search from within.
+struct Interrupted {};
+
 class Search {
  public:
   Search(const world::Bench& bench, const std::vector<Capture>& captures, const CalibrateSettings& settings,
-         CalibrateProgress progress)
-      : bench_(bench), captures_(captures), settings_(settings), progress_(std::move(progress)) {
+         const CalibrateWatch& watch)
+      : bench_(bench), captures_(captures), settings_(settings), watch_(watch) {
     std::set<std::size_t> devices;
     for (const world::StationSetup& station : bench.lines[settings.compare.line].stations)
       devices.insert(station.device);
@@ -92,24 +95,13 @@ class Search {
 
   Calibration run() {
     Calibration result;
-    std::vector<Hypothesis> level{Hypothesis()};
-    Hypothesis best;
-    Reach best_reach = reach_of({Hypothesis()}).front();
-    for (std::size_t depth = 0; depth <= kDeepest && !best_reach.is_whole && !level.empty(); ++depth) {
-      std::vector<Hypothesis> further = further_than_parents(level);
-      const std::vector<Reach> reaches = reach_of(further);
-      keep_best(further, reaches);
-      if (further.empty()) break;
-      level = std::move(further);
-      best_reach = level_reaches_.front();
-      best = level.front();
-    }
-    result.explains = best_reach.is_whole;
-    result.explanations = result.explains ? whole_ones(level) : std::vector{best};
-    result.capture = best_reach.capture;
-    result.exchange = best_reach.exchange;
-    if (result.explains) {
-      for (std::size_t i = 0; i < keys_.size(); ++i) result.findings.push_back(finding_of(i, result));
+    try {
+      explain(result);
+      if (result.explains) try_each_option(result);
+    } catch (const Interrupted&) {
+      result.is_interrupted = true;
+      // It may have been interrupted before the explanations were complete.
+      if (result.explanations.empty()) finish(result, {best_}, best_reach_);
     }
     result.tried = tried_;
     return result;
@@ -130,15 +122,18 @@ class Search {
     return all;
   }
 
+  /// Throws Interrupted if the search is over.
   std::vector<Reach> reach_of(const std::vector<Hypothesis>& hypotheses) {
     std::vector<Reach> reaches(hypotheses.size());
     std::atomic<std::size_t> next = 0;
     std::exception_ptr failure;
     std::mutex mutex;
     const auto work = [&] {
-      for (std::size_t i = next++; i < hypotheses.size(); i = next++) {
+      for (std::size_t i = next++; i < hypotheses.size() && !is_over(); i = next++) {
         try {
           reaches[i] = reach_of_one(hypotheses[i]);
+          ++tried_;
+          if (watch_.tally != nullptr) ++watch_.tally->tried;
         } catch (...) {
           const std::lock_guard lock(mutex);
           failure = std::current_exception();
@@ -152,12 +147,60 @@ class Search {
     work();
     for (std::thread& thread : threads) thread.join();
     if (failure) std::rethrow_exception(failure);
-    tried_ += hypotheses.size();
-    if (progress_) progress_(tried_, "");
+    for (std::size_t i = 0; i < hypotheses.size(); ++i)
+      if (reaches[i].is_further_than(best_reach_)) note_best(hypotheses[i], reaches[i]);
+    if (is_over()) throw Interrupted();
     return reaches;
   }
 
  private:
+  void explain(Calibration& result) {
+    std::vector<Hypothesis> level{Hypothesis()};
+    plan(1);
+    Reach best_reach = reach_of({Hypothesis()}).front();
+    Hypothesis best;
+    for (std::size_t depth = 0; depth <= kDeepest && !best_reach.is_whole && !level.empty(); ++depth) {
+      std::vector<Hypothesis> further = further_than_parents(level);
+      plan(further.size());
+      const std::vector<Reach> reaches = reach_of(further);
+      keep_best(further, reaches);
+      if (further.empty()) break;
+      level = std::move(further);
+      best_reach = level_reaches_.front();
+      best = level.front();
+    }
+    finish(result, best_reach.is_whole ? whole_ones(level) : std::vector{best}, best_reach);
+  }
+
+  static void finish(Calibration& result, std::vector<Hypothesis> explanations, const Reach& reach) {
+    result.explains = reach.is_whole;
+    result.explanations = std::move(explanations);
+    result.capture = reach.capture;
+    result.exchange = reach.exchange;
+  }
+
+  void try_each_option(Calibration& result) {
+    if (watch_.tally != nullptr && watch_.tally->phase == CalibrateTally::Phase::explaining)
+      watch_.tally->phase = CalibrateTally::Phase::trying_each;
+    std::size_t options = 0;
+    for (const ChoiceKey key : keys_) options += option_count(bench_, key);
+    plan(options * result.explanations.size());
+    for (std::size_t i = 0; i < keys_.size(); ++i) result.findings.push_back(finding_of(i, result));
+  }
+
+  bool is_over() const { return watch_.is_over && watch_.is_over(); }
+  void plan(std::size_t hypotheses) {
+    if (watch_.tally != nullptr) watch_.tally->planned += hypotheses;
+  }
+  void note_best(const Hypothesis& hypothesis, const Reach& reach) {
+    best_ = hypothesis;
+    best_reach_ = reach;
+    // Later searches are about some of the captures.
+    if (watch_.tally == nullptr || watch_.tally->phase != CalibrateTally::Phase::explaining) return;
+    watch_.tally->explained = reach.explained;
+    watch_.tally->captures = reach.is_whole ? captures_.size() : reach.capture;
+  }
+
   void add_key(ChoiceKey key) {
     keys_.push_back(key);
     own_.push_back(option_in_bench(bench_, key));
@@ -193,6 +236,7 @@ class Search {
   /// with any other option.
   std::vector<Hypothesis> further_than_parents(const std::vector<Hypothesis>& level) {
     std::set<Hypothesis> found;
+    for (const Hypothesis& parent : level) plan(1 + neighbours_of(parent).size());
     for (const Hypothesis& parent : level) {
       const Reach reach = reach_of({parent}).front();
       const std::vector<Hypothesis> singles = neighbours_of(parent);
@@ -203,6 +247,7 @@ class Search {
         if (reaches[i].fingerprint != reach.fingerprint) felt.push_back(singles[i]);
       }
       if (!found.empty()) continue;
+      for (const Hypothesis& one : felt) plan(neighbours_of(one).size());
       for (const Hypothesis& one : felt) {
         const std::vector<Hypothesis> pairs = neighbours_of(one);
         const std::vector<Reach> of_pairs = reach_of(pairs);
@@ -271,19 +316,22 @@ class Search {
   const world::Bench& bench_;
   const std::vector<Capture>& captures_;
   const CalibrateSettings& settings_;
-  CalibrateProgress progress_;
+  const CalibrateWatch& watch_;
   std::vector<ChoiceKey> keys_;
   std::vector<std::uint8_t> own_;  // the bench's options, one for each key
   std::vector<Reach> level_reaches_;
-  std::size_t tried_ = 0;
+  Hypothesis best_;
+  Reach best_reach_;
+  std::atomic<std::size_t> tried_ = 0;
 };
 
 /// Looks for two captures that are explained one by one, but not together.
 std::optional<std::pair<std::size_t, std::size_t>> contradictory_captures(
     const world::Bench& bench, const std::vector<Capture>& captures, const CalibrateSettings& settings,
-    std::size_t failed) {
+    const CalibrateWatch& watch, std::size_t failed) {
+  if (watch.tally != nullptr) watch.tally->phase = CalibrateTally::Phase::contradicting;
   const auto explains = [&](const std::vector<Capture>& some) {
-    return Search(bench, some, settings, {}).run().explains;
+    return Search(bench, some, settings, watch).run().explains;
   };
   if (captures.size() < 2 || !explains({captures[failed]})) return {};
   for (std::size_t i = 0; i < captures.size(); ++i) {
@@ -305,51 +353,23 @@ std::string option_name(const world::Bench& bench, ChoiceKey key, std::uint8_t n
                                          : std::string(options_of(model.choices[key.row])[number]);
 }
 
-double fit_drift(const world::Bench& bench, const Capture& capture, const CompareSettings& settings) {
-  // Quartzes and processors' oscillators are within this; between two steps motions stay within a tolerance.
-  constexpr int kFurthest = 300;
-  constexpr int kStep = 25;
-  const auto agrees_for = [&](int millionths) {
-    CompareSettings with = settings;
-    with.drift_ppm = millionths;
-    const Comparison comparison = compare(bench, capture, with, Extent::to_difference);
-    return comparison.first_difference.value_or(capture.exchanges.size());
-  };
-  int best = 0;
-  std::size_t furthest = agrees_for(0);
-  const std::size_t without = furthest;
-  int last = 0;  // of those that are equally good the middle one is taken
-  for (int millionths = kStep; millionths <= kFurthest && without < capture.exchanges.size();
-       millionths += kStep) {
-    for (const int one : {millionths, -millionths}) {
-      const std::size_t reach = agrees_for(one);
-      if (reach < furthest || reach == without) continue;
-      if (reach > furthest) {
-        best = last = one;
-      } else if ((one > 0) == (best > 0)) {
-        last = one;
-      }
-      furthest = reach;
-    }
-  }
-  return (best + last) / 2.0;
-}
-
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
-                      const CalibrateSettings& settings, const CalibrateProgress& progress) {
-  Calibration found = Search(bench, captures, settings, progress).run();
-  if (found.explains) return found;
+                      const CalibrateSettings& settings, const CalibrateWatch& watch) {
+  Calibration found = Search(bench, captures, settings, watch).run();
+  if (found.explains || found.is_interrupted) return found;
   // Options and the clock cannot be found at the same time, so one follows the other.
   CalibrateSettings with = settings;
-  with.compare.drift_ppm =
-      fit_drift(bench_with(bench, found.explanations.front()), captures[found.capture], settings.compare);
+  with.compare.drift_ppm = fit_drift(bench_with(bench, found.explanations.front()), captures[found.capture],
+                                     settings.compare, watch.is_over);
   if (with.compare.drift_ppm != 0) {
-    Calibration drifted = Search(bench, captures, with, progress).run();
+    Calibration drifted = Search(bench, captures, with, watch).run();
     drifted.tried += found.tried;
     drifted.drift_ppm = with.compare.drift_ppm;
     if (drifted.explains) return drifted;
   }
-  found.contradictory = contradictory_captures(bench, captures, with, found.capture);
+  found.contradictory = contradictory_captures(bench, captures, with, watch, found.capture);
+  found.is_interrupted = watch.is_over && watch.is_over();
+  if (found.is_interrupted) found.contradictory.reset();
   return found;
 }
 
@@ -358,7 +378,8 @@ std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& captu
   std::vector<Capture> until{capture};
   until.front().exchanges.resize(first_difference + 1);
   until.front().is_cut = true;  // so a missing reply at its end is a difference
-  Search search(bench, until, settings, {});
+  const CalibrateWatch nobody;
+  Search search(bench, until, settings, nobody);
   std::vector<Hypothesis> good;
   const std::vector<Hypothesis> all = search.neighbours_of({});
   const std::vector<Reach> reaches = search.reach_of(all);

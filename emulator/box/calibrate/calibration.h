@@ -6,6 +6,7 @@
 // reply.
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -50,6 +51,7 @@ struct RowFinding {
 
 struct Calibration {
   bool explains = false;
+  bool is_interrupted = false;           // the findings are only those that are certain by then
   std::vector<Hypothesis> explanations;  // equally good ones, or the one that gets furthest
   std::vector<RowFinding> findings;      // of all choices with several options, in the order of the tables
   std::size_t tried = 0;                 // hypotheses
@@ -67,15 +69,28 @@ struct CalibrateSettings {
   unsigned threads = 0;  // 0: one for each core
 };
 
-/// Receives the number of hypotheses tried so far; `what` is always empty.
-using CalibrateProgress = std::function<void(std::size_t tried, const std::string& what)>;
+/// How far a search is. Another thread may read it.
+struct CalibrateTally {
+  enum class Phase : std::uint8_t {
+    explaining,     // looks for options that explain all captures
+    trying_each,    // tries each option of each choice with them
+    contradicting,  // looks for two captures that no options explain together
+  };
+  std::atomic<Phase> phase = Phase::explaining;
+  std::atomic<std::size_t> tried = 0;      // hypotheses
+  std::atomic<std::size_t> planned = 0;    // those that the search knows of by now
+  std::atomic<std::size_t> explained = 0;  // exchanges, by the best hypothesis
+  std::atomic<std::size_t> captures = 0;   // the same, of which it explains all
+};
+
+struct CalibrateWatch {
+  /// Asked by several threads. If it returns true, the search ends with what it knows. Empty: nothing does.
+  std::function<bool()> is_over{};
+  CalibrateTally* tally = nullptr;  // null: nobody reads it
+};
 
 Calibration calibrate(const world::Bench& bench, const std::vector<Capture>& captures,
-                      const CalibrateSettings& settings, const CalibrateProgress& progress);
-
-/// Estimates from the motions how much faster the controller's clock is than the capture's, in parts per
-/// million: the value with which the bench agrees for longest. Returns 0 if no value helps.
-double fit_drift(const world::Bench& bench, const Capture& capture, const CompareSettings& settings);
+                      const CalibrateSettings& settings, const CalibrateWatch& watch = {});
 
 /// Returns the options that, changed alone, remove the first difference of a capture.
 std::vector<Hypothesis> remedies(const world::Bench& bench, const Capture& capture,

@@ -65,7 +65,8 @@ EvidenceFile parse_evidence(std::string_view text, const std::string& path) {
                         .box = text_in(file, "box"),
                         .bench = text_in(file, "bench"),
                         .port = text_in(file, "port"),
-                        .is_explained = file.value("explained", json(true)) == json(true)};
+                        .is_explained = file.value("explained", json(true)) == json(true),
+                        .is_interrupted = file.value("interrupted", json(false)) == json(true)};
   for (const json& device : *devices) {
     if (text_in(device, "model").empty()) throw refuse("has a device without a model");
     evidence.devices.push_back(
@@ -114,6 +115,7 @@ std::string evidence_text(const EvidenceFile& evidence) {
     for (const EvidenceCapture& one : evidence.captures)
       file["captures"].push_back({{"file", one.file}, {"exchanges", one.exchanges}, {"sha256", one.sha256}});
     file["explained"] = evidence.is_explained;
+    if (evidence.is_interrupted) file["interrupted"] = true;
     file["drift_ppm"] = evidence.drift_ppm;
   }
   if (!evidence.contradictory.empty()) file["contradictory"] = evidence.contradictory;

@@ -54,7 +54,8 @@ struct EvidenceFile {
   std::string port{};    // of `probe`
   std::vector<EvidenceDevice> devices{};
   std::vector<EvidenceCapture> captures{};
-  bool is_explained = true;  // all captures together
+  bool is_explained = true;     // all captures together
+  bool is_interrupted = false;  // rows are missing that were not tried
   double drift_ppm = 0;
   std::vector<std::string> contradictory{};  // two captures
   std::vector<EvidenceRow> rows{};

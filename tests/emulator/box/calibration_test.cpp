@@ -118,6 +118,52 @@ TEST(Calibration, NamesTheOptionThatRemediesADifference) {
   EXPECT_EQ(describe(plain, good.front()), "version_encoding: bcd ");
 }
 
+TEST(Calibration, KeepsWhatIsCertainWhenItIsInterrupted) {
+  const world::Bench plain = bench_of("simple2-r3");
+  const Capture capture =
+      FakeBox::captured(bench_of("simple2-r3", {{"version_encoding", "bcd"}}), requests());
+  const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
+  const Calibration whole = calibrate(plain, {capture}, settings);
+  ASSERT_TRUE(whole.explains);
+  std::set<std::size_t> counts;  // of findings
+  for (const std::size_t polls : {0U, 1U, 100U, 500U, 700U, 800U, 1'000'000U}) {
+    std::size_t polled = 0;
+    const Calibration part =
+        calibrate(plain, {capture}, settings, {.is_over = [&] { return polled++ >= polls; }});
+    EXPECT_EQ(part.is_interrupted, part.findings.size() < whole.findings.size()) << polls;
+    EXPECT_LE(part.tried, whole.tried);
+    ASSERT_LE(part.findings.size(), whole.findings.size());
+    ASSERT_EQ(part.explanations.size(), 1U);
+    EXPECT_EQ(describe(plain, part.explanations.front()), part.explains ? "version_encoding: bcd " : "")
+        << polls;
+    for (std::size_t i = 0; i < part.findings.size(); ++i) {
+      EXPECT_EQ(part.findings[i].key, whole.findings[i].key);
+      EXPECT_EQ(part.findings[i].state, whole.findings[i].state);
+      EXPECT_EQ(part.findings[i].remaining, whole.findings[i].remaining);
+    }
+    counts.insert(part.findings.size());
+  }
+  EXPECT_GE(counts.size(), 3U) << "none, some and all of them";
+}
+
+TEST(Calibration, TellsHowFarItIs) {
+  Capture capture = FakeBox::captured(bench_of("simple2-r3", {{"version_encoding", "bcd"}}), requests());
+  const CalibrateSettings settings{.compare = {.from_power_up = true}, .threads = 1};
+  CalibrateTally tally;
+  const Calibration found = calibrate(bench_of("simple2-r3"), {capture}, settings, {.tally = &tally});
+  EXPECT_EQ(tally.tried, found.tried);
+  EXPECT_EQ(tally.planned, found.tried);
+  EXPECT_EQ(tally.explained, capture.exchanges.size());
+  EXPECT_EQ(tally.captures, 1U);
+  EXPECT_EQ(tally.phase, CalibrateTally::Phase::trying_each);
+  capture.exchanges[4].reply = frame({1, 3, 2, 0x12, 0x34});  // nothing explains that
+  capture.exchanges.resize(6);
+  CalibrateTally furthest;
+  calibrate(bench_of("simple2-r3"), {capture}, settings, {.tally = &furthest});
+  EXPECT_EQ(furthest.explained, 4U);
+  EXPECT_EQ(furthest.captures, 0U);
+}
+
 TEST(Comparison, LearnsWhatABoxHeldBeforeTheCapture) {
   const auto read = frame({1, 3, 0x10, 3, 0, 1});
   const auto write = frame({1, 6, 0x10, 3, 0, 100});
