@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <numeric>
@@ -64,6 +65,48 @@ std::string verdicts_text(const VerdictCounts& counts) {
 /// requests.
 std::string kind_of(const std::string& request) { return request.substr(0, request.find(" = ")); }
 
+/// When a choice was asked.
+enum class Asked : std::uint8_t { since_agreement, before, at_start };
+
+Asked when_asked(const box::AskedChoice& one) {
+  if (one.is_since_agreement) return Asked::since_agreement;
+  return one.place != 0 ? Asked::before : Asked::at_start;
+}
+
+/// Returns the choices that were asked then, in lines; of those before the last agreement, only the latest.
+std::vector<std::string> asked_lines(const std::vector<box::AskedChoice>& asked, Asked when) {
+  constexpr std::size_t kWidth = 96;
+  constexpr std::size_t kLatest = 8;
+  std::vector<std::string> lines;
+  std::size_t count = 0;
+  const auto add = [&](const std::string& text) {
+    const bool fits = !lines.empty() && lines.back().size() + text.size() + 2 <= kWidth;
+    if (!lines.empty()) lines.back() += fits ? ", " : ",";
+    if (!fits) lines.emplace_back();
+    lines.back() += text;
+  };
+  for (const box::AskedChoice& one : asked) {
+    if (when_asked(one) != when) continue;
+    if (++count > kLatest && when == Asked::before) continue;
+    add(one.choice + ": " + one.option +
+        (when == Asked::before ? " (at " + std::to_string(one.place) + ")" : ""));
+  }
+  if (count > kLatest && when == Asked::before) add(std::to_string(count - kLatest) + " more");
+  if (lines.empty()) lines.emplace_back("nothing");
+  return lines;
+}
+
+Json asked_json(const std::vector<box::AskedChoice>& asked) {
+  Json rows = Json::array();
+  for (const box::AskedChoice& one : asked)
+    rows.push_back({{"choice", one.choice},
+                    {"option", one.option},
+                    {"section", one.section},
+                    {"place", one.place},
+                    {"since_agreement", one.is_since_agreement}});
+  return rows;
+}
+
 std::string clock_text(double drift_ppm) {
   char text[80];
   std::snprintf(text, sizeof text, "the controller's clock is %.0f ppm %s than the capture's",
@@ -118,7 +161,14 @@ std::string CaptureComparison::text() const {
   row("request:        ", first_->judgement.request);
   row("controller:     ", first_->judgement.box);
   row("bench:          ", first_->judgement.bench);
+  const auto rows = [&](const char* name, const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) row(i == 0 ? name : "                ", lines[i]);
+  };
+  rows("its state:      ", first_->judgement.around->state);
   row("manual:         ", first_section);
+  rows("asked since:    ", asked_lines(first_->judgement.around->asked, Asked::since_agreement));
+  rows("asked before:   ", asked_lines(first_->judgement.around->asked, Asked::before));
+  rows("asked at start: ", asked_lines(first_->judgement.around->asked, Asked::at_start));
   for (const Remedy& remedy : remedies)
     text += "    it agrees with  " + remedy.text +
             (remedy.section.empty() ? "" : "  (" + one_line(remedy.section) + ")") + "\n";
@@ -147,6 +197,9 @@ Json CaptureComparison::json() const {
   if (first_) {
     report["first_difference"] = first_->place;
     if (!first_section.empty()) report["section"] = first_section;
+    report["last_agreement"] = last_agreement_;
+    report["state"] = first_->judgement.around->state;
+    report["asked"] = asked_json(first_->judgement.around->asked);
     report["agrees_with"] = Json::array();
     for (const Remedy& remedy : remedies) report["agrees_with"].push_back(remedy.text);
   }
@@ -203,7 +256,14 @@ std::string CaptureComparison::page_sections() const {
              {"request", first_->judgement.request},
              {"controller", first_->judgement.box},
              {"bench", first_->judgement.bench}};
+    for (const std::string& line : first_->judgement.around->state) first.push_back({"its state", line});
     if (!first_section.empty()) first.push_back({"manual", first_section});
+    for (const std::string& line : asked_lines(first_->judgement.around->asked, Asked::since_agreement))
+      first.push_back({"choices asked since", line});
+    for (const std::string& line : asked_lines(first_->judgement.around->asked, Asked::before))
+      first.push_back({"choices asked before", line});
+    for (const std::string& line : asked_lines(first_->judgement.around->asked, Asked::at_start))
+      first.push_back({"choices asked at the start", line});
     for (const Remedy& remedy : remedies)
       first.push_back({"agrees with", remedy.text + (remedy.section.empty() ? ""
                                                                             : " (" + remedy.section + ": " +

@@ -60,6 +60,14 @@ TEST_F(Compare, NamesTheDifferenceAndItsRemedy) {
   EXPECT_EQ(report["different"], 1) << other.output;
   EXPECT_EQ(report["same"], 3);
   EXPECT_EQ(report["agrees_with"], json{"box.version_encoding: bcd"});
+  EXPECT_EQ(report["last_agreement"], "read 0x0001 box.HW_Code");
+  EXPECT_TRUE(report["state"][0].get<std::string>().starts_with("box: STATUS 0 (0x0000), ")) << other.output;
+  EXPECT_EQ(report["asked"][0], (json{{"choice", "box.version_encoding"},
+                                      {"option", "hundredths"},
+                                      {"section", "狀態相關"},
+                                      {"place", report["first_difference"]},
+                                      {"since_agreement", true}}))
+      << other.output;
   EXPECT_EQ(report["not_same"][0]["controller"], "box.Version = 338");
   EXPECT_EQ(report["not_same"][0]["bench"], "box.Version = 152");
 }
@@ -221,6 +229,8 @@ TEST_F(Compare, WritesAReportOfAllCaptures) {
   EXPECT_NE(text.find("<td>box.Version = 338</td>"), std::string::npos) << text;
   EXPECT_NE(text.find("<td>box.Version = 152</td>"), std::string::npos) << text;
   EXPECT_NE(text.find("box.version_encoding: bcd ("), std::string::npos) << "its section: " << text;
+  EXPECT_NE(text.find("<td>box.version_encoding: hundredths</td>"), std::string::npos) << text;
+  EXPECT_NE(text.find("<td>box: STATUS 0 (0x0000), "), std::string::npos) << text;
   EXPECT_EQ(text.find("<script"), std::string::npos);
   const Finished refused = understudy({"compare", other, "--bench", plain_, "--power-up", "--report", other});
   EXPECT_EQ(refused.exit_code, 2);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ Comparer::Comparer(const world::Bench& bench, const CompareSettings& settings, c
   std::ranges::stable_sort(inputs, {}, &InputChange::at);
   for (InputChange& change : inputs) change.at = std::max(SimTime{0}, on_bench(change.at - notes.first_at));
   replay_.set_inputs(std::move(inputs));
+  if (extent_ == Extent::whole) asked_.emplace(replay_.line());
 }
 
 SimTime Comparer::on_bench(SimTime time) const {
@@ -70,6 +72,7 @@ Judgement Comparer::judge(const Exchange& exchange, std::optional<SimTime> next,
   const bool is_text = judgement.verdict == Verdict::different && !pty::rtu_crc_ok(exchange.request);
   agreeing_bytes_ = is_text ? static_cast<std::size_t>(differs.in1 - exchange.reply.begin()) : 0;
   if (extent_ == Extent::to_difference) return judgement;
+  if (asked_) note_around(exchange, judgement);
   const world::WorldLine& line = replay_.line();
   const auto reported = [&](const Frame& bytes) {
     return bytes.empty() ? std::string("no reply") : line.reply_text(exchange.request, bytes);
@@ -79,6 +82,15 @@ Judgement Comparer::judge(const Exchange& exchange, std::optional<SimTime> next,
   judgement.box = reported(exchange.reply);
   judgement.bench = reported(reply.bytes);
   return judgement;
+}
+
+void Comparer::note_around(const Exchange& exchange, Judgement& judgement) {
+  asked_->note(exchange.place);
+  if (judgement.verdict == Verdict::undecidable) return;  // it may be different
+  if (judgement.verdict != Verdict::different) return asked_->agree();
+  judgement.around = std::make_shared<const Surroundings>(
+      Surroundings{.asked = asked_->latest_first(), .state = replay_.state_text(exchange.request)});
+  asked_.reset();
 }
 
 void ReplyTimes::add(Exchange exchange, Judgement judgement) {

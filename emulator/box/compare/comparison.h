@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/box/capture/capture.h"
+#include "emulator/box/compare/asked_choices.h"
 #include "emulator/box/compare/input_log.h"
 #include "emulator/box/compare/judge.h"
 #include "emulator/box/compare/replay_bench.h"
@@ -26,6 +28,12 @@ struct CompareSettings {
   std::vector<InputChange> inputs{};  // by the capture's clock
 };
 
+/// What may explain the first difference.
+struct Surroundings {
+  std::vector<AskedChoice> asked;  // the latest first
+  std::vector<std::string> state;  // of the bench's device when it had replied
+};
+
 struct Judgement {
   Verdict verdict = Verdict::same;
   bool has_times = false;  // true if both replies have a time
@@ -33,6 +41,7 @@ struct Judgement {
   std::string request{};   // in words; only for Extent::whole
   std::string box{};
   std::string bench{};
+  std::shared_ptr<const Surroundings> around{};  // of the first difference; only for Extent::whole
 };
 
 struct Comparison {
@@ -69,6 +78,7 @@ class Comparer {
 
  private:
   SimTime on_bench(SimTime time) const;
+  void note_around(const Exchange& exchange, Judgement& judgement);
 
   CompareSettings settings_;
   Extent extent_;
@@ -78,6 +88,7 @@ class Comparer {
   Judge judge_;
   std::uint64_t fingerprint_;
   std::size_t agreeing_bytes_ = 0;
+  std::optional<AskedChoices> asked_;  // up to the first difference; only for Extent::whole
 };
 
 /// Tells which replies are late or early. Adapters and drivers delay all replies alike: the usual delay is

@@ -17,6 +17,7 @@
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/play/performing/state_text.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/stations/server.h"
 #include "emulator/world/world.h"
@@ -76,6 +77,21 @@ const RegisterBank* ReplayBench::bank_of(std::span<const std::uint8_t> request) 
       return station->device().register_bank();
   }
   return nullptr;
+}
+
+std::vector<std::string> ReplayBench::state_text(std::span<const std::uint8_t> request) const {
+  std::vector<std::string> texts;
+  for (std::size_t number = 0; number < world_.device_count(); ++number) {
+    const Device& device = world_.device(number);
+    const bool is_asked = std::ranges::any_of(line().stations, [&](const auto& station) {
+      const ModbusStation* const modbus = station->device().modbus();
+      return &station->device() == &device &&
+             (modbus == nullptr || modbus->addressing(request[0]) != Addressing::ignore);
+    });
+    if (!is_asked) continue;
+    for (std::string& text : play::device_state_text(world_, number)) texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 std::vector<std::uint16_t> ReplayBench::registers_now(std::span<const std::uint8_t> request) const {

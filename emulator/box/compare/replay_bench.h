@@ -59,6 +59,9 @@ class ReplayBench {
   /// Returns the registers of the station that the request is for, or null.
   const RegisterBank* bank_of(std::span<const std::uint8_t> request) const;
 
+  /// Returns the present state of the devices that the request is for: registers, axes, terminals, in lines.
+  std::vector<std::string> state_text(std::span<const std::uint8_t> request) const;
+
  private:
   class ReplyRecorder;
   std::vector<std::uint16_t> registers_now(std::span<const std::uint8_t> request) const;

@@ -1,11 +1,13 @@
 #include "emulator/play/performing/state_text.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/device/axes.h"
@@ -102,23 +104,29 @@ std::string fault_text(const world::World& world, std::size_t number, const worl
 
 }  // namespace
 
+std::vector<std::string> device_state_text(const world::World& world, std::size_t number) {
+  std::vector<std::string> texts;
+  const Device& device = world.device(number);
+  if (!device.powered()) {
+    texts.push_back(device.name() + ": no power");
+  } else if (const std::string registers = registers_text(device); !registers.empty()) {
+    texts.push_back(device.name() + ": " + registers);
+  }
+  for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+    if (!device.axes()->has_axis(static_cast<int>(a))) continue;
+    texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
+                    axis_text(world, number, a));
+  }
+  if (const std::string terminals = terminals_text(device); !terminals.empty()) {
+    texts.push_back(device.name() + ": " + terminals);
+  }
+  return texts;
+}
+
 std::vector<std::string> state_text(const world::World& world) {
   std::vector<std::string> texts;
   for (std::size_t d = 0; d < world.device_count(); ++d) {
-    const Device& device = world.device(d);
-    if (!device.powered()) {
-      texts.push_back(device.name() + ": no power");
-    } else if (const std::string registers = registers_text(device); !registers.empty()) {
-      texts.push_back(device.name() + ": " + registers);
-    }
-    for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
-      if (!device.axes()->has_axis(static_cast<int>(a))) continue;
-      texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
-                      axis_text(world, d, a));
-    }
-    if (const std::string terminals = terminals_text(device); !terminals.empty()) {
-      texts.push_back(device.name() + ": " + terminals);
-    }
+    for (std::string& text : device_state_text(world, d)) texts.push_back(std::move(text));
   }
   for (const auto& [number, armed] : world.faults()) texts.push_back(fault_text(world, number, armed));
   return texts;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,7 @@ namespace understudy::emulator::play {
 /// coordinates; pulses, speed and position of each axis; the terminals that are on; the faults and their
 /// hits.
 std::vector<std::string> state_text(const world::World& world);
+/// The same for one device and its machines, without the faults.
+std::vector<std::string> device_state_text(const world::World& world, std::size_t number);
 
 }  // namespace understudy::emulator::play

@@ -164,6 +164,35 @@ TEST(Calibration, TellsHowFarItIs) {
   EXPECT_EQ(furthest.captures, 0U);
 }
 
+TEST(Comparison, NamesTheChoicesThatWereAskedBeforeADifference) {
+  const world::Bench plain = bench_of("simple2-r3");
+  // The map of registers is made with these once, so requests do not ask for them.
+  const std::set<std::string> kept{"unmapped_addresses", "write_to_read_only", "write_out_of_range",
+                                   "read_of_write_only"};
+  for (const auto& [hidden, option] : kHidden) {
+    const Capture capture = FakeBox::captured(bench_of("simple2-r3", {{hidden, option}}), requests());
+    const Comparison comparison = compare(plain, capture, {.from_power_up = true}, Extent::whole);
+    EXPECT_EQ(comparison.first_difference.has_value(), hidden != "password_read_back") << "no reply shows it";
+    if (!comparison.first_difference) continue;
+    std::set<std::string> asked;
+    std::set<std::string> at_start;
+    for (std::size_t i = 0; i < comparison.judgements.size(); ++i) {
+      const auto& around = comparison.judgements[i].around;
+      ASSERT_EQ(around != nullptr, i == *comparison.first_difference) << hidden << ", exchange " << i;
+      if (!around) continue;
+      EXPECT_TRUE(around->state.front().starts_with("box: STATUS ")) << around->state.front();
+      for (const AskedChoice& one : around->asked) {
+        if (one.is_since_agreement) asked.insert(one.choice);
+        if (one.place == 0) at_start.insert(one.choice);
+        EXPECT_NE(one.choice + ": " + one.option, "box." + hidden + ": " + option) << "of the bench";
+      }
+    }
+    EXPECT_EQ(asked.contains("box." + hidden), !kept.contains(hidden)) << hidden;
+    EXPECT_EQ(at_start.contains("box." + hidden), kept.contains(hidden)) << hidden;
+    EXPECT_EQ(asked.contains("box.first_password"), hidden == "first_password") << hidden;
+  }
+}
+
 TEST(Comparison, LearnsWhatABoxHeldBeforeTheCapture) {
   const auto read = frame({1, 3, 0x10, 3, 0, 1});
   const auto write = frame({1, 6, 0x10, 3, 0, 100});
