@@ -56,6 +56,8 @@ struct CapturedPacket {
   // Effects of faults. Without bytes, they concern a message that was dropped or captured before.
   std::string_view faults{};
   std::string_view command{};  // the meaning of a command, if it has a name: "mill: MOVE X 1000"
+  // The number of a request's last character; for a reply, that of its request. 0: unknown.
+  std::uint64_t last_character = 0;
 };
 
 /// Returns a text such as "fault 1 drop: not sent; fault 2 delay: sent late".

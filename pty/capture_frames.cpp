@@ -83,7 +83,14 @@ void CaptureFrames::on_transmission(const Transmission& transmission) {
   const Remark remark = transmission.has_collided  ? Remark::collided
                         : transmission.is_for_host ? Remark::none
                                                    : Remark::to_nobody;
-  sink_({line_, Direction::to_host, transmission.start, transmission.bytes, remark, is_text(), faults_});
+  sink_({.line = line_,
+         .direction = Direction::to_host,
+         .time = transmission.start,
+         .bytes = transmission.bytes,
+         .remark = remark,
+         .is_text = is_text(),
+         .faults = faults_,
+         .last_character = transmission.last_character});
   faults_.clear();
 }
 
@@ -179,8 +186,13 @@ void CaptureFrames::give_dropped(std::size_t count) {
 void CaptureFrames::give_packet(std::size_t count, Remark remark) {
   std::array<std::uint8_t, kAsciiMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
-  sink_({line_, Direction::from_host, waiting_.front().start, std::span(bytes).first(count),
-         is_received_ ? remark : Remark::unheard, is_text()});
+  sink_({.line = line_,
+         .direction = Direction::from_host,
+         .time = waiting_.front().start,
+         .bytes = std::span(bytes).first(count),
+         .remark = is_received_ ? remark : Remark::unheard,
+         .is_text = is_text(),
+         .last_character = waiting_[count - 1].number});
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 

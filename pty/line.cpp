@@ -23,10 +23,17 @@ class Line::LineTransmitter final : public Transmitter {
  public:
   LineTransmitter(Line& line, std::size_t member) : line_(line), member_(member) {}
   void transmit(std::span<const std::uint8_t> bytes) override {
-    line_.transmit(member_, bytes, line_.state_.is_host_open);
+    line_.transmit(member_, bytes, line_.state_.is_host_open, 0);
   }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) override {
-    line_.transmit(member_, bytes, line_.state_.is_host_open && last_character > line_.state_.last_departed);
+    const bool is_present = line_.state_.is_host_open && last_character > line_.state_.last_departed;
+    line_.transmit(member_, bytes, is_present, last_character);
+  }
+  void served(std::span<const std::uint8_t> request, std::span<const std::uint8_t> answer,
+              std::uint64_t last_character) override {
+    for (LineObserver* observer : line_.observers_) {
+      observer->on_served({member_, line_.state_.edge.clock, last_character, request, answer});
+    }
   }
 
  private:
@@ -326,7 +333,8 @@ void Line::run_station(std::size_t index) {
   stations_[index]->run(state_.edge.clock, voice);
 }
 
-void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening) {
+void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening,
+                    std::uint64_t last_character) {
   if (bytes.empty()) return;
   Member& member = state_.members[index];
   const SimTime clock = state_.edge.clock;
@@ -358,7 +366,7 @@ void Line::transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool
   }
   if (!bytes.empty()) {
     for (LineObserver* observer : observers_) {
-      observer->on_transmission({bytes, first_start, has_collided, is_anybody_listening});
+      observer->on_transmission({bytes, first_start, has_collided, is_anybody_listening, last_character});
     }
   }
   if (!has_collided) return;

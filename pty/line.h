@@ -211,7 +211,8 @@ class Line {
   void report_character();
   std::size_t quiet_characters() const;
   void run_station(std::size_t index);
-  void transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
+  void transmit(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening,
+                std::uint64_t last_character);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t sender);
   void leave_wire(std::span<const std::uint8_t> bytes);

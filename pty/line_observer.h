@@ -18,6 +18,16 @@ struct Transmission {
   SimTime start{0};                     // the start of the first character
   bool has_collided = false;            // overlapped another station's transmission
   bool is_for_host = true;              // false: no host has the line open
+  std::uint64_t last_character = 0;     // of the request that it answers; 0: it answers none
+};
+
+/// A request that a station has executed or refused.
+struct ServedRequest {
+  std::size_t station = 0;  // its number on the line
+  SimTime time{0};
+  std::uint64_t last_character = 0;  // of the request
+  std::span<const std::uint8_t> request;
+  std::span<const std::uint8_t> answer;  // without address and checksum, even if the station sends no answer
 };
 
 /// A fault that acted on a message.
@@ -55,6 +65,9 @@ class LineObserver {
 
   /// A station has begun to transmit.
   virtual void on_transmission(const Transmission& transmission) = 0;
+
+  /// A station has executed or refused a request. Its answer, if it sends one, follows.
+  virtual void on_served(const ServedRequest& /*request*/) {}
 
   /// The buffer for the host is full: the next byte is lost unless the observer takes some of the output
   /// now.

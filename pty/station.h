@@ -28,6 +28,9 @@ class Transmitter {
   /// Sends an answer to the request whose last character has that number. Only the host that sent the
   /// request receives it; it is dropped if that host has closed the line.
   virtual void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) = 0;
+  /// Reports to observers that the station has executed or refused that request (ServedRequest).
+  virtual void served(std::span<const std::uint8_t> /*request*/, std::span<const std::uint8_t> /*answer*/,
+                      std::uint64_t /*last_character*/) {}
 
  protected:
   ~Transmitter() = default;

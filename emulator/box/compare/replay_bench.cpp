@@ -19,7 +19,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/world/bench/bench.h"
-#include "emulator/world/stations/server.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
 #include "pty/rtu_crc.h"
@@ -28,16 +28,14 @@ namespace understudy::emulator::box {
 
 std::optional<Addressed> addressed_by(std::span<const std::uint8_t> request) {
   if (request.size() < 8 || !pty::rtu_crc_ok(request)) return {};
-  const auto word = [&](std::size_t at) { return request[at] << 8 | request[at + 1]; };
-  for (const world::FunctionRow& row : world::kModbusFunctions) {
-    if (row.code != request[1]) continue;
-    const bool is_single = row.kind == world::FunctionRow::Kind::write_one;
-    return Addressed{.table = row.table,
-                     .first = static_cast<std::uint16_t>(word(2)),
-                     .count = is_single ? 1 : std::min(word(4), row.max),
-                     .is_write = row.kind != world::FunctionRow::Kind::read};
-  }
-  return {};
+  const world::ModbusRequest asked = world::parse_request_frame(request);
+  const auto& span = asked.writes ? asked.writes : asked.reads;
+  if (!span) return {};
+  constexpr std::size_t kMost = 2000;  // in one request
+  return Addressed{.table = span->table,
+                   .first = span->first,
+                   .count = static_cast<int>(std::min(span->count, kMost)),
+                   .is_write = asked.writes.has_value()};
 }
 
 /// Collects what stations send.

@@ -83,10 +83,12 @@ function duration_ns(frame) {
 function exchanges(frames) {
   const spans = [];
   const last = new Map();  // by line
+  const asked = new Map();  // by the number of the request
   for (const frame of frames) {
     const end_ns = frame.time_ns + duration_ns(frame);
     const isBad = Boolean(frame.exception || frame.remark);
-    const request = frame.way === 'out' && (frame.latency_ns !== undefined || !frame.bytes) ? last.get(frame.line) : undefined;
+    const request = frame.way !== 'out' ? undefined : frame.request !== undefined ? asked.get(frame.request)
+      : frame.bytes ? undefined : last.get(frame.line);
     if (request && !(request.reply && frame.text)) {
       Object.assign(request, { end_ns: Math.max(request.end_ns, end_ns), bad: request.bad || isBad, reply: frame.text || request.reply,
         remark: frame.remark ?? request.remark, latency_ns: frame.latency_ns });
@@ -95,7 +97,9 @@ function exchanges(frames) {
     const span = { lane: frame.line, kind: 'frame', begin_ns: frame.time_ns, end_ns, bad: isBad, remark: frame.remark,
       [frame.way === 'in' ? 'text' : 'reply']: frame.text };
     spans.push(span);
-    if (frame.way === 'in') last.set(frame.line, span);
+    if (frame.way !== 'in') continue;
+    last.set(frame.line, span);
+    asked.set(frame.number, span);
   }
   return spans;
 }

@@ -58,13 +58,12 @@ export class Heard {
     }
     const bytes = (frame.bytes?.match(/../g) ?? []).map((pair) => parseInt(pair, 16));
     const word = (at) => bytes[at] * 256 + bytes[at + 1];
-    const [station, code] = bytes;
+    const code = bytes[1];
     const table = kTables[code];
     if (bytes.length < 8 || !table) return;
     const spans = code === 23 ? [[word(2), word(4), 'reads'], [word(6), word(8), 'writes']]
       : [[word(2), kOne.includes(code) ? 1 : word(4), kReads.includes(code) ? 'reads' : 'writes']];
-    for (const { device, address } of of?.stations ?? []) {
-      if (station !== 0 && address !== undefined && address !== station) continue;
+    for (const device of frame.devices ?? []) {
       for (const [first, size, kind] of spans) {
         for (let i = 0; i < Math.min(size, 2000); ++i) line.last.push(this.use(device, `${table} ${first + i}`, frame, kind));
       }

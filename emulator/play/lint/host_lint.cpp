@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "emulator/device/modbus/modbus_station.h"
@@ -14,7 +15,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/lint/finding.h"
-#include "emulator/world/stations/server.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
@@ -32,35 +33,6 @@ constexpr int kFastestByCharacters = 19200;
 SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
   if (settings.baud > kFastestByCharacters) return std::chrono::microseconds(750);
   return settings.duration_of(3) / 2;
-}
-
-int number_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
-
-/// Returns the words or bits that a request writes, or none if it is incomplete or not a write.
-HostLint::Written written(std::span<const std::uint8_t> frame) {
-  HostLint::Written made;
-  if (frame.size() < 8) return made;
-  const auto* const row =
-      std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
-                   [&](const world::FunctionRow& function) { return function.code == frame[1]; });
-  if (row == std::end(world::kModbusFunctions) || row->kind == world::FunctionRow::Kind::read) return made;
-  made.table = row->table;
-  made.first = number_at(frame, 2);
-  const bool is_bits = is_table_of_bits(row->table);
-  if (row->kind == world::FunctionRow::Kind::write_one) {
-    constexpr int kOn = 0xFF00;
-    const int value = number_at(frame, 4);
-    if (frame.size() == 8) made.values = {static_cast<std::uint16_t>(is_bits ? value == kOn : value)};
-    return made;
-  }
-  const auto count = static_cast<std::size_t>(number_at(frame, 4));
-  const std::size_t bytes = is_bits ? (count + 7) / 8 : 2 * count;
-  if (frame[6] != bytes || frame.size() != 9 + bytes) return made;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int value = is_bits ? frame[7 + i / 8] >> i % 8 & 1 : number_at(frame, 7 + 2 * i);
-    made.values.push_back(static_cast<std::uint16_t>(value));
-  }
-  return made;
 }
 
 }  // namespace
@@ -119,7 +91,9 @@ void HostLint::on_character(const pty::TimedByte& character, bool is_received) {
 void HostLint::on_transmission(const pty::Transmission& transmission) {
   const auto next = waiting_.empty() ? under_way_ : std::optional(waiting_.front().start);
   if (asked_ && next && *next < transmission.start) find(LintRule::not_waited).add(*next, asked_->command);
-  const bool is_answer = asked_ && transmission.bytes.size() > 1 && transmission.bytes[0] == asked_->station;
+  const bool is_answer = asked_ && transmission.bytes.size() > 1 &&
+                         transmission.bytes[0] == asked_->station &&
+                         transmission.last_character == asked_->last_character;
   if (is_answer && transmission.bytes[1] == asked_->function) carried_out(*asked_);
   asked_.reset();
   SimTime end = transmission.start;
@@ -137,11 +111,12 @@ void HostLint::run(SimTime now) {
     if (end < frame->size) continue;
     const auto characters = std::span(waiting_).subspan(end - frame->size, frame->size);
     const SimTime begin = characters.front().start;
+    const Character last_character = characters.back();
     const auto bytes = std::span(frame->bytes).first(frame->size);
     const std::string command = world_.line(number_).command_text(bytes);
     judge_times(characters, command);
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(end));
-    judge_request(bytes, begin, command);
+    judge_request(bytes, last_character, begin, command);
   }
 }
 
@@ -161,10 +136,16 @@ void HostLint::judge_times(std::span<const Character> frame, const std::string& 
   finding.add(first.start, command);
 }
 
-void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command) {
+void HostLint::judge_request(std::span<const std::uint8_t> frame, const Character& last, SimTime at,
+                             const std::string& command) {
   const std::uint8_t station = frame[0];
-  asked_ = Asked{.station = station, .function = frame[1], .at = at, .command = command, .worn = {}};
-  const Written write = written(frame);
+  asked_ = Asked{.station = station,
+                 .function = frame[1],
+                 .at = at,
+                 .last_character = last.number,
+                 .command = command,
+                 .worn = {}};
+  const world::ModbusRequest request = world::parse_request_frame(frame);
   bool is_present = false;
   bool will_be_answered = false;
   for (const auto& present : world_.line(number_).stations) {
@@ -174,7 +155,7 @@ void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, co
     if (addressing == Addressing::ignore) continue;
     is_present = true;
     will_be_answered = will_be_answered || addressing == Addressing::execute_and_reply;
-    if (!write.values.empty() && device.powered()) judge_write(device, write, at);
+    if (request.writes && device.powered()) judge_write(device, request, at);
   }
   if (!is_present) find(LintRule::absent, std::to_string(station)).add(at);
   if (will_be_answered) return;
@@ -182,13 +163,14 @@ void HostLint::judge_request(std::span<const std::uint8_t> frame, SimTime at, co
   asked_.reset();
 }
 
-void HostLint::judge_write(const Device& device, const Written& write, SimTime at) {
+void HostLint::judge_write(const Device& device, const world::ModbusRequest& request, SimTime at) {
   const RegisterBank& bank = *device.register_bank();
+  const std::vector<std::uint16_t> values = written_words(bank, request);
   const RegisterRow* last_row = nullptr;
   int last_index = 0;
-  for (std::size_t i = 0; i < write.values.size(); ++i) {
-    const auto address = static_cast<std::uint16_t>(write.first + static_cast<int>(i));
-    const Place place = bank.at(write.table, address);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto address = static_cast<std::uint16_t>(request.writes->first + i);
+    const Place place = bank.at(request.writes->table, address);
     if (!place) continue;
     const std::string name = device.name() + "." + bank.map().unique_name(*place.row, place.index);
     // A register of two words counts once.
@@ -203,7 +185,7 @@ void HostLint::judge_write(const Device& device, const Written& write, SimTime a
     const std::uint32_t bits = bank.image()[static_cast<std::size_t>(place.slot)];
     const auto present = static_cast<std::uint16_t>(place.part == Place::Part::high ? bits >> 16 : bits);
     const bool is_listed = !asked_->worn.empty() && asked_->worn.back() == name;
-    if (present != write.values[i] && !is_listed) asked_->worn.push_back(name);
+    if (present != values[i] && !is_listed) asked_->worn.push_back(name);
   }
 }
 

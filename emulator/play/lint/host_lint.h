@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulator/play/lint/finding.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
 #include "pty/rtu_framer.h"
@@ -26,13 +27,6 @@ class HostLint final : public pty::LineObserver {
   /// checked if bytes take no time.
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
-
-  /// The words or bits that a request writes.
-  struct Written {
-    Table table = Table::holding;
-    int first = 0;
-    std::vector<std::uint16_t> values{};
-  };
 
   void on_start_bit(SimTime at) override {
     framer_.start_bit(at);
@@ -55,6 +49,7 @@ class HostLint final : public pty::LineObserver {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
+    std::uint64_t last_character = 0;
     std::string command{};          // the name of its command; empty: none
     std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is executed
   };
@@ -63,8 +58,9 @@ class HostLint final : public pty::LineObserver {
   Finding& find(LintRule rule, std::string subject = {}) { return findings_[{rule, std::move(subject)}]; }
   /// `command` is the name of the frame's command, if it has one.
   void judge_times(std::span<const Character> frame, const std::string& command);
-  void judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command);
-  void judge_write(const Device& device, const Written& write, SimTime at);
+  void judge_request(std::span<const std::uint8_t> frame, const Character& last, SimTime at,
+                     const std::string& command);
+  void judge_write(const Device& device, const world::ModbusRequest& request, SimTime at);
   void carried_out(const Asked& asked);
 
   world::World& world_;

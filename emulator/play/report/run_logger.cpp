@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -99,7 +100,7 @@ void RunLogger::add_signal(const std::string& name, SignalKind kind) {
 }
 
 void RunLogger::watch_lines() {
-  requests_.assign(world_.line_count(), {});
+  requests_.clear();
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
     world_.add_observer(i, *framers_.back());
@@ -140,24 +141,42 @@ void RunLogger::on_rest(Tick last) {
   stretch_.end = std::max(stretch_.end, time_of(last));
 }
 
+/// Takes the request that a reply answers. A reply without its number, and a line of text, answers the last
+/// one.
+RunLogger::Request RunLogger::taken_request(const pty::CapturedPacket& reply) {
+  const auto is_answered = [&](const Request& request) {
+    const bool is_named = reply.last_character != 0 && !reply.is_text;
+    return request.line == reply.line && (!is_named || request.last_character == reply.last_character);
+  };
+  const auto found = std::find_if(requests_.rbegin(), requests_.rend(), is_answered);
+  if (found == requests_.rend()) return {};
+  Request request = std::move(*found);
+  requests_.erase(std::next(found).base());
+  return request;
+}
+
 void RunLogger::add(const pty::CapturedPacket& packet) {
+  constexpr std::size_t kMaxUnanswered = 64;
   const bool is_from_host = packet.direction == pty::Direction::from_host;
-  const bool is_frame = !packet.bytes.empty();
   const world::WorldLine& line = world_.line(packet.line);
-  auto& request = requests_[packet.line];
   SeenFrame frame{.time = packet.time,
                   .line = line.line.name(),
                   .is_from_host = is_from_host,
-                  .text = !is_frame      ? std::string()
-                          : is_from_host ? line.request_text(packet.bytes)
-                                         : line.reply_text(request, packet.bytes),
+                  .text = {},
                   .bytes = world::hex_text(packet.bytes),
                   .remark = pty::comment_of(packet),
                   .is_struck = !packet.faults.empty()};
-  if (is_frame && is_from_host) {
-    request.assign(packet.bytes.begin(), packet.bytes.end());
-  } else if (is_frame) {
-    request.clear();
+  if (!packet.bytes.empty() && is_from_host) {
+    frame.text = line.request_text(packet.bytes);
+    if (requests_.size() == kMaxUnanswered) requests_.pop_front();
+    requests_.push_back({packet.line,
+                         packet.last_character,
+                         line.device_addressed(packet.bytes),
+                         {packet.bytes.begin(), packet.bytes.end()}});
+  } else if (!packet.bytes.empty()) {
+    const Request request = taken_request(packet);
+    const Device* const to = request.bytes.empty() ? line.device_addressed(packet.bytes) : request.to;
+    frame.text = line.protocol.reply_text(line.stations, to, request.bytes, packet.bytes);
   }
   stretch_.frames.push_back(std::move(frame));
   // Frames are removed in groups, so that a long run does not move them for each new frame.

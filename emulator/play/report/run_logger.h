@@ -1,6 +1,9 @@
 // Records the run log of a scenario's run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
@@ -47,8 +50,15 @@ class RunLogger final : public Observer, private world::TickWatcher {
   world::Probes probes_;
   std::vector<ObservedSignal> signals_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one per line
-  /// The requests of each line, which are needed to decode replies.
-  std::vector<std::vector<std::uint8_t>> requests_;
+  /// The last requests, the newest last, until they are answered. They are needed to decode replies.
+  struct Request {
+    std::size_t line = 0;
+    std::uint64_t last_character = 0;
+    const Device* to = nullptr;  // the device that it addressed when it was sent
+    std::vector<std::uint8_t> bytes{};
+  };
+  Request taken_request(const pty::CapturedPacket& reply);
+  std::deque<Request> requests_;
   Stretch stretch_;
   RunLog run_log_;
 };

@@ -87,6 +87,8 @@ bool Listing::add_frame(ReplyText& text) {
     frame["bytes"] = hex_of(entry.bytes);
     if (entry.latency) frame["latency_ns"] = entry.latency->count();
     if (entry.is_refusal) frame["exception"] = true;
+    if (entry.request) frame["request"] = *entry.request;
+    for (const Device* const device : entry.devices) frame["devices"].push_back(device->name());
   }
   text.element(frame);
   next_ = entry.number + 1;

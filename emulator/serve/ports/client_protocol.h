@@ -38,6 +38,8 @@ class ClientProtocol {
   /// Returns how long the request taken last waits for its answer, not counting the time on the wire, or
   /// nothing if none waits.
   virtual std::optional<std::chrono::milliseconds> patience() const { return std::nullopt; }
+  /// Returns the number of bytes of that request and its longest reply, both as on the line.
+  virtual std::size_t exchange_bytes() const { return 0; }
   virtual void give_up() {}
   /// Returns true if no request is waiting. Overridden by protocols that put their requests on the line one
   /// at a time.

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "emulator/world/protocol/modbus_request.h"
 #include "pty/ascii_frame.h"
 #include "pty/rtu_crc.h"
 
@@ -90,9 +91,13 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     if (!is_modbus) continue;  // another protocol is ignored, as the standard says
     const std::uint8_t unit = frame[0];
     if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
-    on_line_ = Request{.transaction = transaction, .unit = unit, .station = frame[0], .function = frame[1]};
-    reply_.clear();
     pty::append_rtu_crc(frame);
+    on_line_ = Request{.transaction = transaction,
+                       .unit = unit,
+                       .station = frame[0],
+                       .function = frame[1],
+                       .exchange_bytes = frame.size() + reply_size(world::parse_request_frame(frame))};
+    reply_.clear();
     return rules_.is_ascii ? pty::ascii_of_rtu(frame) : frame;
   }
   return {};

@@ -33,6 +33,7 @@ class ModbusTcp final : public ClientProtocol {
   [[nodiscard]] bool receive_from_client(std::span<const std::uint8_t> bytes) override;
   void receive_from_line(std::span<const std::uint8_t> bytes) override;
   std::optional<std::chrono::milliseconds> patience() const override;
+  std::size_t exchange_bytes() const override { return on_line_ ? on_line_->exchange_bytes : 0; }
   /// Must be called when the time for the reply has passed. The client learns that the station does not
   /// answer, except for a broadcast, or if the settings forbid it.
   void give_up() override;
@@ -58,6 +59,7 @@ class ModbusTcp final : public ClientProtocol {
     std::uint8_t unit = 0;     // the client's number for the station
     std::uint8_t station = 0;  // its number on the line
     std::uint8_t function = 0;
+    std::size_t exchange_bytes = 0;
   };
   void answer(std::span<const std::uint8_t> pdu);
   void take_ascii_reply();

@@ -46,8 +46,9 @@ constexpr std::size_t kMaxLeft = 16'384;  // bytes from a client that has discon
 // A client that has sent everything may wait this long for its replies while another wants the line.
 constexpr std::chrono::nanoseconds kLongestGoodbye = std::chrono::seconds(1);
 
-// The longest request and the longest reply together.
-constexpr int kLongestExchange_bits = 2 * 256 * 11;
+constexpr std::size_t kBitsOfByte = 11;
+// The silence that ends a request, rounded up. The station cannot answer before it is over.
+constexpr std::size_t kSilence_bytes = 4;
 
 }  // namespace
 
@@ -267,8 +268,9 @@ void TcpDoor::follow() { serve_line(); }
 void TcpDoor::await_reply(const ClientProtocol& protocol) {
   const auto patience = protocol.patience();
   if (!patience) return;
-  set_timer(*patience + std::chrono::nanoseconds(std::chrono::seconds(kLongestExchange_bits)) /
-                            port_.line().options().settings.baud);
+  const auto bits = static_cast<std::int64_t>((protocol.exchange_bytes() + kSilence_bytes) * kBitsOfByte);
+  set_timer(*patience +
+            std::chrono::nanoseconds(std::chrono::seconds(bits)) / port_.line().options().settings.baud);
 }
 
 void TcpDoor::set_timer(std::chrono::nanoseconds time) {

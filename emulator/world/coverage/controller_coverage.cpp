@@ -12,6 +12,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/world/coverage/device_touches.h"
 #include "emulator/world/coverage/program_coverage.h"
@@ -26,12 +27,12 @@
 #include "pty/capture.h"
 #include "pty/capture_frames.h"
 #include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kChecksumBytes = 2;
 constexpr std::uint8_t kExceptionBit = 0x80;
 
 bool is_moving(const Device& device) {
@@ -82,13 +83,13 @@ class ControllerCoverage::Counting final : private OutsideListener {
   }
 
  private:
-  /// A line's packets, and the last message that a host has sent.
+  /// A line's packets, and the last line of text that a host has sent.
   struct Line {
     std::unique_ptr<pty::CaptureFrames> packets;
     std::vector<std::uint8_t> request{};
   };
 
-  /// Observes the faults that act on messages.
+  /// Observes the faults that act on messages, and the requests that stations serve.
   class Strikes final : public pty::LineObserver {
    public:
     Strikes(Counting& counting, std::size_t line) : counting_(counting), line_(line) {}
@@ -97,6 +98,8 @@ class ControllerCoverage::Counting final : private OutsideListener {
     void on_nothing_more() override {}
     void on_transmission(const pty::Transmission& /*transmission*/) override {}
     void on_strike(const pty::StruckMessage& message) override { counting_.struck(line_, message); }
+    void on_served(const pty::ServedRequest& request) override { counting_.served(line_, request); }
+    std::size_t quiet_characters() const override { return SIZE_MAX; }
     std::optional<SimTime> due() const override { return std::nullopt; }
     void run(SimTime /*now*/) override {}
 
@@ -140,35 +143,22 @@ class ControllerCoverage::Counting final : private OutsideListener {
         packet.remark == pty::Remark::unheard) {
       return;
     }
-    if (const auto carried = packet.is_text ? pty::rtu_of_ascii(packet.bytes) : std::nullopt) {
-      pty::CapturedPacket frame = packet;
-      frame.bytes = *carried;
-      frame.is_text = false;
-      return take(frame);
-    }
-    if (packet.is_text) return take_text(packet);
-    Line& line = lines_[packet.line];
-    if (packet.direction == pty::Direction::from_host) {
-      line.request.assign(packet.bytes.begin(), packet.bytes.end());
-      if (line.request[0] == 0) take_reply(packet.line, {});
-      return;
-    }
-    if (!line.request.empty() && line.request[0] == packet.bytes[0]) take_reply(packet.line, packet.bytes);
+    // A frame of Modbus ASCII is served like one of RTU.
+    if (packet.is_text && !pty::rtu_of_ascii(packet.bytes)) take_text(packet);
   }
 
-  /// Receives the reply to the last request; it has no bytes if the request gets no reply.
-  void take_reply(std::size_t number, std::span<const std::uint8_t> reply) {
-    const std::vector<std::uint8_t> request = std::exchange(lines_[number].request, {});
-    if (request.size() <= 1 + kChecksumBytes) return;
-    const auto parsed = parse_request(std::span(request).subspan(1, request.size() - 1 - kChecksumBytes));
-    if (!parsed) return;
-    for_devices_on(number, [&](const Device& device, DeviceTouches& touches) {
-      if (request[0] != 0 && device.station_number() != int{request[0]}) return;
-      const bool is_exception = reply.size() >= 3 && (reply[1] & kExceptionBit) != 0;
-      if (is_exception) return touches.refused(*parsed, reply[2]);
-      const bool has_data = reply.size() > 3 + kChecksumBytes && !parsed->is_write();
-      touches.answered(*parsed, has_data ? reply.subspan(3, reply.size() - 3 - kChecksumBytes)
-                                         : std::span<const std::uint8_t>());
+  /// A request counts as answered if the device executes it, whatever becomes of the reply.
+  void served(std::size_t line, const pty::ServedRequest& served) {
+    const Device* const device = &world_.line(line).stations[served.station]->device();
+    const ModbusRequest request = parse_request_frame(served.request);
+    for_devices_on(line, [&](const Device& one, DeviceTouches& touches) {
+      if (&one != device || served.answer.size() < 2) return;
+      if ((served.answer[0] & kExceptionBit) != 0) {
+        const bool is_answered = one.modbus()->answers_refusals() &&
+                                 one.modbus()->addressing(served.request[0]) == Addressing::execute_and_reply;
+        return touches.refused(request, is_answered ? std::optional<int>(served.answer[1]) : std::nullopt);
+      }
+      touches.answered(request, request.reads ? served.answer.subspan(2) : std::span<const std::uint8_t>());
     });
   }
 

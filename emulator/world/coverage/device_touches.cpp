@@ -24,6 +24,7 @@
 #include "emulator/device/transition_table.h"
 #include "emulator/device/user_program.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/stations/server.h"
 
@@ -151,21 +152,14 @@ void DeviceTouches::add_commands() {
   }
 }
 
-std::optional<Table> DeviceTouches::table_of(Table table) const {
-  const RegisterBank* const bank = device_.register_bank();
-  if (bank == nullptr) return std::nullopt;
-  // A model without input registers serves its holding registers instead.
-  return table == Table::input && !bank->map().has(Table::input) ? Table::holding : table;
-}
-
-/// Counts each row that the request touches once.
-void DeviceTouches::touch(const ModbusRequest& request, std::size_t column) {
-  const auto table = table_of(request.table);
-  if (!table) return;
+/// Counts each row that the span touches once.
+void DeviceTouches::touch(const RegisterSpan& span, std::size_t column) {
+  if (device_.register_bank() == nullptr) return;
   const RegisterBank& bank = *device_.register_bank();
+  const Table table = table_in(bank, span.table);
   const RegisterRow* before = nullptr;
-  for (std::size_t i = 0; i < request.count; ++i) {
-    const Place place = bank.at(*table, static_cast<std::uint16_t>(request.first + i));
+  for (std::size_t i = 0; i < span.count; ++i) {
+    const Place place = bank.at(table, static_cast<std::uint16_t>(span.first + i));
     if (!place || place.row == before) continue;
     before = place.row;
     count(registers_.rows[static_cast<std::size_t>(place.row - bank.map().rows().data())].counts[column]);
@@ -187,41 +181,46 @@ void DeviceTouches::see(const Place& place, std::uint16_t word) {
 
 void DeviceTouches::answered(const ModbusRequest& request, std::span<const std::uint8_t> data) {
   count(functions_.row(function_name(request.function)).counts[kAccepted]);
-  touch(request, request.is_write() ? kWritten : kRead);
-  const auto table = table_of(request.table);
-  if (!table) return;
-  if (request.is_write()) {
-    const auto text = window_text(device_, *table, request.first, request.words);
-    if (text) command(*text, false);
-    return;
+  if (request.writes) {
+    touch(*request.writes, kWritten);
+    send_command(*request.writes, request.words, false);
   }
-  const bool are_bits = is_table_of_bits(*table);
-  for (std::size_t i = 0; i < request.count; ++i) {
+  if (!request.reads || device_.register_bank() == nullptr) return;
+  touch(*request.reads, kRead);
+  const RegisterBank& bank = *device_.register_bank();
+  const Table table = table_in(bank, request.reads->table);
+  const bool are_bits = is_table_of_bits(table);
+  for (std::size_t i = 0; i < request.reads->count; ++i) {
     const std::size_t byte = are_bits ? i / 8 : 2 * i;
     if (byte + (are_bits ? 0 : 1) >= data.size()) return;
-    const Place place = device_.register_bank()->at(*table, static_cast<std::uint16_t>(request.first + i));
+    const Place place = bank.at(table, static_cast<std::uint16_t>(request.reads->first + i));
     if (!place) continue;
     see(place,
         static_cast<std::uint16_t>(are_bits ? data[byte] >> i % 8 & 1 : data[byte] << 8 | data[byte + 1]));
   }
 }
 
-void DeviceTouches::refused(const ModbusRequest& request, int exception) {
+void DeviceTouches::refused(const ModbusRequest& request, std::optional<int> exception) {
   count(functions_.row(function_name(request.function)).counts[kNotAccepted]);
-  count(exceptions_.row(exception_text(exception)).counts[0]);
-  touch(request, kRefused);
-  const auto table = table_of(request.table);
-  if (!table || !request.is_write()) return;
-  const auto text = window_text(device_, *table, request.first, request.words);
-  if (text) command(*text, true);
+  if (exception) count(exceptions_.row(exception_text(*exception)).counts[0]);
+  if (request.reads) touch(*request.reads, kRefused);
+  if (!request.writes) return;
+  touch(*request.writes, kRefused);
+  send_command(*request.writes, request.words, true);
 }
 
 void DeviceTouches::written(Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
-  const ModbusRequest request{
-      .table = table, .first = first, .count = words.size(), .words = {words.begin(), words.end()}};
-  touch(request, kWritten);
-  const auto text = window_text(device_, table, first, words);
-  if (text) command(*text, false);
+  const RegisterSpan span{.table = table, .first = first, .count = words.size()};
+  touch(span, kWritten);
+  send_command(span, words, false);
+}
+
+/// Counts the command that the words are, if they are one.
+void DeviceTouches::send_command(const RegisterSpan& span, std::span<const std::uint16_t> words,
+                                 bool is_refused) {
+  if (words.empty()) return;
+  const auto text = window_text(device_, span.table, span.first, words);
+  if (text) command(*text, is_refused);
 }
 
 /// Returns the longest name that the text begins with: "MA" for "MA 1000".

@@ -23,9 +23,10 @@ class DeviceTouches {
  public:
   explicit DeviceTouches(const Device& device);
 
-  /// A request that the device has answered: `data` are the words or bits of a read, as in the reply.
+  /// A request that the device has executed: `data` are the words or bits of a read, as in the reply.
   void answered(const ModbusRequest& request, std::span<const std::uint8_t> data);
-  void refused(const ModbusRequest& request, int exception);
+  /// A request that the device has refused, with the exception that it has answered, if it has answered.
+  void refused(const ModbusRequest& request, std::optional<int> exception);
   /// A register was written without using the line.
   void written(Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   /// A command by its text: "MA 1000".
@@ -41,9 +42,9 @@ class DeviceTouches {
   void add_functions();
   void add_commands();
   void add_faults();
-  void touch(const ModbusRequest& request, std::size_t column);
+  void touch(const RegisterSpan& span, std::size_t column);
+  void send_command(const RegisterSpan& span, std::span<const std::uint16_t> words, bool is_refused);
   void see(const Place& place, std::uint16_t word);
-  std::optional<Table> table_of(Table table) const;
   std::string command_called(std::string_view text) const;
 
   const Device& device_;

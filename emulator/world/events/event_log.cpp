@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,9 +23,12 @@
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/protocol/modbus_request.h"
+#include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
+#include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 
@@ -61,16 +65,58 @@ std::vector<WrittenRegister> written_registers(const Device& device, Table table
   return written;
 }
 
+class EventLog::Served final : public pty::LineObserver {
+ public:
+  Served(EventLog& log, std::size_t line) : log_(log), line_(line) {}
+  void on_start_bit(SimTime /*at*/) override {}
+  void on_character(const pty::TimedByte& /*character*/, bool /*is_received*/) override {}
+  void on_nothing_more() override {}
+  void on_transmission(const pty::Transmission& /*transmission*/) override {}
+  void on_served(const pty::ServedRequest& served) override {
+    constexpr std::uint8_t kRefused = 0x80;
+    if (!is_write(served.request) || served.answer.empty() || (served.answer[0] & kRefused) != 0) return;
+    Noted noted{
+        .request = {served.request.begin(), served.request.end()}, .station = served.station, .line = line_};
+    noted.event.time = served.time;
+    const ModbusRequest request = parse_request_frame(served.request);
+    const Device& device = log_.world_.line(line_).stations[served.station]->device();
+    if (request.mask && device.register_bank() != nullptr) {
+      const auto words = written_words(*device.register_bank(), request);
+      if (!words.empty()) noted.masked = words.front();
+    }
+    log_.note(std::move(noted));
+  }
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime /*now*/) override {}
+  std::size_t quiet_characters() const override { return SIZE_MAX; }
+
+ private:
+  EventLog& log_;
+  std::size_t line_;
+};
+
 EventLog::EventLog(World& world, const FrameLog& frames) : world_(world), frames_(frames) {
   world_.add_listener(*this);
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    served_.push_back(std::make_unique<Served>(*this, i));
+    world_.add_observer(i, *served_.back());
+  }
 }
 
-EventLog::~EventLog() { world_.remove_listener(*this); }
+EventLog::~EventLog() {
+  for (std::size_t i = 0; i < served_.size(); ++i) world_.remove_observer(i, *served_[i]);
+  world_.remove_listener(*this);
+}
+
+void EventLog::note(Noted noted) {
+  noted.next_frame = frames_.next_number();
+  if (noted_.size() == kKept) noted_.pop_front();
+  noted_.push_back(std::move(noted));
+}
 
 void EventLog::note(Event event) {
   event.time = world_.now();
-  if (noted_.size() == kKept) noted_.pop_front();
-  noted_.push_back({frames_.next_number(), std::move(event)});
+  note(Noted{.event = std::move(event)});
 }
 
 void EventLog::note(std::string_view what, std::string text) {
@@ -167,26 +213,23 @@ void EventLog::add(Event event) {
   events_.push_back(std::move(event));
 }
 
-/// Adds the writes of a host's request, which a reply has confirmed, or which is a broadcast.
-void EventLog::add_writes(const FrameLog::Decoded& request, SimTime at) {
-  for (std::size_t l = 0; l < world_.line_count(); ++l) {
-    const WorldLine& line = world_.line(l);
-    if (line.line.name() != request.line) continue;
-    for (const auto& station : line.stations) {
-      const Device& device = station->device();
-      if (request.bytes[0] != 0 && device.station_number() != int{request.bytes[0]}) continue;
-      const auto write = parse_request(request.bytes.subspan(1, request.bytes.size() - 3));
-      if (!write || !write->is_write()) return;
-      for (WrittenRegister& one : written_registers(device, write->table, write->first, write->words)) {
-        add({.time = at,
-             .what = "write",
-             .by = "host",
-             .line = request.line,
-             .device = device.name(),
-             .name = std::move(one.name),
-             .value = std::move(one.value)});
-      }
-    }
+/// Adds a noted event, or the writes of a host's request.
+void EventLog::take_noted(Noted& noted) {
+  if (noted.request.empty()) return add(std::move(noted.event));
+  const WorldLine& line = world_.line(noted.line);
+  const Device& device = line.stations[noted.station]->device();
+  ModbusRequest request = parse_request_frame(noted.request);
+  if (noted.masked) request.words = {*noted.masked};
+  if (!request.writes) return;
+  for (WrittenRegister& one :
+       written_registers(device, request.writes->table, request.writes->first, request.words)) {
+    add({.time = noted.event.time,
+         .what = "write",
+         .by = "host",
+         .line = line.line.name(),
+         .device = device.name(),
+         .name = std::move(one.name),
+         .value = std::move(one.value)});
   }
 }
 
@@ -196,21 +239,13 @@ void EventLog::take_frame(const FrameLog::Decoded& frame) {
     add({.time = frame.time, .what = "dropped", .by = {}, .line = frame.line, .text = frame.remark});
     if (is_request) return;
   }
-  const auto is_modbus = [](std::span<const std::uint8_t> bytes) { return bytes.size() >= 4; };
-  if (is_request) {
-    if (is_modbus(frame.bytes) && frame.bytes[0] == 0) add_writes(frame, frame.time);
-    return;
-  }
+  if (is_request || !frame.is_refusal) return;
   const auto request = frames_.request_of(frame.number);
-  if (frame.is_refusal) {
-    add({.time = frame.time,
-         .what = "exception",
-         .by = "host",
-         .line = frame.line,
-         .text = (request ? request->text + ": " : "") + frame.text});
-  } else if (request && is_modbus(request->bytes)) {
-    add_writes(*request, frame.time);
-  }
+  add({.time = frame.time,
+       .what = "exception",
+       .by = "host",
+       .line = frame.line,
+       .text = (request ? request->text + ": " : "") + frame.text});
 }
 
 /// Adds the events of frames and the others in the order in which they happened.
@@ -218,7 +253,7 @@ bool EventLog::collect(std::size_t frames) {
   const std::uint64_t end = frames_.next_number();
   const auto add_noted_before = [&](std::uint64_t frame) {
     for (; !noted_.empty() && noted_.front().next_frame <= frame; noted_.pop_front())
-      add(std::move(noted_.front().event));
+      take_noted(noted_.front());
   };
   std::size_t taken = 0;
   while (next_frame_ < end && taken < frames) {

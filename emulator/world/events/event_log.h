@@ -2,13 +2,16 @@
 // faults, refused requests, dropped frames. Events are numbered from 1, and only the most recent ones are
 // kept.
 //
-// Outside events are noted when they happen. Events on the lines are made from the frame log on demand, so
-// they cost nothing while nobody reads them.
+// Outside events are noted when they happen, and so are requests of hosts that write, when a device executes
+// them: only the device knows that it has, and which number it had then. Other events on the lines are made
+// from the frame log on demand, so they cost nothing while nobody reads them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,8 +72,16 @@ class EventLog final : private OutsideListener {
   /// that order.
   struct Noted {
     std::uint64_t next_frame = 0;
-    Event event;
+    Event event{};
+    std::vector<std::uint8_t> request{};  // the frame of a host that has written registers: further events
+    std::size_t station = 0;              // the station on `line` that has executed it
+    std::size_t line = 0;
+    std::optional<std::uint16_t> masked{};  // the value that a mask has made
   };
+
+  /// Notes the requests that the stations of a line execute.
+  class Served;
+  void note(Noted noted);
 
   void on_input(std::size_t device, int terminal, std::int32_t level) override;
   void on_power(std::size_t device, bool on) override;
@@ -84,11 +95,12 @@ class EventLog final : private OutsideListener {
 
   void add(Event event);
   void take_frame(const FrameLog::Decoded& frame);
-  void add_writes(const FrameLog::Decoded& request, SimTime at);
+  void take_noted(Noted& noted);
   std::string fault_text_of(std::size_t number) const;
 
   World& world_;
   const FrameLog& frames_;
+  std::vector<std::unique_ptr<Served>> served_;  // one per line
   std::string author_ = "control";
   std::deque<Noted> noted_;
   std::deque<Event> events_;

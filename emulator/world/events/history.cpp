@@ -45,13 +45,19 @@ void History::collect(const World& world, const FrameLog& frames, EventLog& even
 
 /// Returns the exchange to which a station's frame belongs, or null.
 Exchange* History::request_of(const FrameLog::Decoded& frame) {
+  const auto kept = [&](std::uint64_t number) {
+    return number < dropped_exchanges_ ? nullptr : &exchanges_[number - dropped_exchanges_];
+  };
+  if (frame.request) {
+    const auto asked = requests_.find(*frame.request);
+    Exchange* const exchange = asked == requests_.end() ? nullptr : kept(asked->second);
+    // The second copy of a reply is listed on its own.
+    return exchange != nullptr && exchange->reply.empty() ? exchange : nullptr;
+  }
+  if (!frame.bytes.empty()) return nullptr;
+  // The entry for a fault that acted on a reply has no bytes.
   const auto last = last_requests_.find(frame.line);
-  if (last == last_requests_.end() || last->second < dropped_exchanges_) return nullptr;
-  Exchange& exchange = exchanges_[last->second - dropped_exchanges_];
-  // The entry for a fault that acted on a reply has no bytes. The second copy of a reply is listed on its
-  // own.
-  const bool is_reply = frame.latency && exchange.reply.empty();
-  return is_reply || frame.bytes.empty() ? &exchange : nullptr;
+  return last == last_requests_.end() ? nullptr : kept(last->second);
 }
 
 void History::take(const World& world, const FrameLog::Decoded& frame) {
@@ -78,7 +84,11 @@ void History::take(const World& world, const FrameLog::Decoded& frame) {
                         .reply = is_request ? std::string() : frame.text,
                         .remark = frame.remark,
                         .is_refusal = frame.is_refusal});
-  if (is_request) last_requests_[frame.line] = dropped_exchanges_ + exchanges_.size() - 1;
+  if (!is_request) return;
+  const std::uint64_t number = dropped_exchanges_ + exchanges_.size() - 1;
+  last_requests_[frame.line] = number;
+  requests_[frame.number] = number;
+  if (requests_.size() > kMaxUnanswered) requests_.erase(requests_.begin());
 }
 
 }  // namespace understudy::emulator::world

@@ -42,12 +42,15 @@ class History {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
+  static constexpr std::size_t kMaxUnanswered = 1'024;
+
   void take(const World& world, const FrameLog::Decoded& frame);
   Exchange* request_of(const FrameLog::Decoded& frame);
 
   std::deque<Exchange> exchanges_;
   std::deque<Event> events_;
   std::map<std::string, std::uint64_t> last_requests_;  // by line: the number of its last request
+  std::map<std::uint64_t, std::uint64_t> requests_;  // by frame: the number of its exchange, for late replies
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
   std::uint64_t dropped_exchanges_ = 0;

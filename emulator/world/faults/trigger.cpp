@@ -39,8 +39,11 @@ bool fits(const FaultTrigger& trigger, const FrameFacts& frame) {
   if (trigger.function >= 0 && trigger.function != frame.function) return false;
   if (trigger.station >= 0 && trigger.station != frame.station) return false;
   if (trigger.first_address < 0) return true;
-  return frame.count > 0 && trigger.last_address >= frame.first &&
-         trigger.first_address < std::int64_t{frame.first} + frame.count;
+  const auto concerns = [&](const FrameFacts::Addresses& addresses) {
+    return addresses.count > 0 && trigger.last_address >= addresses.first &&
+           trigger.first_address < std::int64_t{addresses.first} + addresses.count;
+  };
+  return concerns(frame.read) || concerns(frame.written);
 }
 
 bool is_met(const FaultTrigger& trigger, SimTime now, ConditionSource& conditions) {

@@ -64,8 +64,13 @@ struct FrameFacts {
   SimTime at{0};
   int station = 0;
   int function = 0;
-  int first = 0;  // the first register
-  int count = 0;  // the number of registers; 0: none
+  /// Registers, or none if their number is 0.
+  struct Addresses {
+    int first = 0;
+    int count = 0;
+  };
+  Addresses read{};
+  Addresses written{};
 };
 
 /// Evaluates the conditions of triggers.

@@ -65,16 +65,43 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
   frame.comment.clear();
   if (pty::has_comment(packet)) frame.comment = pty::comment_of(packet);
+  frame.last_character = packet.last_character;
+  frame.addressed.clear();
+  if (packet.direction == pty::Direction::from_host && !packet.bytes.empty()) {
+    const WorldLine& line = world_.line(packet.line);
+    frame.addressed = line.protocol.addressed(line.stations, packet.bytes);
+  }
   ++next_number_;
   if (observer_) observer_(packet);
 }
 
-const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {
-  for (std::size_t i = reply; i-- > 0;) {
-    if (frames_[i].line != frames_[reply].line || frames_[i].bytes.empty()) continue;
-    return frames_[i].direction == pty::Direction::from_host ? &frames_[i] : nullptr;
+/// Returns the request that a reply answers: the one that ended with the character which the reply names,
+/// even if others came in between. Replies that name none, and lines of text, belong to the last request.
+/// Only the first reply belongs to a request.
+const FrameLog::Frame* FrameLog::request_before(std::size_t place) const {
+  const Frame& reply = frames_[place];
+  const bool is_named = reply.last_character != 0 && !world_.line(reply.line).protocol.carries_text();
+  for (std::size_t i = place; i-- > 0;) {
+    const Frame& frame = frames_[i];
+    if (frame.line != reply.line || frame.bytes.empty()) continue;
+    if (is_named && frame.last_character != reply.last_character) continue;
+    return frame.direction == pty::Direction::from_host ? &frame : nullptr;
   }
   return nullptr;
+}
+
+/// Returns the device that a request addressed when it was sent. Without a request, it is the one that a
+/// reply's address denotes now.
+const Device* FrameLog::device_of(const Frame* request, const Frame& frame) const {
+  const WorldLine& line = world_.line(frame.line);
+  if (request == nullptr) return line.device_addressed(frame.bytes);
+  return request->addressed.empty() ? nullptr : &line.stations[request->addressed.front()]->device();
+}
+
+std::uint64_t FrameLog::number_of(const Frame& kept) const {
+  const auto place =
+      std::find_if(frames_.rbegin(), frames_.rend(), [&](const Frame& frame) { return &frame == &kept; });
+  return next_number_ - 1 - static_cast<std::uint64_t>(place - frames_.rbegin());
 }
 
 FrameLog::Decoded FrameLog::decode(std::size_t place) const {
@@ -89,14 +116,19 @@ FrameLog::Decoded FrameLog::decode(std::size_t place) const {
                   .bytes = frame.bytes};
   if (frame.bytes.empty()) return decoded;  // the entry only reports what a fault did
   if (frame.direction == pty::Direction::from_host) {
-    decoded.text = line.request_text(frame.bytes);
+    decoded.text = line.protocol.request_text(line.stations, device_of(&frame, frame), frame.bytes);
+    for (const std::size_t station : frame.addressed)
+      decoded.devices.push_back(&line.stations[station]->device());
     return decoded;
   }
   const Frame* const request = request_before(place);
   const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
   decoded.is_refusal = line.protocol.refuses(line.stations, frame.bytes);
-  if (request != nullptr) decoded.latency = frame.time - request->time;
-  decoded.text = line.reply_text(bytes, frame.bytes);
+  if (request != nullptr) {
+    decoded.latency = frame.time - request->time;
+    decoded.request = number_of(*request);
+  }
+  decoded.text = line.protocol.reply_text(line.stations, device_of(request, frame), bytes, frame.bytes);
   return decoded;
 }
 
@@ -115,10 +147,8 @@ std::optional<FrameLog::Decoded> FrameLog::request_of(std::uint64_t number) cons
   const std::size_t place = number - first;
   if (frames_[place].direction == pty::Direction::from_host) return std::nullopt;
   const Frame* const request = request_before(place);
-  for (std::size_t i = place; request != nullptr && i-- > 0;) {
-    if (&frames_[i] == request) return decode(i);
-  }
-  return std::nullopt;
+  if (request == nullptr) return std::nullopt;
+  return decode(number_of(*request) - first);
 }
 
 std::vector<std::string> FrameLog::last(std::size_t max) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/device/device.h"
 #include "emulator/world/world.h"
 #include "pty/capture_frames.h"
 
@@ -39,10 +40,13 @@ class FrameLog {
     std::string line;
     pty::Direction direction = pty::Direction::from_host;
     std::string text;
-    std::string remark;                     // why it was dropped, or another remark
-    std::span<const std::uint8_t> bytes{};  // valid until the next frame is added
-    bool is_refusal = false;                // a reply that refuses the request
-    std::optional<SimTime> latency{};       // for a reply: since its request began
+    std::string remark;                      // why it was dropped, or another remark
+    std::span<const std::uint8_t> bytes{};   // valid until the next frame is added
+    bool is_refusal = false;                 // a reply that refuses the request
+    std::optional<SimTime> latency{};        // for a reply: since its request began
+    std::optional<std::uint64_t> request{};  // for a reply: the number of its request
+    /// For a request: the devices that it addressed when it was sent; none on a line without addresses.
+    std::vector<const Device*> devices{};
   };
   /// Returns at most `max` of the kept frames, from that number on.
   std::vector<Decoded> since(std::uint64_t number, std::size_t max) const;
@@ -62,6 +66,8 @@ class FrameLog {
     SimTime time{0};
     std::vector<std::uint8_t> bytes;
     std::string comment{};
+    std::uint64_t last_character = 0;      // of the request, or of the answered request; 0: unknown
+    std::vector<std::size_t> addressed{};  // the line's stations that a request addressed when it was sent
   };
   /// Returns the last `max` of the kept frames from that number on.
   std::vector<Frame> kept_since(std::uint64_t number, std::size_t max) const;
@@ -76,6 +82,8 @@ class FrameLog {
   void ignore();
   void add(const pty::CapturedPacket& packet);
   const Frame* request_before(std::size_t reply) const;
+  const Device* device_of(const Frame* request, const Frame& frame) const;
+  std::uint64_t number_of(const Frame& kept) const;
   Decoded decode(std::size_t place) const;
 
   World& world_;

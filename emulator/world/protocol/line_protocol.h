@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "emulator/device/model.h"
 #include "emulator/world/faults/fault.h"
@@ -63,17 +64,24 @@ class LineProtocol {
   /// Returns an object that splits the traffic of the line with that number into packets.
   virtual std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
                                                       pty::CaptureFrames::Sink sink) const = 0;
-  /// Returns a host's message in words.
-  virtual std::string request_text(const LineStations& stations,
+  /// Returns the numbers of the stations on the line that a host's message addresses now, or none if messages
+  /// of this protocol have no address.
+  virtual std::vector<std::size_t> addressed(const LineStations& /*stations*/,
+                                             std::span<const std::uint8_t> /*request*/) const {
+    return {};
+  }
+  /// Returns a host's message in words. `to` is the device that it addressed when it was sent; null: none.
+  virtual std::string request_text(const LineStations& stations, const Device* to,
                                    std::span<const std::uint8_t> request) const = 0;
   /// Returns "mill: MOVE X 1000" for a message that is a command with a name
   /// (emulator/device/command_window.h); otherwise an empty text.
-  virtual std::string command_text(const LineStations& /*stations*/,
-                                   std::span<const std::uint8_t> /*request*/) const {
+  virtual std::string command_text(const Device* /*to*/, std::span<const std::uint8_t> /*request*/) const {
     return {};
   }
-  /// Returns a station's answer in words. `request` is empty if it is not known.
-  virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+  /// Returns a station's answer in words. `request` is empty if it is not known; `to` is the device that it
+  /// addressed.
+  virtual std::string reply_text(const LineStations& stations, const Device* to,
+                                 std::span<const std::uint8_t> request,
                                  std::span<const std::uint8_t> reply) const = 0;
 
   // --- faults ------------------------------------------------------------------------------------

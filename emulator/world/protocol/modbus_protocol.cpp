@@ -3,17 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/world/faults/trigger.h"
 #include "emulator/world/protocol/line_protocol.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/protocol/modbus_words.h"
 #include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/stations/line_station.h"
@@ -64,44 +67,33 @@ class ModbusLineProtocol final : public LineProtocol {
                                               pty::CaptureFrames::Sink sink) const override {
     return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink));
   }
-  std::string request_text(const LineStations& stations,
-                           std::span<const std::uint8_t> request) const override {
-    return modbus_request_text(stations, request);
+  std::vector<std::size_t> addressed(const LineStations& stations,
+                                     std::span<const std::uint8_t> request) const override {
+    return addressed_by(stations, request);
   }
-  std::string command_text(const LineStations& stations,
+  std::string request_text(const LineStations& /*stations*/, const Device* to,
                            std::span<const std::uint8_t> request) const override {
-    return modbus_command_text(stations, request);
+    return modbus_request_text(to, request);
   }
-  std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+  std::string command_text(const Device* to, std::span<const std::uint8_t> request) const override {
+    return modbus_command_text(to, request);
+  }
+  std::string reply_text(const LineStations& /*stations*/, const Device* to,
+                         std::span<const std::uint8_t> request,
                          std::span<const std::uint8_t> reply) const override {
-    return modbus_reply_text(stations, request, reply);
+    return modbus_reply_text(to, request, reply);
   }
 
   /// Returns the facts of a request, mainly the registers that it concerns.
   FrameFacts facts_of(const ReceivedFrame& frame) const override {
     FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
-    const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };
-    switch (facts.function) {
-      case 0x01:
-      case 0x02:
-      case 0x03:
-      case 0x04:
-      case 0x0F:
-      case 0x10:
-      case 0x17:
-        if (frame.bytes.size() < 8) break;
-        facts.first = word(2);
-        facts.count = word(4);
-        break;
-      case 0x05:
-      case 0x06:
-      case 0x16:
-        if (frame.bytes.size() < 6) break;
-        facts.first = word(2);
-        facts.count = 1;
-        break;
-      default: break;
-    }
+    const ModbusRequest request = parse_request_frame(frame.bytes);
+    const auto addresses = [](const std::optional<RegisterSpan>& span) {
+      return span ? FrameFacts::Addresses{span->first, static_cast<int>(span->count)}
+                  : FrameFacts::Addresses{};
+    };
+    facts.read = addresses(request.reads);
+    facts.written = addresses(request.writes);
     return facts;
   }
 };

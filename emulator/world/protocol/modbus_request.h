@@ -1,4 +1,5 @@
-// The content of a Modbus request: its registers or bits, and the values that it writes to them.
+// The content of a Modbus request: the registers or bits that it reads and writes, and the values that it
+// writes. Everything that observes requests uses this, so that all of it knows the same functions.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +8,50 @@
 #include <span>
 #include <vector>
 
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 
 namespace understudy::emulator::world {
 
-struct ModbusRequest {
-  std::uint8_t function = 0;
+/// Consecutive registers or bits.
+struct RegisterSpan {
   Table table = Table::holding;
   std::uint16_t first = 0;
   std::size_t count = 0;
-  std::vector<std::uint16_t> words{};  // the values of a write; bits are 0 or 1
-
-  bool is_write() const { return !words.empty(); }
 };
 
-/// Reads a request from its function code to the end, without checksum. Returns nothing if it is incomplete,
-/// or has a different function.
-std::optional<ModbusRequest> parse_request(std::span<const std::uint8_t> pdu);
+/// What a mask makes of a register: (present value AND `kept`) OR (`set` AND NOT `kept`).
+struct RegisterMask {
+  std::uint16_t kept = 0;
+  std::uint16_t set = 0;
+};
+
+struct ModbusRequest {
+  std::uint8_t function = 0;
+  std::optional<RegisterSpan> reads{};
+  std::optional<RegisterSpan> writes{};
+  std::vector<std::uint16_t> words{};  // the values of a write, except for a mask; bits are 0 or 1
+  std::optional<RegisterMask> mask{};
+  /// True if its length, and what else its form prescribes, is right. Otherwise it has no values.
+  bool is_well_formed = false;
+};
+
+/// Reads a request from its function code to the end, without checksum. A function that accesses no
+/// registers, an unknown one, and one whose addresses are incomplete have no spans.
+ModbusRequest parse_request(std::span<const std::uint8_t> pdu);
+/// Like the above, for a whole frame.
+ModbusRequest parse_request_frame(std::span<const std::uint8_t> frame);
+
+/// Returns the size of the frame that answers the request if it is not refused. For a function without
+/// registers it is that of the longest frame.
+std::size_t reply_size(const ModbusRequest& request);
+
+/// Returns the table that the bank uses for a span. A bank without input registers uses holding registers
+/// instead.
+Table table_in(const RegisterBank& bank, Table table);
+
+/// Returns the values that the request writes. A mask is applied to the register's present value, which gives
+/// the same result before and after the write. Returns none if the register cannot be read.
+std::vector<std::uint16_t> written_words(const RegisterBank& bank, const ModbusRequest& request);
 
 }  // namespace understudy::emulator::world

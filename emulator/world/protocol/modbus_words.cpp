@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
+#include "emulator/world/protocol/modbus_request.h"
 #include "emulator/world/protocol/refusal_words.h"
 #include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/server.h"
@@ -34,15 +35,6 @@ std::string number_of(int address) {
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(address) & 0xFFFFU);
   return text.data();
-}
-
-/// Returns null if no device on the line has that address.
-const Device* device_at(const LineStations& stations, std::uint8_t address) {
-  for (const auto& station : stations) {
-    const ModbusStation* const modbus = station->device().modbus();
-    if (modbus != nullptr && modbus->addressing(address) != Addressing::ignore) return &station->device();
-  }
-  return nullptr;
 }
 
 /// Lists consecutive words or bits by the names of their registers, with their values if these are known.
@@ -108,20 +100,12 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
-/// Returns null for a function that is not described in words.
-const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
-  for (const FunctionRow& row : kModbusFunctions) {
-    if (row.code == frame[1]) return &row;
-  }
-  return nullptr;
-}
-
-/// Returns the table that a function accesses. A model without input registers uses its holding registers for
-/// it.
-Table table_of(const Device* device, const FunctionRow& function) {
+/// Returns the table that a device uses for a span.
+Table table_of(const Device* device, const RegisterSpan& span) {
   const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();
-  const bool has_it = bank != nullptr && bank->map().has(function.table);
-  return function.table == Table::input && !has_it ? Table::holding : function.table;
+  return bank != nullptr              ? table_in(*bank, span.table)
+         : span.table == Table::input ? Table::holding
+                                      : span.table;
 }
 
 std::size_t bytes_for(Table table, int count) {
@@ -141,41 +125,33 @@ std::string place_text(Table table, int first, int count) {
   return what + (count == 1 ? " " : "s ") + number_of(first) + " ";
 }
 
-/// The values that a request writes, packed like the data of a frame. written() returns nothing if the
-/// request is incomplete or invalid.
-struct WrittenValues {
-  int count = 0;
-  std::vector<std::uint8_t> bytes{};
-};
-std::optional<WrittenValues> written(const FunctionRow& function, std::span<const std::uint8_t> request) {
-  const bool is_bits = is_table_of_bits(function.table);
-  if (function.kind == FunctionRow::Kind::write_one) {
-    if (request.size() != 8) return std::nullopt;
-    constexpr int kOn = 0xFF00;
-    const int value = frame_word(request, 4);
-    if (!is_bits) return WrittenValues{1, {request[4], request[5]}};
-    if (value != kOn && value != 0) return std::nullopt;
-    return WrittenValues{1, {static_cast<std::uint8_t>(value == kOn ? 1 : 0)}};
+/// Packs values like the data of a frame.
+std::vector<std::uint8_t> packed(Table table, std::span<const std::uint16_t> words) {
+  std::vector<std::uint8_t> bytes(bytes_for(table, static_cast<int>(words.size())));
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_table_of_bits(table)) {
+      if (words[i] != 0) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | 1U << i % 8);
+      continue;
+    }
+    bytes[2 * i] = static_cast<std::uint8_t>(words[i] >> 8U);
+    bytes[2 * i + 1] = static_cast<std::uint8_t>(words[i]);
   }
-  const int count = frame_word(request, 4);
-  const std::size_t bytes = bytes_for(function.table, count);
-  if (count == 0 || request[6] != bytes || request.size() != 9 + bytes) return std::nullopt;
-  const auto values = request.subspan(7, bytes);
-  return WrittenValues{count, {values.begin(), values.end()}};
+  return bytes;
 }
 
-std::vector<std::uint16_t> words_in(std::span<const std::uint8_t> bytes) {
-  std::vector<std::uint16_t> words;
-  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2)
-    words.push_back(static_cast<std::uint16_t>(frame_word(bytes, at)));
-  return words;
+/// Returns "read 0x0E04 feeder.Cord_A", or with values "write 0x1001 feeder.Aaxis_Speed = 200".
+std::string span_text(const char* verb, const Device* device, const RegisterSpan& span,
+                      std::span<const std::uint8_t> values) {
+  const Table table = table_of(device, span);
+  const auto count = static_cast<int>(span.count);
+  return verb + place_text(table, span.first, count) +
+         WordsText(device, table, span.first, count, values).text();
 }
 
 /// Returns "exception 3 (illegal data value): feeder.Aaxis_Speed accepts 0 to 32768, not 65000".
-std::string refusal_text(const LineStations& stations, std::span<const std::uint8_t> request,
+std::string refusal_text(const Device* device, std::span<const std::uint8_t> request,
                          std::span<const std::uint8_t> reply) {
   const std::string text = "exception " + exception_text(reply[2]);
-  const Device* const device = device_at(stations, reply[0]);
   const bool is_asked =
       request.size() >= 4 && request[0] == reply[0] && (request[1] | kExceptionBit) == reply[1];
   if (device == nullptr || !is_asked) return text;
@@ -215,57 +191,67 @@ bool is_write(std::span<const std::uint8_t> frame) {
   return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
 }
 
-std::string modbus_command_text(const LineStations& stations, std::span<const std::uint8_t> request) {
-  if (request.size() < 8) return {};
-  const Device* const device = device_at(stations, request[0]);
-  const FunctionRow* const function = function_of(request);
-  const bool may_be_one = device != nullptr && device->model().window != nullptr && function != nullptr &&
-                          function->kind != FunctionRow::Kind::read && function->table == Table::holding;
-  if (!may_be_one || !pty::rtu_crc_ok(request)) return {};
-  const auto values = written(*function, request);
-  if (!values) return {};
-  const auto command = window_text(*device, Table::holding, frame_word(request, 2), words_in(values->bytes));
-  return command ? device->name() + ": " + *command : std::string();
+std::vector<std::size_t> addressed_by(const LineStations& stations, std::span<const std::uint8_t> request) {
+  std::vector<std::size_t> numbers;
+  if (request.empty()) return numbers;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const ModbusStation* const modbus = stations[i]->device().modbus();
+    if (modbus != nullptr && modbus->addressing(request[0]) != Addressing::ignore) numbers.push_back(i);
+  }
+  if (numbers.size() == 1) return numbers;
+  const auto own = std::find_if(stations.begin(), stations.end(), [&](const auto& station) {
+    return station->device().modbus() != nullptr && station->device().station_number() == int{request[0]};
+  });
+  if (own == stations.end()) return numbers;
+  const auto number = static_cast<std::size_t>(own - stations.begin());
+  std::erase(numbers, number);
+  numbers.insert(numbers.begin(), number);
+  return numbers;
 }
 
-std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request) {
+std::string modbus_command_text(const Device* to, std::span<const std::uint8_t> request) {
+  if (to == nullptr || to->model().window == nullptr || !pty::rtu_crc_ok(request)) return {};
+  const ModbusRequest asked = parse_request_frame(request);
+  if (asked.words.empty() || asked.writes->table != Table::holding) return {};
+  const auto command = window_text(*to, Table::holding, asked.writes->first, asked.words);
+  return command ? to->name() + ": " + *command : std::string();
+}
+
+std::string modbus_request_text(const Device* to, std::span<const std::uint8_t> request) {
   if (request.size() < 8 || !pty::rtu_crc_ok(request)) return hex_text(request);
-  const Device* const device = device_at(stations, request[0]);
   const std::string whom =
-      device == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
-  const FunctionRow* const function = function_of(request);
-  if (function == nullptr) return whom + hex_text(request);
-  const int first = frame_word(request, 2);
-  const Table table = table_of(device, *function);
-  const auto reported = [&](const char* verb, int count, std::span<const std::uint8_t> values) {
-    return whom + verb + place_text(table, first, count) +
-           WordsText(device, table, first, count, values).text();
-  };
-  if (function->kind == FunctionRow::Kind::read) {
-    return request.size() == 8 ? reported("read ", frame_word(request, 4), {}) : whom + hex_text(request);
+      to == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
+  const ModbusRequest asked = parse_request_frame(request);
+  if (!asked.is_well_formed) return whom + hex_text(request);
+  const std::string read = asked.reads ? span_text("read ", to, *asked.reads, {}) : std::string();
+  if (!asked.writes) return whom + read;
+  const RegisterSpan& writes = *asked.writes;
+  if (asked.mask) {
+    return whom + span_text("mask ", to, writes, {}) + " AND " + number_of(asked.mask->kept) + " OR " +
+           number_of(asked.mask->set);
   }
-  const auto values = written(*function, request);
-  if (const std::string command = modbus_command_text(stations, request); !command.empty()) {
-    return whom + "command " + place_text(table, first, values->count) + command;
-  }
-  return values ? reported("write ", values->count, values->bytes) : whom + hex_text(request);
+  const std::string command = modbus_command_text(to, request);
+  const std::string written =
+      command.empty()
+          ? span_text("write ", to, writes, packed(writes.table, asked.words))
+          : "command " + place_text(writes.table, writes.first, static_cast<int>(writes.count)) + command;
+  return whom + written + (read.empty() ? "" : ", then " + read);
 }
 
-std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+std::string modbus_reply_text(const Device* to, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply) {
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
-  if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return refusal_text(stations, request, reply);
-  const FunctionRow* const function = function_of(reply);
-  if (function == nullptr) return hex_text(reply);
-  if (function->kind != FunctionRow::Kind::read) return reply.size() == 8 ? "done" : hex_text(reply);
-  const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
-  if (!is_asked) return hex_text(reply);
-  const int count = frame_word(request, 4);
-  if (reply[2] != bytes_for(function->table, count) || reply.size() != 5U + reply[2]) return hex_text(reply);
-  const Device* const device = device_at(stations, reply[0]);
-  return WordsText(device, table_of(device, *function), frame_word(request, 2), count,
-                   reply.subspan(3, reply[2]))
-      .text();
+  if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return refusal_text(to, request, reply);
+  const bool is_asked = request.size() >= 4 && request[0] == reply[0] && request[1] == reply[1];
+  const ModbusRequest asked = is_asked ? parse_request_frame(request) : parse_request_frame(reply);
+  // A write is answered with the beginning of its request, a mask with all of it.
+  const std::size_t echoed = asked.function == static_cast<std::uint8_t>(OtherFunction::mask_write) ? 10 : 8;
+  if (asked.writes && !asked.reads) return reply.size() == echoed ? "done" : hex_text(reply);
+  if (!is_asked || !asked.reads || !asked.is_well_formed) return hex_text(reply);
+  const RegisterSpan& reads = *asked.reads;
+  const auto count = static_cast<int>(reads.count);
+  if (reply[2] != bytes_for(reads.table, count) || reply.size() != 5U + reply[2]) return hex_text(reply);
+  return WordsText(to, table_of(to, reads), reads.first, count, reply.subspan(3, reply[2])).text();
 }
 
 }  // namespace understudy::emulator::world

@@ -2,9 +2,11 @@
 // 1".
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "emulator/world/stations/line_station.h"
 
@@ -18,12 +20,18 @@ std::string exception_text(int exception);
 /// Returns true if a frame's function may change something in a device.
 bool is_write(std::span<const std::uint8_t> frame);
 
-/// Describes a host's frame to these stations. A frame that cannot be decoded is shown in bytes.
-std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request);
+/// Returns the numbers of the stations that a frame addresses now. The first is the one whose number it has,
+/// if there is one; without power or before its start it receives nothing, but the frame is still meant for
+/// it.
+std::vector<std::size_t> addressed_by(const LineStations& stations, std::span<const std::uint8_t> request);
+
+/// Describes a host's frame. `to` is the device that it addresses; null: none. A frame that cannot be decoded
+/// is shown in bytes.
+std::string modbus_request_text(const Device* to, std::span<const std::uint8_t> request);
 /// Returns "mill: MOVE X 1000" for a frame that writes a command with a name; otherwise an empty text.
-std::string modbus_command_text(const LineStations& stations, std::span<const std::uint8_t> request);
-/// Describes an answer of one of the stations. `request` is empty if it is not known.
-std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+std::string modbus_command_text(const Device* to, std::span<const std::uint8_t> request);
+/// Describes an answer. `request` is empty if it is not known; `to` is the device that it addressed.
+std::string modbus_reply_text(const Device* to, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply);
 
 }  // namespace understudy::emulator::world

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
@@ -16,7 +17,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/wire_words.h"
-#include "emulator/world/stations/server.h"
+#include "emulator/world/protocol/modbus_request.h"
 
 namespace understudy::emulator::world {
 
@@ -25,6 +26,7 @@ namespace {
 constexpr int kIllegalFunction = 1;
 constexpr int kIllegalAddress = 2;
 constexpr int kIllegalValue = 3;
+constexpr std::uint8_t kWriteCoil = 0x05;
 
 std::string hex(int address) {
   std::array<char, 8> text{};
@@ -34,20 +36,11 @@ std::string hex(int address) {
 
 /// The registers that a request reads or writes.
 struct Wanted {
-  const FunctionRow& function;
   Table table = Table::holding;
   int first = 0;
   int count = 0;
-  std::span<const std::uint8_t> values{};  // as in the frame; empty for a read request
-
-  bool is_write() const { return function.kind != FunctionRow::Kind::read; }
-  int value_at(int i) const {
-    const auto at = static_cast<std::size_t>(i);
-    if (!is_table_of_bits(table)) return values[2 * at] << 8 | values[2 * at + 1];
-    // A single coil is written with a word.
-    if (function.kind == FunctionRow::Kind::write_one) return values[0] != 0 ? 1 : 0;
-    return values[at / 8] >> at % 8 & 1;
-  }
+  bool is_write = false;
+  std::vector<std::uint16_t> values{};  // of a write; empty if they are not known
 };
 
 class Reason {
@@ -57,19 +50,19 @@ class Reason {
 
   std::string of_address() const {
     const MapPolicy& policy = bank_.map_policy();
-    const bool is_pair_whole = wanted_.is_write() ? policy.halves == MapPolicy::Halves::come_whole
-                                                  : policy.read_halves == MapPolicy::ReadHalves::come_whole;
+    const bool is_pair_whole = wanted_.is_write ? policy.halves == MapPolicy::Halves::come_whole
+                                                : policy.read_halves == MapPolicy::ReadHalves::come_whole;
     for (int i = 0; i < wanted_.count; ++i) {
       const int address = wanted_.first + i;
       const Place place =
           address < 65536 ? bank_.at(wanted_.table, static_cast<std::uint16_t>(address)) : Place{};
       if (!place && has_nothing_there(address)) return nothing_at(address);
       if (!place) continue;
-      if (wanted_.is_write() && place.row->message != nullptr)
+      if (wanted_.is_write && place.row->message != nullptr)
         return "a message to " + name_of(place) + " begins at " + hex(place.row->address) +
                " and ends in its window";
-      if (wanted_.is_write() && place.row->access == Access::read) return name_of(place) + " is read-only";
-      if (!wanted_.is_write() && place.row->access == Access::write) return name_of(place) + " is write-only";
+      if (wanted_.is_write && place.row->access == Access::read) return name_of(place) + " is read-only";
+      if (!wanted_.is_write && place.row->access == Access::write) return name_of(place) + " is write-only";
       if (is_pair_whole && is_cut(place, i))
         return name_of(place) + " has 32 bits, and its two words must be in one request";
     }
@@ -77,7 +70,7 @@ class Reason {
   }
 
   std::string of_value() const {
-    if (!wanted_.is_write()) return "";
+    if (wanted_.values.empty()) return "";
     for (int i = 0; i < wanted_.count; ++i) {
       const Place place = bank_.at(wanted_.table, static_cast<std::uint16_t>(wanted_.first + i));
       if (!place || place.row->message != nullptr) return "";
@@ -97,7 +90,7 @@ class Reason {
   bool has_nothing_there(int address) const {
     const auto unmapped = bank_.map_policy().unmapped;
     const bool is_before_end = address < bank_.map().end_of(wanted_.table);
-    return wanted_.is_write() || unmapped == MapPolicy::Unmapped::refused ||
+    return wanted_.is_write || unmapped == MapPolicy::Unmapped::refused ||
            (unmapped == MapPolicy::Unmapped::holes_read_zero && !is_before_end);
   }
 
@@ -111,10 +104,21 @@ class Reason {
   /// Returns the value that a register gets, if the request begins it at this word and contains all of it.
   std::optional<Value> value_at(const Place& place, int i) const {
     const RegisterRow& row = *place.row;
-    const auto word = [&](int at) { return static_cast<std::uint16_t>(wanted_.value_at(at)); };
+    const auto word = [&](int at) { return wanted_.values[static_cast<std::size_t>(at)]; };
     if (place.part == Place::Part::whole) return value_of(wire_word(row, word(i)), row.type);
     if (is_cut(place, i) || place.is_second_word(bank_.low_word_first())) return std::nullopt;
     return value_of(bits_of_wire(row, word(i), word(i + 1), bank_.low_word_first()), row.type);
+  }
+
+  /// Returns "0x2710 feeder.NAME exists from firmware 1.52 on" if only a newer device has a register there,
+  /// otherwise an empty text.
+  std::string newer_at(int address) const {
+    if (address > 0xFFFF) return "";
+    const Place newer = bank_.map().at(wanted_.table, static_cast<std::uint16_t>(address), UINT16_MAX,
+                                       bank_.low_word_first());
+    if (!newer) return "";
+    return hex(address) + " " + name_of(newer) + " exists from firmware " + version_text(newer.row->since) +
+           " on";
   }
 
   /// Returns "there is no register at 0x270F; the nearest are 0x2700 NAME and 0x3000 NAME".
@@ -133,6 +137,7 @@ class Reason {
       if (behind > 0 && last > below_at) below_at = last, below = &row;
       if (behind < row.count && next < above_at) above_at = next, above = &row;
     }
+    if (const std::string newer = newer_at(address); !newer.empty()) return newer;
     const char* const what = is_table_of_bits(wanted_.table) ? "bit" : "register";
     const std::string none = std::string("there is no ") + what + " at " + hex(address);
     const auto reported = [&](const RegisterRow& row, int at) {
@@ -149,12 +154,6 @@ class Reason {
   const Wanted& wanted_;
 };
 
-const FunctionRow* function_of(std::uint8_t code) {
-  for (const FunctionRow& row : kModbusFunctions)
-    if (row.code == code) return &row;
-  return nullptr;
-}
-
 std::string functions_of(const RtuRules& rules) {
   std::string text;
   for (const std::uint8_t code : rules.functions) text += (text.empty() ? "" : ", ") + std::to_string(code);
@@ -169,50 +168,58 @@ int limit_of(const RtuRules& rules, std::uint8_t code) {
   return 0;
 }
 
+/// Returns what is wrong with the number of registers, or an empty text.
+std::string count_reason(const Device& device, std::uint8_t code, const Wanted& wanted) {
+  if (wanted.count == 0) return "it requests 0 registers";
+  const int max = limit_of(*device.model().rtu, code);
+  if (max == 0 || wanted.count <= max) return "";
+  return std::to_string(wanted.count) + (is_table_of_bits(wanted.table) ? " bits" : " registers") +
+         " are too many for one request; " + device.name() + " accepts " + std::to_string(max);
+}
+
+/// Returns what is wrong with the form of a request that has the right addresses.
+std::string form_reason(const ModbusRequest& asked, std::span<const std::uint8_t> request) {
+  const bool is_bit = asked.writes && asked.function == kWriteCoil && request.size() == 8;
+  if (is_bit) return "a single bit can be set to 0x0000 or 0xFF00, not " + hex(request[4] << 8 | request[5]);
+  if (!asked.writes || asked.writes->count == 1) return "its length is wrong";
+  return "its byte count does not fit " + std::to_string(asked.writes->count) + " values";
+}
+
 }  // namespace
 
 std::string why_refused(const Device& device, std::span<const std::uint8_t> request, int exception) {
   const RegisterBank* const bank = device.register_bank();
   if (bank == nullptr || !device.model().rtu || request.size() < 4) return "";
-  const RtuRules& rules = *device.model().rtu;
-  const std::uint8_t code = request[1];
-  if (exception == kIllegalFunction)
-    return "function " + std::to_string(code) + " is not supported; " + device.name() + " has " +
-           functions_of(rules);
-  const FunctionRow* const function = function_of(code);
-  if (function == nullptr || request.size() < 8) return "";
-  const auto word = [&](std::size_t at) { return request[at] << 8 | request[at + 1]; };
-  const bool is_one = function->kind == FunctionRow::Kind::write_one;
-  const bool has_table = bank->map().has(function->table);
-  Wanted wanted{.function = *function,
-                .table = function->table == Table::input && !has_table ? Table::holding : function->table,
-                .first = word(2),
-                .count = is_one ? 1 : word(4)};
-  if (exception == kIllegalValue && !is_one) {
-    const int max = limit_of(rules, code);
-    const std::string asked =
-        std::to_string(wanted.count) + (is_table_of_bits(wanted.table) ? " bits" : " registers");
-    if (wanted.count == 0) return "it requests 0 registers";
-    if (max > 0 && wanted.count > max)
-      return asked + " are too many for one request; " + device.name() + " accepts " + std::to_string(max);
+  if (exception == kIllegalFunction) {
+    return "function " + std::to_string(request[1]) + " is not supported; " + device.name() + " has " +
+           functions_of(*device.model().rtu);
   }
-  const std::size_t bytes = is_table_of_bits(wanted.table) ? static_cast<std::size_t>(wanted.count + 7) / 8
-                                                           : 2 * static_cast<std::size_t>(wanted.count);
-  if (is_one) {
-    if (is_table_of_bits(wanted.table) && word(4) != 0xFF00 && word(4) != 0)
-      return exception == kIllegalValue ? "a single bit can be set to 0x0000 or 0xFF00, not " + hex(word(4))
-                                        : "";
-    wanted.values = request.subspan(4, 2);
-  } else if (wanted.is_write()) {
-    if (request.size() != 9 + bytes || request[6] != bytes)
-      return exception == kIllegalValue
-                 ? "its byte count does not fit " + std::to_string(wanted.count) + " values"
-                 : "";
-    wanted.values = request.subspan(7, bytes);
+  const ModbusRequest asked = parse_request_frame(request);
+  // Parts in the order in which the device checks them.
+  std::vector<Wanted> parts;
+  const auto add = [&](const std::optional<RegisterSpan>& span, bool is_write) {
+    if (!span) return;
+    parts.push_back({.table = table_in(*bank, span->table),
+                     .first = span->first,
+                     .count = static_cast<int>(span->count),
+                     .is_write = is_write});
+  };
+  add(asked.mask ? asked.writes : asked.reads, false);  // a mask is applied to what is read
+  add(asked.writes, true);
+  if (exception == kIllegalAddress && asked.is_well_formed) {
+    for (const Wanted& part : parts) {
+      if (const std::string why = Reason(device, *bank, part).of_address(); !why.empty()) return why;
+    }
   }
-  const Reason reason(device, *bank, wanted);
-  if (exception == kIllegalAddress) return reason.of_address();
-  return exception == kIllegalValue ? reason.of_value() : "";
+  if (exception != kIllegalValue) return "";
+  for (const Wanted& part : parts) {
+    if (const std::string why = count_reason(device, asked.function, part); !why.empty()) return why;
+  }
+  if (parts.empty()) return "";
+  if (!asked.is_well_formed) return form_reason(asked, request);
+  if (!asked.writes) return "";
+  parts.back().values = written_words(*bank, asked);
+  return Reason(device, *bank, parts.back()).of_value();
 }
 
 }  // namespace understudy::emulator::world

@@ -50,11 +50,12 @@ class TextLineProtocol final : public LineProtocol {
                                               pty::CaptureFrames::Sink sink) const override {
     return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink), pty::Packets::lines);
   }
-  std::string request_text(const LineStations& /*stations*/,
+  std::string request_text(const LineStations& /*stations*/, const Device* /*to*/,
                            std::span<const std::uint8_t> request) const override {
     return quoted(request);
   }
-  std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> /*request*/,
+  std::string reply_text(const LineStations& stations, const Device* /*to*/,
+                         std::span<const std::uint8_t> /*request*/,
                          std::span<const std::uint8_t> reply) const override {
     const std::string meaning = meaning_of(stations, reply);
     return quoted(reply) + (meaning.empty() ? "" : ": " + meaning);

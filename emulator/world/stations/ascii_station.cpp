@@ -76,7 +76,7 @@ void AsciiStation::reset() {
 void AsciiStation::serve_frame(const pty::AsciiFrame& frame, pty::SimTime now, pty::Transmitter& out) {
   const ReceivedFrame request = received_frame(device_, frame, now);
   ReplyFrame reply;
-  const std::size_t size = answer_frame(device_, wire_, counters_, request, frame.rtu, reply);
+  const std::size_t size = answer_frame(device_, wire_, counters_, request, frame.rtu, reply, out);
   if (size == 0) return;
   wire_.answer(request, pty::ascii_of_rtu(std::span(reply).first(size)), out,
                device_.modbus()->reply_delay());

@@ -27,7 +27,7 @@ ModbusReply refusal(std::uint8_t function, int exception) {
 
 std::size_t answer_frame(Device& device, FaultyWire& wire, StationCounters& counters,
                          const ReceivedFrame& request, std::span<const std::uint8_t> frame,
-                         ReplyFrame& reply_frame) {
+                         ReplyFrame& reply_frame, pty::Transmitter& out) {
   const std::uint8_t address = frame[0];
   const Addressing addressing = device.modbus()->addressing(address);
   if (addressing == Addressing::ignore) return 0;
@@ -35,6 +35,7 @@ std::size_t answer_frame(Device& device, FaultyWire& wire, StationCounters& coun
   const FrameFaults::Treatment treatment = wire.treatment_of(request);
   const ModbusReply reply = treatment.exception != 0 ? refusal(frame[1], treatment.exception)
                                                      : serve(device, frame.subspan(1, frame.size() - 3));
+  out.served(frame, std::span(reply.pdu).first(reply.size), request.last_character);
   if (addressing == Addressing::execute_silently || !treatment.is_answered) return 0;
 
   const bool refuses = (reply.pdu[0] & 0x80) != 0;

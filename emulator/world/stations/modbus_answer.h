@@ -16,7 +16,7 @@ using ReplyFrame = std::array<std::uint8_t, pty::kRtuMaxFrame>;
 /// Executes an RTU frame, counts it, and puts the reply, also an RTU frame, into `reply`. Returns its size;
 /// 0: no reply. `request` is the frame as the wire had it.
 std::size_t answer_frame(Device& device, FaultyWire& wire, StationCounters& counters,
-                         const ReceivedFrame& request, std::span<const std::uint8_t> frame,
-                         ReplyFrame& reply);
+                         const ReceivedFrame& request, std::span<const std::uint8_t> frame, ReplyFrame& reply,
+                         pty::Transmitter& out);
 
 }  // namespace understudy::emulator::world

@@ -82,7 +82,7 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
   const ReceivedFrame request = received_frame(frame, now);
   ReplyFrame reply;
   const std::size_t size =
-      answer_frame(device_, wire_, counters_, request, std::span(frame.bytes).first(frame.size), reply);
+      answer_frame(device_, wire_, counters_, request, std::span(frame.bytes).first(frame.size), reply, out);
   if (size == 0) return;
   wire_.answer(request, std::span(reply).first(size), out, device_.modbus()->reply_delay());
 }

@@ -25,15 +25,20 @@ struct WorldLine {
   LineStations stations;
   pty::RtuFraming framing{};  // from the stations; the shortest silence if they differ
 
-  /// These functions use `protocol`.
+  /// These functions use `protocol`, and the stations that the request addresses now.
   std::string request_text(std::span<const std::uint8_t> request) const {
-    return protocol.request_text(stations, request);
+    return protocol.request_text(stations, device_addressed(request), request);
   }
   std::string command_text(std::span<const std::uint8_t> request) const {
-    return protocol.command_text(stations, request);
+    return protocol.command_text(device_addressed(request), request);
   }
   std::string reply_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) const {
-    return protocol.reply_text(stations, request, reply);
+    return protocol.reply_text(stations, device_addressed(request.empty() ? reply : request), request, reply);
+  }
+  /// Returns the first device that the message addresses now, or null.
+  const Device* device_addressed(std::span<const std::uint8_t> message) const {
+    const std::vector<std::size_t> to = protocol.addressed(stations, message);
+    return to.empty() ? nullptr : &stations[to.front()]->device();
   }
   std::unique_ptr<pty::CaptureFrames> packets(std::size_t number, pty::CaptureFrames::Sink sink) const {
     return protocol.packets(number, framing, std::move(sink));

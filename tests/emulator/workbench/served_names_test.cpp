@@ -192,12 +192,11 @@ TEST(ServedNames, FramesTellInputRegistersByTheirNames) {
     pty::append_rtu_crc(made);
     return made;
   };
-  const world::LineStations& stations = served.daemon.world().line(0).stations;
+  const Device* const it = &served.daemon.world().line(0).stations[0]->device();
   const world::Bytes request = frame("01 04 00 08 00 02");
-  EXPECT_EQ(world::modbus_request_text(stations, request), "read input registers 0x0008 it.Temperature");
-  EXPECT_EQ(world::modbus_reply_text(stations, request, frame("01 04 04 41 AC 00 00")),
-            "it.Temperature = 21.5");
-  EXPECT_EQ(world::modbus_request_text(stations, frame("01 03 00 08 00 01")), "read 0x0008 it.Offset");
+  EXPECT_EQ(world::modbus_request_text(it, request), "read input registers 0x0008 it.Temperature");
+  EXPECT_EQ(world::modbus_reply_text(it, request, frame("01 04 04 41 AC 00 00")), "it.Temperature = 21.5");
+  EXPECT_EQ(world::modbus_request_text(it, frame("01 03 00 08 00 01")), "read 0x0008 it.Offset");
 }
 
 TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
@@ -207,7 +206,7 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
     pty::append_rtu_crc(made);
     return made;
   };
-  const world::LineStations& stations = served.daemon.world().line(0).stations;
+  const Device* const it = &served.daemon.world().line(0).stations[0]->device();
   struct Case {
     const char* request;
     const char* reported;
@@ -238,11 +237,11 @@ TEST(ServedNames, FramesOfAllFunctionsAreDescribedInWords) {
   };
   for (const Case& c : cases) {
     const world::Bytes request = frame(c.request);
-    const std::string reported = world::modbus_request_text(stations, request);
+    const std::string reported = world::modbus_request_text(it, request);
     const bool is_bytes = std::string_view(c.reported).starts_with("01 ");
     EXPECT_EQ(is_bytes ? reported.substr(0, std::string_view(c.request).size()) : reported,
               is_bytes ? c.request : c.reported);
-    const std::string reply = world::modbus_reply_text(stations, request, frame(c.reply));
+    const std::string reply = world::modbus_reply_text(it, request, frame(c.reply));
     const bool reply_is_bytes = std::string_view(c.decoded_reply).starts_with("01 ");
     const std::string_view expected = reply_is_bytes ? c.reply : c.decoded_reply;
     const bool is_begin =

@@ -39,6 +39,29 @@ TEST(ModbusTcp, MakesAFrameOfARequestAndAnAnswerOfAReply) {
   EXPECT_FALSE(gateway.waits());
 }
 
+/// The gateway waits for the frames on the wire, so its patience depends on their size.
+TEST(ModbusTcp, KnowsTheSizeOfARequestAndItsReply) {
+  struct Case {
+    const char* request;
+    std::size_t bytes;
+  };
+  for (const Case& c :
+       {Case{"01 00 00 00 09", 8 + 7}, Case{"03 00 01 00 01", 8 + 7}, Case{"04 00 00 00 7D", 8 + 255},
+        Case{"03 00 01 FF FF", 8 + 256}, Case{"06 00 01 00 01", 8 + 8},
+        Case{"10 00 01 00 01 02 00 07", 11 + 8}, Case{"16 00 00 00 F2 00 25", 10 + 10},
+        Case{"17 00 00 00 02 00 01 00 01 02 00 09", 15 + 9}, Case{"11", 4 + 256}}) {
+    const Bytes pdu = hex(c.request);
+    Bytes message = hex("12 34 00 00 00 00 01");
+    message[5] = static_cast<std::uint8_t>(pdu.size() + 1);
+    message.insert(message.end(), pdu.begin(), pdu.end());
+    ModbusTcp gateway;
+    ASSERT_TRUE(gateway.receive_from_client(message));
+    EXPECT_EQ(gateway.exchange_bytes(), 0U);
+    gateway.take_for_line(kRoom);
+    EXPECT_EQ(gateway.exchange_bytes(), c.bytes) << c.request;
+  }
+}
+
 TEST(ModbusTcp, TakesBothInPiecesOfAnySize) {
   for (std::size_t piece = 1; piece < kRequest.size(); ++piece) {
     ModbusTcp gateway;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "emulator/world/coverage/touched.h"
+#include "tests/emulator/model_file/described.h"
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::world {
@@ -71,6 +72,59 @@ TEST(ControllerCoverage, CountsWhatAHostReadsAndWrites) {
   EXPECT_EQ(counts(report, "exceptions", "2 (illegal data address)"), "2");
   EXPECT_EQ(counts(report, "exceptions", "3 (illegal data value)"), "0");
   EXPECT_EQ(report.untouched().front().row, "STATUS.A_alarm");
+}
+
+/// A device whose rotary switch is at 0 answers every number; station 0 is a broadcast to others.
+TEST(ControllerCoverage, CountsWhatTheDeviceExecutedWhateverTheNumberIs) {
+  struct Case {
+    int address;
+    int station;
+    const char* exceptions;
+  };
+  for (const Case& c : {Case{1, 1, "1"}, Case{0, 0, "1"}, Case{0, 1, "1"}, Case{1, 0, "0"}}) {
+    const std::string reply = c.address != 0 && c.station == 0 ? "reply: nothing, " : "";
+    const std::string to = "  - send: { bytes: 0" + std::to_string(c.station) + " 06 10 0";
+    const TouchedReport report =
+        touched(play::parse_scenarios(models::all_models(),
+                                      "understudy: 1\nbench: { lines: { a: { stations: [ { name: f, model: "
+                                      "simple2-r3, address: " +
+                                          std::to_string(c.address) + " } ] } } }\nsteps:\n" + to +
+                                          "2 00 07 +crc, " + reply + "within: 100ms }\n" + to +
+                                          "3 FF FF +crc, " + reply + "within: 100ms }\n",
+                                      "test.yaml")
+                    .front());
+    EXPECT_EQ(counts(report, "registers", "Aaxis_Speed"), "0 1 -") << c.address << " " << c.station;
+    EXPECT_EQ(counts(report, "registers", "Aaxis_AccTime"), "0 0 1") << c.address << " " << c.station;
+    EXPECT_EQ(counts(report, "functions", "6 write one holding"), "1 1") << c.address << " " << c.station;
+    EXPECT_EQ(counts(report, "exceptions", "3 (illegal data value)"), c.exceptions)
+        << c.address << " " << c.station;
+  }
+}
+
+TEST(ControllerCoverage, CountsFunctionsThatAreMoreThanOneAccess) {
+  const std::string model = model_file::quoted_scalar(
+      model_file::model_with("address,name,access,type,min,max,default\n"
+                             "0,FLAGS,R/W,u16,,,0x0012\n"
+                             "1,LEVEL,R/W,u16,0,100,7\n",
+                             "line: { functions: [3, 17, 22, 23], server_id: me }\n"));
+  const TouchedReport report =
+      touched(play::parse_scenarios(
+                  model_file::with_described(),
+                  "understudy: 1\nbench: { lines: { a: { stations: [ { name: it, model: " + model +
+                      " } ] } } }\nsteps:\n"
+                      "  - send: { bytes: 01 11 +crc, within: 100ms }\n"
+                      "  - send: { bytes: 01 16 00 00 00 F2 00 25 +crc, within: 100ms }\n"
+                      "  - send: { bytes: 01 17 00 00 00 01 00 01 00 01 02 00 09 +crc, within: 100ms }\n"
+                      "  - send: { bytes: 01 17 00 00 00 01 00 01 00 01 02 00 FF +crc, within: 100ms }\n"
+                      "  - inject: { drop: it, of: request, address: LEVEL }\n"
+                      "  - send: { bytes: 01 17 00 00 00 01 00 01 00 01 02 00 0A +crc, reply: nothing }\n",
+                  "test.yaml")
+                  .front());
+  EXPECT_EQ(counts(report, "functions", "17"), "1 0");
+  EXPECT_EQ(counts(report, "functions", "22"), "1 0");
+  EXPECT_EQ(counts(report, "functions", "23"), "1 1");
+  EXPECT_EQ(counts(report, "registers", "FLAGS"), "1 1 1");
+  EXPECT_EQ(counts(report, "registers", "LEVEL"), "0 1 1");
 }
 
 TEST(ControllerCoverage, CountsFaultsByMotion) {

@@ -72,7 +72,7 @@ TEST(Trigger, AnAddressIsHitByARangeThatTouchesIt) {
     trigger.last_address = c.last;
     FaultCourse course;
     Told reported;
-    EXPECT_EQ(strikes_frame(trigger, course, {.first = c.from, .count = c.count}, reported, 0), c.hit)
+    EXPECT_EQ(strikes_frame(trigger, course, {.read = {c.from, c.count}}, reported, 0), c.hit)
         << c.first << ".." << c.last << " and " << c.from << " + " << c.count;
   }
 }

@@ -24,7 +24,8 @@ class FrameText : public testing::Test {
                            "  rs485:\n"
                            "    stations:\n"
                            "      - { name: feeder, model: simple2-r3, address: 1 }\n"
-                           "      - { name: turner, model: simple2-r3, address: 2 }\n",
+                           "      - { name: turner, model: simple2-r3, address: 2 }\n"
+                           "      - { name: old, model: simple2-r3, address: 3, firmware: \"1.40\" }\n",
                            "bench.yaml", "."),
                WorldOptions{},
                {}};
@@ -96,6 +97,8 @@ TEST_F(FrameText, RefusalsHaveTheReasonOfTheTables) {
        "exception 2 (illegal data address): there is no register at 0x0FFF; the nearest are 0x0E"},
       {framed({1, 3, 0xFF, 0xFF, 0, 1}), framed({1, 0x83, 2}),
        "exception 2 (illegal data address): there is no register at 0xFFFF; the last is "},
+      {framed({3, 3, 0xFF, 0x08, 0, 1}), framed({3, 0x83, 2}),
+       "exception 2 (illegal data address): 0xFF08 old.PROG_UNLOCK exists from firmware 1.51 on"},
       {framed({1, 0x2B, 14, 1, 0}), framed({1, 0xAB, 1}),
        "exception 1 (illegal function): function 43 is not supported; feeder has 3"},
       {framed({1, 16, 0x10, 0, 0, 2, 2, 0, 1}), framed({1, 0x90, 3}),
