@@ -212,11 +212,19 @@ struct FirstFiles {
   std::string_view first_move{};  // steps that move an axis in any bench, if the scenario's steps may not
 };
 
-/// A step that stops everything that moves: a register and its value, a command of the window, or a line of
-/// text, whichever the model has.
+/// A step that stops everything that moves: a register, or bits of it, and their value, a command of the
+/// window, or a line of text, whichever the model has.
 struct StopStep {
   std::string_view text;
   Value value = 1;  // the value to write to a register
+};
+
+/// What a command says in numbers.
+struct CommandNumbers {
+  std::vector<std::string> names{};  // all names of the command: "MA", "T0MA"
+  /// Each of its numbers, in order. Nothing stands for a number that the text does not have: the controller
+  /// takes it from a variable or an input.
+  std::vector<std::optional<double>> numbers{};
 };
 
 struct Model {
@@ -250,6 +258,9 @@ struct Model {
   Hazards (*hazards_of_line)(std::string_view line) = nullptr;
   /// Returns what a line of text does to the entry of a program; null: programs are not entered as lines.
   EditMark (*edit_mark_of_line)(std::string_view line) = nullptr;
+  /// Returns the numbers of a line of text, or of a message to the window as text. Nothing: it is no command.
+  /// Null: it takes neither.
+  std::optional<CommandNumbers> (*numbers_of_command)(std::string_view text) = nullptr;
   int max_modules = 0;  // the largest number of modules in one device; 0: it is not a chain
   /// The description file's text with everything that belongs to it, if a file describes the model.
   /// ModelFiles::parse() makes the same model from it.

@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,7 +13,6 @@
 
 #include "base/files/file_error.h"
 #include "base/files/text_file.h"
-#include "base/text/parse_real.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
@@ -39,31 +37,31 @@ std::uint16_t frame_word(std::span<const std::uint8_t> bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-constexpr bool is_read_function(std::uint8_t code) {
-  return (code >= 0x01 && code <= 0x04) || code == 0x07 || code == 0x0B || code == 0x0C || code == 0x11;
+constexpr std::size_t kLongestRead = 8;  // with its checksum; a longer frame may contain another one
+
+bool only_reads(std::span<const std::uint8_t> frame) {
+  const std::uint8_t code = frame[1];
+  const bool is_identification = code == 0x2B && frame[2] == 0x0E;
+  const bool is_read = (code >= 0x01 && code <= 0x04) || code == 0x07 || code == 0x0B || code == 0x0C ||
+                       code == 0x11 || is_identification;
+  return is_read && frame.size() <= kLongestRead;
 }
 
 /// Adds each number of a command: of "RSM_SET_V XY 1000" it is 1000.
-void add_numbers(const std::string& text, SentRequest& request) {
-  std::string name;
-  std::string word;
-  const auto end_word = [&] {
-    if (word.empty()) return;
-    if (name.empty()) {
-      name = word;
-    } else if (const auto value = parse_real(word)) {
-      request.numbers.push_back({.name = name, .value = world::finite_number(*value)});
-    }
-    word.clear();
-  };
-  for (const char c : text) {
-    if (c == ' ' || c == ',' || c == '=' || c == '\t') {
-      end_word();
+void add_numbers(const Model& model, const std::string& text, SentRequest& request) {
+  const auto command = model.numbers_of_command == nullptr ? std::nullopt : model.numbers_of_command(text);
+  if (!command) {
+    request.unjudged = "it is not a command";
+    return;
+  }
+  for (const std::optional<double>& number : command->numbers) {
+    if (number) {
+      request.numbers.push_back({.names = command->names, .value = world::finite_number(*number)});
     } else {
-      word += c;
+      request.numbers.push_back(
+          {.names = command->names, .why_not = "takes a number that only the controller knows"});
     }
   }
-  end_word();
 }
 
 class WriteJudge {
@@ -75,10 +73,11 @@ class WriteJudge {
     Hazards all = Hazards::settings;
     for (std::size_t i = 0; i < written_.words.size(); ++i) {
       const Place place = at(i);
-      if (!place) return Hazards::all;  // nothing is known of this address
+      if (!place) return unknown("it writes to an address that no table names");
       if (place.row->message != nullptr) return all | of_message(i);
       all = all | hazards_of(*place.row);
-      note_value(place, i);
+      const bool is_told = i > 0 && is_32_bit(place.row->type) && is_second_word(place, low_word_first());
+      if (!is_told) note_value(place, i);  // the first word has told the second
     }
     return all;
   }
@@ -93,31 +92,35 @@ class WriteJudge {
   Hazards of_message(std::size_t i) {
     const Model& model = device_.model();
     const Place place = at(i);
-    if (i != 0 || place.index != 0 || model.hazards_of_command == nullptr) return Hazards::all;
-    if (const auto text = window_text(device_, written_.table, written_.first, written_.words))
-      add_numbers(*text, request_);
+    const char* const no_command = "what it writes to the window is not a command";
+    if (i != 0 || place.index != 0 || model.hazards_of_command == nullptr) return unknown(no_command);
+    if (const auto text = window_text(device_, written_.table, written_.first, written_.words)) {
+      add_numbers(model, *text, request_);
+    } else {
+      unknown(no_command);
+    }
     return model.hazards_of_command(written_.words);
+  }
+
+  Hazards unknown(const char* why) {
+    request_.unjudged = why;
+    return Hazards::all;
   }
 
   void note_value(const Place& place, std::size_t i) {
     const RegisterRow& row = *place.row;
-    const auto add = [&](Value value) {
-      const std::string name = map_.unique_name(row, place.index);
-      const world::Number number =
-          row.type == Type::f32 ? world::finite_number(real_of(value)) : world::Number(value);
-      request_.numbers.push_back({.name = name, .value = number});
+    SentNumber& sent = request_.numbers.emplace_back();
+    sent.names = {map_.unique_name(row, place.index)};
+    const auto take = [&](Value value) {
+      sent.value = row.type == Type::f32 ? world::finite_number(real_of(value)) : world::Number(value);
     };
-    if (!is_32_bit(row.type)) return add(value_of(wire_word(row, written_.words[i]), row.type));
-    const bool is_second = is_second_word(place, low_word_first());
-    if (is_second && i > 0) return;  // its first word has told it
-    if (!is_second && i + 1 < written_.words.size()) {
+    if (!is_32_bit(row.type)) return take(value_of(wire_word(row, written_.words[i]), row.type));
+    if (i + 1 < written_.words.size() && !is_second_word(place, low_word_first())) {
       const std::uint32_t bits =
           bits_of_wire(row, written_.words[i], written_.words[i + 1], low_word_first());
-      return add(value_of(bits, row.type));
+      return take(value_of(bits, row.type));
     }
-    // Half of a register: as if the other half were 0.
-    const std::uint32_t half = wire_word(row, written_.words[i]);
-    add(value_of(place.part == Place::Part::high ? half << 16 : half, row.type));
+    sent.why_not = "is written by half";
   }
 
   const Device& device_;
@@ -153,9 +156,13 @@ std::optional<Written> written_by(std::span<const std::uint8_t> frame) {
 
 SentRequest judge_frame(const world::WorldView& view, std::size_t line, std::span<const std::uint8_t> frame) {
   SentRequest request{.what = view.line(line).request_text(frame)};
-  if (frame.size() < 4 || !pty::rtu_crc_ok(frame)) return request;
-  const bool is_identification = frame[1] == 0x2B && frame[2] == 0x0E;
-  if (is_read_function(frame[1]) || is_identification) {
+  const bool is_frame =
+      !view.line(line).protocol.carries_text() && frame.size() >= 4 && pty::rtu_crc_ok(frame);
+  if (!is_frame) {
+    request.unjudged = "it is not a frame with a right checksum";
+    return request;
+  }
+  if (only_reads(frame)) {
     request.hazards = Hazards::reads;
     return request;
   }
@@ -164,10 +171,16 @@ SentRequest judge_frame(const world::WorldView& view, std::size_t line, std::spa
     if (std::ranges::find(lines, view.line_name(line)) == lines.end()) continue;
     if (view.device(i).station_number() == frame[0]) request.device = i;
   }
-  // To another station, to all of them, or by a function that this program does not know.
   const std::optional<Written> written = written_by(frame);
-  if (!request.device || !written || view.device(*request.device).register_bank() == nullptr) return request;
-  request.hazards = WriteJudge(view.device(*request.device), *written, request).hazards();
+  if (frame[0] == 0) {
+    request.unjudged = "it is a broadcast";
+  } else if (!request.device || view.device(*request.device).register_bank() == nullptr) {
+    request.unjudged = "the bench has no station " + std::to_string(frame[0]) + " on this line";
+  } else if (!written) {
+    request.unjudged = "it is not a write of a known form";
+  } else {
+    request.hazards = WriteJudge(view.device(*request.device), *written, request).hazards();
+  }
   return request;
 }
 
@@ -177,10 +190,13 @@ SentRequest judge_text(const world::WorldView& view, std::size_t line, const std
     const auto& lines = view.known()[i].lines;
     if (std::ranges::find(lines, view.line_name(line)) != lines.end()) request.device = i;
   }
-  if (!request.device) return request;
+  const bool has_controls =
+      std::ranges::any_of(text, [](char c) { return (c >= '\0' && c < ' ' && c != '\t') || c == '\x7F'; });
+  if (has_controls) request.unjudged = "it has control characters";
+  if (!request.device || has_controls) return request;
   const Model& model = view.device(*request.device).model();
   if (model.hazards_of_line != nullptr) request.hazards = model.hazards_of_line(text);
-  add_numbers(text, request);
+  add_numbers(model, text, request);
   return request;
 }
 
@@ -216,6 +232,17 @@ Envelope read_envelope(const std::string& path) {
   return envelope;
 }
 
+namespace {
+
+/// Upper and lower case are the same, as they are to controllers that take text.
+bool limits(const Envelope::Limit& limit, const SentNumber& number) {
+  return std::ranges::any_of(number.names, [&](const std::string& name) {
+    return fnmatch(limit.pattern.c_str(), name.c_str(), FNM_CASEFOLD) == 0;
+  });
+}
+
+}  // namespace
+
 std::string flag_for(Hazards hazards) {
   if (has(hazards, Hazards::motion) || has(hazards, Hazards::stops_answering)) return "--allow-motion";
   if (has(hazards, Hazards::output) && has(hazards, Hazards::memory)) return "--allow-outputs --allow-memory";
@@ -231,13 +258,21 @@ void require_allowed(const SentRequest& request, Hazards allowed, const Envelope
       if (has(too_much, one.hazard)) can = one.can;  // the last is the worst
     throw play::NotAllowed(request.what + " can " + can + "; it is sent only with " + flag_for(too_much));
   }
+  const auto refuse = [&](const std::string& why) {
+    return play::BeyondEnvelope(request.what + ": not sent, because " + why);
+  };
+  const bool is_limited = request.hazards != Hazards::reads && !envelope.limits.empty();
+  if (is_limited && !request.unjudged.empty())
+    throw refuse(request.unjudged + "; expected a request whose numbers can be compared with the envelope");
   for (const SentNumber& number : request.numbers) {
     for (const Envelope::Limit& limit : envelope.limits) {
-      if (fnmatch(limit.pattern.c_str(), number.name.c_str(), 0) != 0 || limit.range.holds(number.value))
-        continue;
-      throw play::BeyondEnvelope(request.what + ": not sent, because " + number.name + " = " +
-                                 world::number_text(number.value) + " is beyond " + limit.place +
-                                 "; expected " + limit.range.text);
+      if (!limits(limit, number)) continue;
+      if (!number.value)
+        throw refuse(number.names.front() + " " + number.why_not + ", and " + limit.place +
+                     " limits it; expected " + limit.range.text);
+      if (!limit.range.holds(*number.value))
+        throw refuse(number.names.front() + " = " + world::number_text(*number.value) + " is beyond " +
+                     limit.place + "; expected " + limit.range.text);
     }
   }
 }

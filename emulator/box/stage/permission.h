@@ -18,8 +18,9 @@ namespace understudy::emulator::box {
 
 /// A number in a request: "Aaxis_Speed" and 60. A command has its word and each of its numbers.
 struct SentNumber {
-  std::string name;
-  world::Number value;
+  std::vector<std::string> names;        // at least one
+  std::optional<world::Number> value{};  // nothing: the request does not tell
+  std::string why_not{};                 // it does not: "is written by half"
 };
 
 /// A write as it stands in a frame. Each bit takes a word.
@@ -37,6 +38,7 @@ struct SentRequest {
   std::string what;  // "write 0x1005 feeder.Aaxis_Move_INC = 1"
   std::vector<SentNumber> numbers{};
   std::optional<std::size_t> device{};  // nothing: none on this line, or all
+  std::string unjudged{};  // why its numbers are unknown: "it is a broadcast"; empty: they are not
 };
 
 /// The view belongs to the bench, which knows station numbers and the order of words.

@@ -2,13 +2,22 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "base/complete_table.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/hazards.h"
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/text.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -190,6 +199,34 @@ inline Hazards hazards_of_command(std::span<const std::uint16_t> words) {
   const bool is_initial = row->use.initial && words.size() > 1 && (words[1] & lang::kInitial) != 0;
   return Hazards::settings | command_hazards::kTable[row->verb] |
          (is_initial ? Hazards::memory : Hazards::reads);
+}
+
+/// Returns the numbers of a command, as RSM_FIXED_MOVE X 1000 has 1000. Axes, operators and destinations are
+/// none. A line of a macro has the name of its command, too.
+inline std::optional<CommandNumbers> numbers_of_command(std::string_view text) {
+  namespace lang = interpreter::rs_m8194h;
+  using lang::Kind;
+  const std::optional<lang::Command> command = lang::parse_command(text, lang::kAnyChoice).command;
+  if (!command) return std::nullopt;
+  const lang::CommandRow& row = command->row();
+  CommandNumbers told;
+  if (command->is_macro_line()) told.names.emplace_back(row.macro_name);
+  if (!row.real_time_name.empty()) told.names.emplace_back(row.real_time_name);
+  for (std::size_t i = 0; i < row.parameter_count(); ++i) {
+    const lang::Parameter& parameter = row.parameters[i];
+    const bool is_number = parameter.kind < Kind::axes || parameter.kind == Kind::operand ||
+                           parameter.kind == Kind::isr_if_used || parameter.kind == Kind::point_if_used;
+    if (!is_number) continue;
+    if (lang::is_reference(*command, i)) {
+      told.numbers.emplace_back(std::nullopt);
+    } else if (parameter.width != lang::Width::real) {
+      told.numbers.emplace_back(static_cast<double>(command->number(i)));
+    } else {
+      const float real = std::bit_cast<float>(command->values[i]);
+      told.numbers.push_back(std::isfinite(real) ? std::optional<double>(real) : std::nullopt);
+    }
+  }
+  return told;
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -138,6 +138,7 @@ const Model& model() {
       .first_files = &kFirstFiles,
       .stop = kStop,
       .hazards_of_command = hazards_of_command,
+      .numbers_of_command = numbers_of_command,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<RsM8194h>(settings);
       },

@@ -1,11 +1,16 @@
 // SLIM: what each command can do when a host sends it. A command without a row does not compile.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "base/complete_table.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/hazards.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/commands.h"
@@ -151,6 +156,39 @@ inline Hazards hazards_of_line(std::string_view line) {
   const bool is_array = command.verb == lang::Verb::set_variable && !command.operands.empty() &&
                         lang::is_array(command.operands.front().kind);
   return command_hazards::kTable[command.verb] | (is_array ? Hazards::memory : Hazards::reads);
+}
+
+/// Returns the numbers of a line. A variable, an input or a clock in place of a number is not told.
+inline std::optional<CommandNumbers> numbers_of_command(std::string_view line) {
+  namespace lang = interpreter::slim;
+  using Kind = lang::Operand::Kind;
+  const lang::ParseResult parsed = lang::parse_line(line, lang::kWidestDialect);
+  if (parsed.error != lang::Error::none) return std::nullopt;
+  CommandNumbers told;
+  if (!parsed.line.command) return told;
+  const lang::Command& command = *parsed.line.command;
+  const lang::CommandRow& row = lang::kCommands[static_cast<std::size_t>(command.row)];
+  std::span<const lang::Operand> operands = command.operands;
+  std::string word(row.command.substr(0, row.command.find(' ')));
+  if (word.starts_with("Tp")) word.erase(0, 2);
+  if (!command.name.empty()) word = command.name;
+  if (command.verb == lang::Verb::set_variable && !operands.empty()) {
+    const lang::Operand& target = operands.front();
+    word = lang::holds_integer(target.kind) ? "N" : "R";
+    word += lang::is_array(target.kind) ? "S" : std::to_string(target.index);
+    operands = operands.subspan(1);
+  }
+  if (command.module <= 0) told.names.push_back(word);
+  told.names.push_back("T" + std::to_string(std::max(command.module, 0)) + word);
+  for (const lang::Operand& operand : operands) {
+    const bool is_number = operand.kind == Kind::integer || operand.kind == Kind::real;
+    const bool stands_for_one = lang::is_variable(operand.kind) || lang::asks_host(operand.kind) ||
+                                operand.kind == Kind::analog || operand.kind == Kind::clock ||
+                                operand.kind == Kind::quantity;
+    if (is_number) told.numbers.emplace_back(operand.number);
+    if (stands_for_one) told.numbers.emplace_back(std::nullopt);
+  }
+  return told;
 }
 
 }  // namespace understudy::emulator::models::slim

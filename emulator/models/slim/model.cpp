@@ -164,6 +164,7 @@ const Model& model() {
       .stop = kStop,
       .hazards_of_line = hazards_of_line,
       .edit_mark_of_line = edit_mark_of_line,
+      .numbers_of_command = numbers_of_command,
       .max_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);
