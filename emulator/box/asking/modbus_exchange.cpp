@@ -1,13 +1,14 @@
 #include "emulator/box/asking/modbus_exchange.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <thread>
 
 #include "emulator/box/asking/asked.h"
 #include "emulator/box/wire/wire.h"
+#include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/modbus_host.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "pty/rtu_crc.h"
@@ -16,6 +17,7 @@ namespace understudy::emulator::box {
 
 namespace {
 
+constexpr WallTime kReplySlice = std::chrono::milliseconds(50);
 constexpr std::size_t kChecksum = 2;
 constexpr std::size_t kHeader = 6;  // of Modbus TCP: transaction, protocol, length
 
@@ -39,7 +41,7 @@ Bytes ModbusExchange::ask_rtu(const Bytes& request, Asked& asked) {
   const WallTime deadline = begin + settings_.timeout;
   Bytes reply;
   while (serve::wall_now() < deadline) {
-    if (!wire_.receive(reply, deadline)) continue;
+    if (!receive(reply, deadline)) continue;
     asked.latency = serve::wall_now() - begin;
     const bool may_echo = is_read(request) || is_echoing_;
     if (may_echo && !asked.was_echoed && begins_with(reply, request)) {
@@ -72,7 +74,7 @@ Bytes ModbusExchange::ask_tcp(const Bytes& request, Asked& asked) {
                      received.begin() + static_cast<std::ptrdiff_t>(kHeader + length_in(received)));
       continue;
     }
-    if (wire_.receive(received, deadline)) asked.latency = serve::wall_now() - begin;
+    if (receive(received, deadline)) asked.latency = serve::wall_now() - begin;
   }
   if (received.size() < kHeader || received.size() < kHeader + length_in(received))
     return received;  // it is not a reply, but something has come
@@ -82,17 +84,42 @@ Bytes ModbusExchange::ask_tcp(const Bytes& request, Asked& asked) {
   return reply;
 }
 
+bool ModbusExchange::receive(Bytes& bytes, WallTime deadline) {
+  if (settings_.heartbeat) settings_.heartbeat();
+  return wire_.receive(bytes, std::min(deadline, serve::wall_now() + kReplySlice));
+}
+
+/// After an unexpected reply, the silence must be longer, because an adapter may hold its rest back.
 void ModbusExchange::keep_silence() {
-  const WallTime rest = quiet_since_ + settings_.silence - serve::wall_now();
-  if (rest > WallTime{0}) std::this_thread::sleep_for(rest);
+  const WallTime begin = serve::wall_now();
+  Bytes dropped;
+  while (true) {
+    const WallTime silence = settings_.silence + (is_unsettled_ ? kAdapterDelay : WallTime{0});
+    const WallTime until = std::min(quiet_since_ + silence, begin + kLongestUnrest);
+    if (!wire_.receive(dropped, until)) {
+      if (serve::wall_now() < until) continue;
+      break;
+    }
+    dropped.clear();
+    note_traffic(true);
+    if (serve::wall_now() - begin >= kLongestUnrest) break;
+  }
+  is_unsettled_ = false;
+}
+
+void ModbusExchange::note_traffic(bool is_unsettled) {
+  quiet_since_ = serve::wall_now();
+  is_unsettled_ = is_unsettled;
 }
 
 Asked ModbusExchange::ask(const Bytes& request) {
   keep_silence();
-  wire_.discard();
+  note_traffic(true);  // also if the wait for the reply is given up
   Asked asked{.request = request, .reply = {}};
   asked.reply = settings_.is_tcp ? ask_tcp(request, asked) : ask_rtu(request, asked);
-  quiet_since_ = serve::wall_now();
+  using Kind = play::HostReply::Kind;
+  const Kind kind = play::judge_reply(request, asked.reply).kind;
+  note_traffic((kind == Kind::garbled || kind == Kind::silence) && !settings_.is_tcp);
   return asked;
 }
 

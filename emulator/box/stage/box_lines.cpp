@@ -30,7 +30,6 @@ namespace understudy::emulator::box {
 namespace {
 
 constexpr WallTime kReceiveSlice = std::chrono::milliseconds(50);
-constexpr WallTime kAdapterDelay = std::chrono::milliseconds(20);  // what an adapter may hold back
 constexpr WallTime kAnswerPause = std::chrono::milliseconds(8);
 constexpr int kLongestRtuFrame = 270;
 
@@ -71,7 +70,10 @@ bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& oth
   const ModbusExchange::Settings of_exchange{.station = station,
                                              .timeout = timeout_ + of_line,
                                              .silence = play::silence_between_frames(settings_),
-                                             .is_tcp = port_.is_modbus_tcp()};
+                                             .is_tcp = port_.is_modbus_tcp(),
+                                             .heartbeat = [this] {
+                                               if (heartbeat_) heartbeat_();
+                                             }};
   exchange_.emplace(*wire_, of_exchange);
   const ReadBlock block = read_plan(model).front();
   const ReadCell& first = block.cells.front();
@@ -84,8 +86,13 @@ bool LineHost::answers(const Model& model, int station, bool& is_noisy, int& oth
 }
 
 void LineHost::wait(WallTime gap) {
-  const WallTime rest = quiet_since_ + gap - serve::wall_now();
-  if (gap > WallTime{0} && rest > WallTime{0}) std::this_thread::sleep_for(rest);
+  if (gap <= WallTime{0}) return;
+  while (true) {
+    const WallTime rest = quiet_since_ + gap - serve::wall_now();
+    if (rest <= WallTime{0}) return;
+    if (heartbeat_) heartbeat_();
+    std::this_thread::sleep_for(std::min(rest, kReceiveSlice));
+  }
 }
 
 Asked LineHost::ask(const Bytes& request, WallTime gap) {
@@ -104,20 +111,39 @@ void LineHost::receive_until(Bytes& bytes, WallTime until) {
 Bytes LineHost::exchange(const Bytes& bytes, std::size_t wanted, WallTime within, WallTime gap) {
   if (port_.is_modbus_tcp()) return ask(bytes, gap).reply;
   wait(gap);
-  if (exchange_) exchange_->keep_silence();
+  exchange_ ? exchange_->keep_silence() : settle();
   wire_->discard();
   const WallTime begin = serve::wall_now();
   wire_->send(bytes);
+  if (exchange_) exchange_->note_traffic(true);  // also if the wait is given up
   const WallTime sending = settings_.duration_of(static_cast<std::int64_t>(bytes.size()));
   // An adapter may hold bytes back: that is no fault of the controller.
   const bool is_silence_wanted = wanted == SIZE_MAX;
   const WallTime deadline = begin + sending + within + (is_silence_wanted ? WallTime{0} : timeout_);
   Bytes reply;
   while (reply.size() < wanted && serve::wall_now() < deadline) receive_until(reply, deadline);
-  // A byte that follows at once belongs to the reply, expected or not.
-  if (!reply.empty()) wire_->receive(reply, std::min(deadline, serve::wall_now() + kAdapterDelay));
+  // Bytes that follow at once belong to the reply, expected or not.
+  const bool is_cut = !is_silence_wanted && !reply.empty() && !receive_rest(reply);
   quiet_since_ = serve::wall_now();
+  is_unsettled_ = is_cut || is_silence_wanted != reply.empty();
+  if (exchange_) exchange_->note_traffic(is_unsettled_);
   return reply;
+}
+
+/// Receives until an adapter would have passed on everything. Returns false if the line does not fall silent.
+bool LineHost::receive_rest(Bytes& bytes) {
+  const WallTime end = serve::wall_now() + kLongestUnrest;
+  while (wire_->receive(bytes, serve::wall_now() + kAdapterDelay)) {
+    if (heartbeat_) heartbeat_();
+    if (serve::wall_now() >= end) return false;
+  }
+  return true;
+}
+
+/// Drops the rest of what was not expected.
+void LineHost::settle() {
+  Bytes dropped;
+  if (std::exchange(is_unsettled_, false)) receive_rest(dropped);
 }
 
 void LineHost::send_text(const std::string& text, WallTime gap) {
@@ -130,12 +156,17 @@ void LineHost::send_text(const std::string& text, WallTime gap) {
   // Returns when the controller has the line.
   std::this_thread::sleep_for(settings_.duration_of(static_cast<std::int64_t>(line.size())));
   quiet_since_ = serve::wall_now();
+  is_unsettled_ = true;  // nobody waits for its answer
 }
 
 std::vector<std::string> LineHost::exchange_text(const std::optional<std::string>& text,
                                                  const world::LinesWanted& wanted, WallTime within,
                                                  WallTime gap) {
-  if (text) send_text(*text, gap);
+  if (text) {
+    wait(gap);
+    settle();
+    send_text(*text, {});
+  }
   const auto heard_now = [this] {
     return world::lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
   };
@@ -146,10 +177,12 @@ std::vector<std::string> LineHost::exchange_text(const std::optional<std::string
     received = heard_now();
   }
   // Bytes that follow an answer at once belong to it, expected or not, up to one more line.
-  while (text && received.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
-    if (!wire_->receive(unread_, std::min(deadline, serve::wall_now() + kAdapterDelay))) break;
+  bool is_silent = false;
+  while (text && !is_silent && received.finished <= wanted.lines.size() && serve::wall_now() < deadline) {
+    is_silent = !wire_->receive(unread_, std::min(deadline, serve::wall_now() + kAdapterDelay));
     received = heard_now();
   }
+  is_unsettled_ = text ? !is_silent : received.lines != wanted.lines;
   const std::size_t wanted_lines = wanted.lines.size();
   if (!text && wanted_lines > 0 && received.finished >= wanted_lines) {
     unread_.erase(unread_.begin(),

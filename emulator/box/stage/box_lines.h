@@ -43,6 +43,8 @@ class LineHost {
   void find_settings(const Model& model, int station);
   bool answers(const Model& model, int station, bool& is_noisy, int& other_station);
   void receive_until(Bytes& bytes, WallTime until);
+  bool receive_rest(Bytes& bytes);
+  void settle();
   void wait(WallTime gap);
 
   PortName port_;
@@ -52,6 +54,7 @@ class LineHost {
   std::optional<ModbusExchange> exchange_;
   Bytes unread_;  // of text
   WallTime quiet_since_{0};
+  bool is_unsettled_ = false;  // the rest of an unexpected reply may still arrive
   std::function<void()> heartbeat_;
 };
 

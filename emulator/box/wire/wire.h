@@ -2,6 +2,7 @@
 // wall time.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,6 +23,11 @@ using serve::WallTime;
 struct WireError : pty::PortError {
   using pty::PortError::PortError;
 };
+
+/// What an adapter may hold back: the latency timers of USB adapters are set to 16 ms.
+inline constexpr WallTime kAdapterDelay = std::chrono::milliseconds(20);
+/// A line that is never silent for longer than this is used anyway.
+inline constexpr WallTime kLongestUnrest = std::chrono::seconds(1);
 
 class Wire {
  public:
