@@ -43,6 +43,19 @@ int host_likeness(const std::vector<CapturedPiece>& pieces, Side side) {
   return likeness;
 }
 
+/// Returns true for a reply that is equal to its request.
+bool repeats_request(const CapturedBytes& reply) {
+  constexpr std::size_t kRepeats = 8;
+  return reply.size() == kRepeats && (reply[1] == 0x05 || reply[1] == 0x06);
+}
+
+/// Returns true for the reply to a read, and for a refusal.
+bool changes_nothing(const CapturedBytes& reply) {
+  const std::uint8_t code = reply[1];
+  return (code & 0x80) != 0 || (code >= 0x01 && code <= 0x04) || code == 0x07 || code == 0x0B ||
+         code == 0x0C || code == 0x11 || code == 0x2B;
+}
+
 bool ends_line(std::uint8_t byte) { return byte == '\r' || byte == '\n'; }
 
 }  // namespace
@@ -267,27 +280,60 @@ void ExchangeBuilder::begin(Exchange exchange, std::uint64_t pair) {
 
 void ExchangeBuilder::hand_on_all_but(std::size_t count) {
   while (pending_.size() > count) {
-    Pending& first = pending_.front();
-    if (first.early) {
-      if (first.exchange.reply.empty() && may_answer(first.exchange.request, first.early->bytes)) {
-        first.exchange.reply = std::move(first.early->bytes);
-      } else {
-        ++notes_.unasked;
-      }
-    }
-    sink_(std::move(first.exchange));
+    Pending first = std::move(pending_.front());
     pending_.pop_front();
+    take_early(first);
+    last_request_ = first.exchange.request;
+    last_passed_at_ = first.exchange.at;
+    sink_(std::move(first.exchange));
   }
+}
+
+/// Of two adapters, the one at the controller may have been the faster: the last of the early replies may
+/// belong to this request. The requests of all others are missing.
+void ExchangeBuilder::take_early(Pending& first) {
+  std::vector<FoundFrame> early = std::exchange(first.early, {});
+  const bool is_own = !early.empty() && first.exchange.reply.empty() &&
+                      may_answer(first.exchange.request, early.back().bytes);
+  if (is_own) {
+    first.exchange.reply = std::move(early.back().bytes);
+    early.pop_back();
+  }
+  for (const FoundFrame& unasked : early)
+    if (account_for(unasked, first.exchange)) first.exchange.follows_loss = true;
+}
+
+/// A reply whose request is missing altogether. A write that the reply repeats is passed on before `next`; of
+/// another one, the values are lost, and it returns true. The same reply once more is the echo of an adapter.
+bool ExchangeBuilder::account_for(const FoundFrame& unasked, const Exchange& next) {
+  const bool is_write = !settings_.is_text && unasked.bytes.size() >= 5 && !changes_nothing(unasked.bytes) &&
+                        !may_answer(last_request_, unasked.bytes);
+  if (is_write && repeats_request(unasked.bytes)) {
+    ++notes_.restored_requests;
+    ++notes_.exchanges;
+    last_request_ = unasked.bytes;
+    last_passed_at_ = std::clamp(unasked.at.value_or(next.at), last_passed_at_, next.at);
+    sink_({.at = last_passed_at_,
+           .request = unasked.bytes,
+           .replied_at = unasked.at,
+           .reply = unasked.bytes,
+           .place = unasked.place,
+           .follows_loss = next.follows_loss});
+    return false;
+  }
+  ++notes_.unasked;
+  if (!is_write) return false;
+  ++notes_.lost_requests;
+  follows_loss_ = true;
+  for (Pending& later : pending_) later.exchange.follows_loss = true;
+  return true;
 }
 
 /// A reply to a request that was not found tells what it was, if it repeats the request, and that it changed
 /// nothing, if it is the reply to a read or a refusal.
 bool ExchangeBuilder::restore_request(const FoundFrame& reply) {
-  constexpr std::size_t kRepeats = 8;
-  const std::uint8_t code = reply.bytes[1];
-  const bool repeats = reply.bytes.size() == kRepeats && (code == 0x05 || code == 0x06);
-  const bool changed_nothing = (code & 0x80) != 0 || (code >= 0x01 && code <= 0x04);
-  if (!repeats && !changed_nothing) return false;
+  const bool repeats = repeats_request(reply.bytes);
+  if (!repeats && !changes_nothing(reply.bytes)) return false;
   lost_ = 0;
   if (!repeats) return true;
   ++notes_.restored_requests;
@@ -308,10 +354,11 @@ void ExchangeBuilder::take_reply(FoundFrame frame, bool is_whole_piece) {
   const bool has_place =
       found != pending_.rend() && (settings_.is_text || is_whole_piece || found->exchange.reply.empty());
   if (!has_place) {
-    // Of two adapters, the one at the controller may have been the faster: the request comes later in the
-    // file.
-    if (early_ || settings_.is_text) ++notes_.unasked;
-    if (!settings_.is_text) early_ = std::move(frame);
+    if (settings_.is_text) {
+      ++notes_.unasked;
+    } else {
+      early_.push_back(std::move(frame));
+    }
     return;
   }
   Exchange& exchange = found->exchange;
@@ -322,7 +369,7 @@ void ExchangeBuilder::take_reply(FoundFrame frame, bool is_whole_piece) {
 void ExchangeBuilder::finish() {
   decide_sides();
   find_frames(true);
-  if (early_) ++notes_.unasked;
+  notes_.unasked += early_.size();
   hand_on_all_but(0);
   if (notes_.exchanges == 0) {
     if (!others_.empty())

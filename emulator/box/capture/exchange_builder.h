@@ -24,6 +24,8 @@ class ExchangeBuilder {
   void finish();
 
  private:
+  struct Pending;
+
   CaptureReadError refuse(std::size_t place, const std::string& what) const;
   bool is_of_wanted_line(const CapturedPiece& piece);
   void require_rising_time(const CapturedPiece& piece);
@@ -41,11 +43,13 @@ class ExchangeBuilder {
   bool restore_request(const FoundFrame& reply);
   void begin(Exchange exchange, std::uint64_t pair);
   void hand_on_all_but(std::size_t count);
+  void take_early(Pending& first);
+  bool account_for(const FoundFrame& unasked, const Exchange& next);
 
   struct Pending {
     Exchange exchange;
     std::uint64_t pair = 0;
-    std::optional<FoundFrame> early{};  // a reply that came before the request in the file
+    std::vector<FoundFrame> early{};  // replies without a request that came before this one in the file
   };
 
   const std::string& path_;
@@ -60,7 +64,9 @@ class ExchangeBuilder {
   FrameFinder mixed_{FrameRole::either};
   bool is_mixed_ = false;
   std::optional<FoundFrame> next_request_;
-  std::optional<FoundFrame> early_;
+  std::vector<FoundFrame> early_;
+  CapturedBytes last_request_;              // of the exchanges that were passed on
+  SimTime last_passed_at_{0};               // the same
   std::optional<CapturedPiece> text_line_;  // of the host, which has not ended
   std::optional<FoundFrame> text_echo_;     // what the controller said meanwhile
   std::deque<Pending> pending_;             // the last requests
