@@ -132,7 +132,7 @@ std::string the(ContentKind kind) {
 }
 
 ContentKind content_of(std::string_view head) {
-  head = head.substr(0, kSniffedBytes);
+  head = without_byte_order_mark(head.substr(0, kSniffedBytes));
   for (const KindRow& row : kKinds) {
     if (fits(row, head)) return row.kind;
   }

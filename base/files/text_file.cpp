@@ -21,6 +21,7 @@
 #include "base/files/content_kind.h"
 #include "base/files/descriptor.h"
 #include "base/files/output_file.h"
+#include "base/text/lines.h"
 #include "base/text/parse_integer.h"
 
 namespace understudy {
@@ -128,6 +129,7 @@ FileText read_text_of(int descriptor) {
     }
     bytes.append(piece.data(), static_cast<std::size_t>(size));
   }
+  if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
   text.emplace(std::move(bytes));
   return text;
 }

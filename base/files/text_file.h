@@ -16,8 +16,8 @@ struct FileText : std::optional<std::string> {
   std::string why{};  // the reason if there are no bytes, for messages: "cannot be read (Permission denied)"
 };
 
-/// Reads a regular file of up to kMaxTextBytes. Other files are refused: a pipe might block forever, and a
-/// device may never end.
+/// Reads a regular file of up to kMaxTextBytes, without a byte order mark before it. Other files are refused:
+/// a pipe might block forever, and a device may never end.
 FileText read_text_file(const std::string& path);
 /// Like read_text_file(), for an open descriptor such as standard input, up to its end.
 FileText read_text_of(int descriptor);

@@ -60,6 +60,14 @@ TEST_F(TextFile, IsReadByteForByte) {
   }
 }
 
+TEST_F(TextFile, IsReadWithoutAByteOrderMark) {
+  EXPECT_EQ(*read_text_file(put("file", "\xEF\xBB\xBFMA 7\n")), "MA 7\n");
+  EXPECT_EQ(*read_text_file(put("file", "MA\xEF\xBB\xBF")), "MA\xEF\xBB\xBF");
+  EXPECT_EQ(*read_text_file(put("file", "\xEF\xBB\xBF")), "");
+  EXPECT_EQ(content_of("\xEF\xBB\xBF# simulated seconds, in (from the host) or out, line"),
+            ContentKind::capture);
+}
+
 TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
   // Nothing writes to the pipe, and /dev/zero has no end: reading either would never end.
   for (const std::string& file : {path("pipe"), path("link"), path(""), std::string("/dev/zero"),

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/text/lines.h"
 #include "emulator/box/capture/exchange_builder.h"
 #include "emulator/box/capture/packet_file.h"
 #include "emulator/box/capture/piece_readers.h"
@@ -42,8 +43,10 @@ std::string capture_format(const std::string& head) {
   return is_our_text(head) ? "a capture" : log_format(head);
 }
 
-void read_exchanges(std::istream& file, const std::string& head, const std::string& path,
+void read_exchanges(std::istream& file, const std::string& whole_head, const std::string& path,
                     const CaptureSettings& settings, CaptureNotes& notes, const ExchangeSink& sink) {
+  const std::string head(without_byte_order_mark(whole_head));
+  file.ignore(static_cast<std::streamsize>(whole_head.size() - head.size()));
   notes.line = settings.line;
   ExchangeBuilder builder(path, settings, notes, sink);
   notes.format = read_pieces(file, head, path, settings, [&](CapturedPiece piece) {

@@ -58,6 +58,58 @@ TEST(ReadCapture, SaysWhatIsWrongInOneLine) {
   EXPECT_TRUE(diagnostic("0.1 in a 01 0G\n").starts_with("c.txt:1: '0G' is not a byte; expected a line"));
 }
 
+/// `one` is the host.
+TEST(ReadCapture, AccountsForRepliesWhoseRequestsAreMissing) {
+  struct Case {
+    const char* reply;   // it comes without its request
+    const char* before;  // the exchange before it
+    std::size_t exchanges;
+    std::size_t restored;
+    std::size_t lost;
+  };
+  const char* const reading = "1.00 one a 01 03 10 02 00 01 21 0A\n1.01 other a 01 03 02 00 00 B8 44\n";
+  const char* const writing = "1.00 one a 01 06 10 02 00 37 6D 1C\n1.01 other a 01 06 10 02 00 37 6D 1C\n";
+  const std::vector<Case> cases{
+      {"01 06 10 02 00 37 6D 1C", reading, 3, 1, 0},  // it repeats its request
+      {"01 10 10 02 00 01 A4 C9", reading, 2, 0, 1},  // its values are lost
+      {"01 06 10 02 00 37 6D 1C", writing, 2, 0, 0},  // once more: an echo
+      {"01 03 02 00 00 B8 44", reading, 2, 0, 0},     // a read changes nothing
+      {"01 86 02 C3 A1", reading, 2, 0, 0},           // nor does what was refused
+  };
+  for (const Case& one : cases) {
+    const Capture capture = read(std::string(one.before) + "1.06 other a " + one.reply +
+                                 "\n1.10 one a 01 03 10 02 00 01 21 0A\n"
+                                 "1.11 other a 01 03 02 00 37 F9 92\n");
+    ASSERT_EQ(capture.exchanges.size(), one.exchanges) << one.reply;
+    EXPECT_EQ(capture.notes.restored_requests, one.restored) << one.reply;
+    EXPECT_EQ(capture.notes.lost_requests, one.lost) << one.reply;
+    EXPECT_EQ(capture.exchanges.back().follows_loss, one.lost != 0) << one.reply;
+    EXPECT_FALSE(capture.exchanges.front().follows_loss) << one.reply;
+    EXPECT_EQ(capture.exchanges.back().reply, (CapturedBytes{1, 3, 2, 0, 0x37, 0xF9, 0x92}));
+    if (one.restored == 0) continue;
+    EXPECT_EQ(capture.exchanges[1].request, (CapturedBytes{1, 6, 0x10, 2, 0, 0x37, 0x6D, 0x1C}));
+    EXPECT_EQ(capture.exchanges[1].at, SimTime{60'000'000});
+  }
+}
+
+TEST(ReadCapture, LosesNoLineToAByteOrderMark) {
+  const std::string ours = "0.1 in a 01 03\n0.2 out a 01 83\n0.3 in a 01 04\n";
+  const std::string log =
+      "1.000000 TX 01 03 10 02 00 01 21 0a\n1.012000 RX 01 03 02 00 00 b8 44\n"
+      "1.100000 TX 01 03 10 02 00 01 21 0a\n1.112000 RX 01 03 02 00 37 f9 92\n";
+  for (const std::string& text : {ours, log}) {
+    const std::string pattern = text == log ? "{time} {dir} {hex}" : "";
+    std::istringstream plain(text);
+    std::istringstream marked("\xEF\xBB\xBF" + text);
+    const Capture expected = read_capture(plain, "c.txt", {.pattern = pattern});
+    const Capture came = read_capture(marked, "c.txt", {.pattern = pattern});
+    ASSERT_EQ(came.exchanges.size(), 2U);
+    EXPECT_EQ(expected.exchanges.size(), 2U);
+    EXPECT_EQ(came.exchanges.front().request, expected.exchanges.front().request);
+    EXPECT_EQ(came.notes.format, expected.notes.format);
+  }
+}
+
 TEST(ReadCapture, RefusesABrokenPcapng) {
   const std::string section(
       "\x0a\x0d\x0d\x0a\x1c\0\0\0\x4d\x3c\x2b\x1a\1\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff\x1c\0\0\0", 28);
