@@ -122,9 +122,10 @@ int run_scenarios(ModelList models, const RunArguments& arguments);
 struct ProbeArguments {
   std::string port;
   std::string model;
-  std::string output;  // the evidence
-  std::string box;     // a name for the controller, for the evidence
-  std::string proofs;  // a folder; empty: the one that comes with the program
+  std::string output;    // the evidence
+  std::string box;       // a name for the controller, for the evidence
+  std::string proofs;    // a folder; empty: the one that comes with the program
+  std::string firmware;  // empty: the newest
   std::optional<int> station{};
   OnArguments on{};  // its `on` is not used
 };

@@ -140,4 +140,16 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
   return kExitWell;
 }
 
+Firmware require_firmware(const Model& model, const std::string& text) {
+  if (text.empty()) return 0;
+  const Firmware firmware = parse_firmware(text);
+  for (const Firmware known : model.firmwares)
+    if (known == firmware) return firmware;
+  std::string versions;
+  for (const Firmware known : model.firmwares)
+    versions += (versions.empty() ? "" : ", ") + version_text(known);
+  throw UsageError("--firmware: " + quoted(text) + " is not a version of " + std::string(model.name) +
+                   "; expected one of " + versions);
+}
+
 }  // namespace understudy::emulator::command_line

@@ -14,5 +14,7 @@ const Model& require_model(ModelList models, const std::string& name);
 const Model& require_model(ModelList models, const std::string& name, std::vector<FileClaim>& files);
 /// Returns the model in a file. Throws FileError.
 const Model& described_model(ModelList models, const std::string& path, std::vector<FileClaim>& files);
+/// Returns the version that the text of `--firmware` names; 0 if it is empty. Throws UsageError.
+Firmware require_firmware(const Model& model, const std::string& text);
 
 }  // namespace understudy::emulator::command_line

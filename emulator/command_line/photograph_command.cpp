@@ -42,18 +42,6 @@ box::PortName require_port(const std::string& text) {
   }
 }
 
-Firmware require_firmware(const Model& model, const std::string& text) {
-  if (text.empty()) return 0;
-  const Firmware firmware = parse_firmware(text);
-  for (const Firmware known : model.firmwares)
-    if (known == firmware) return firmware;
-  std::string versions;
-  for (const Firmware known : model.firmwares)
-    versions += (versions.empty() ? "" : ", ") + version_text(known);
-  throw UsageError("--firmware: " + quoted(text) + " is not a version of " + std::string(model.name) +
-                   "; expected one of " + versions);
-}
-
 box::PhotoSettings settings_of(const Model& model, const PhotographArguments& arguments) {
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout < std::chrono::milliseconds(1) || *timeout > std::chrono::hours(1))

@@ -106,12 +106,14 @@ bool is_of_bare_controller(const play::Scenario& scenario) {
          settings.program.empty() && settings.choices.size() == 1 && settings.modules <= 1;
 }
 
-/// Returns the scenario with the controller's own station number.
+/// Returns the scenario with the controller's own station number and firmware.
 std::shared_ptr<const play::Scenario> adapted(std::shared_ptr<const play::Scenario> scenario,
                                               const ProbeArguments& arguments) {
-  if (!arguments.station) return scenario;
   auto changed = std::make_shared<play::Scenario>(*scenario);
-  changed->bench.devices.front().settings.address = arguments.station;
+  world::DeviceSetup& device = changed->bench.devices.front();
+  if (arguments.station) device.settings.address = arguments.station;
+  const Firmware firmware = require_firmware(*device.model, arguments.firmware);
+  if (firmware != 0) device.settings.firmware = firmware;
   return changed;
 }
 
@@ -197,12 +199,13 @@ void play_all(Probed& probed, OnBox& stage, int times) {
   }
 }
 
-/// The proofs describe the newest firmware.
 box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& arguments,
                               const std::vector<Probed>& proofs) {
   const std::string device = "box";
   box::EvidenceFile evidence{.box = arguments.box, .port = arguments.port};
-  evidence.devices = {{device, std::string(model.name), version_text(model.firmwares.back())}};
+  const Firmware firmware = require_firmware(model, arguments.firmware);
+  evidence.devices = {
+      {device, std::string(model.name), version_text(firmware != 0 ? firmware : model.firmwares.back())}};
   for (const Probed& probed : proofs) {
     box::EvidenceRow row{.device = device,
                          .choice = std::string(probed.choice->id),
@@ -221,6 +224,7 @@ box::EvidenceFile evidence_of(const Model& model, const ProbeArguments& argument
 
 int probe_box(ModelList models, const ProbeArguments& arguments) {
   const Model& model = require_model(models, arguments.model);
+  require_firmware(model, arguments.firmware);
   FileClaims claims;
   ResultFile output("--output", require_output(claims, "--output", arguments.output), ContentKind::evidence);
   std::vector<Probed> proofs = proofs_of(models, model, arguments);
