@@ -20,6 +20,12 @@ void watch_for_interruption() {
   action.sa_handler = [](int) { is_over = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // The terminal is closed (nohup ignores that), or the reader of the output is gone.
+  for (const int number : {SIGHUP, SIGPIPE}) {
+    struct sigaction before {};
+    sigaction(number, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+  }
 }
 
 bool is_interrupted() { return is_over != 0; }

@@ -5,7 +5,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// From now on SIGINT and SIGTERM only end wait_or_be_interrupted(), not the program.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGPIPE only end wait_or_be_interrupted(), not the program. The
+/// last two stay ignored if they are.
 void watch_for_interruption();
 bool is_interrupted();
 /// Waits this long by the wall clock, or until it is interrupted.

@@ -61,13 +61,15 @@ std::string progress_text(std::uint64_t done, std::uint64_t total, std::uint64_t
   return text;
 }
 
-ProgressLine::ProgressLine(std::uint64_t total)
-    : ProgressLine([this](double seconds) { return progress_text(done_, total_, failed_, seconds); }) {
+ProgressLine::ProgressLine(std::uint64_t total, bool is_wanted)
+    : ProgressLine([this](double seconds) { return progress_text(done_, total_, failed_, seconds); },
+                   is_wanted) {
   total_ = total;
 }
 
-ProgressLine::ProgressLine(std::function<std::string(double)> text_of) : text_of_(std::move(text_of)) {
-  const bool is_watched = isatty(STDERR_FILENO) != 0 && !is_dumb() && !is_set("CI");
+ProgressLine::ProgressLine(std::function<std::string(double)> text_of, bool is_wanted)
+    : text_of_(std::move(text_of)) {
+  const bool is_watched = is_wanted && isatty(STDERR_FILENO) != 0 && !is_dumb() && !is_set("CI");
   if (is_watched) thread_ = std::thread([this] { run(); });
 }
 

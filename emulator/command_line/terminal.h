@@ -25,10 +25,10 @@ std::string coloured_verdict(const std::string& line, bool with_colour);
 /// terminal, or if the variable CI is set.
 class ProgressLine {
  public:
-  explicit ProgressLine(std::uint64_t total);
-  /// Shows the text that `text_of` returns for the seconds since the start. `text_of` is called on another
-  /// thread.
-  explicit ProgressLine(std::function<std::string(double)> text_of);
+  /// `is_wanted` is false for a run that asks questions at the terminal: the line would erase them.
+  explicit ProgressLine(std::uint64_t total, bool is_wanted = true);
+  /// Shows the text that `text_of` returns for the seconds since the start. It is called on another thread.
+  explicit ProgressLine(std::function<std::string(double)> text_of, bool is_wanted = true);
   ~ProgressLine();  // clears the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

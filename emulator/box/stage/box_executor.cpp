@@ -17,10 +17,8 @@
 #include "emulator/box/stage/permission.h"
 #include "emulator/box/stage/rig.h"
 #include "emulator/box/wire/wire.h"
-#include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
-#include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/modbus_host.h"
@@ -38,6 +36,7 @@ constexpr std::size_t kFramesKept = 20;
 constexpr WallTime kSleepSlice = std::chrono::milliseconds(50);
 constexpr SimTime kShadowTime = std::chrono::milliseconds(500);
 constexpr std::size_t kWriteReplySize = 8;
+constexpr const char* kFollows = "  NOT SENT: follows what is not done";
 
 std::string deed_text(const std::vector<std::string>& words) {
   std::string text;
@@ -66,6 +65,7 @@ BoxExecutor::BoxExecutor(const play::Scenario& scenario, BoxLines& lines, const 
     hosts_.back() = &lines.host(line.name, *first.model, station);
     hosts_.back()->set_heartbeat([this] { throw_if_interrupted(); });
   }
+  for (std::size_t device = 0; device < scenario.bench.devices.size(); ++device) ask_word_order(device);
   begin_ = serve::wall_now();
 }
 
@@ -78,6 +78,36 @@ BoxExecutor::~BoxExecutor() {
 
 void BoxExecutor::throw_if_interrupted() const {
   if (!is_stopping_ && settings_.is_interrupted && settings_.is_interrupted()) throw play::ExecutionAborted();
+}
+
+std::optional<std::size_t> BoxExecutor::line_of(std::size_t device) const {
+  for (std::size_t i = 0; i < hosts_.size(); ++i) {
+    const auto& stations = scenario_.bench.lines[i].stations;
+    const bool is_on = std::ranges::any_of(stations, [&](const auto& one) { return one.device == device; });
+    if (is_on && hosts_[i] != nullptr) return i;
+  }
+  return std::nullopt;
+}
+
+/// The order of words may be a setting of the controller. The shadow encodes and decodes, so it gets the
+/// same.
+void BoxExecutor::ask_word_order(std::size_t number) {
+  const Model& model = *scenario_.bench.devices[number].model;
+  const std::optional<std::size_t> line = line_of(number);
+  if (!line || model.registers == nullptr || model.registers->policy().word_order_in.empty()) return;
+  int station = 1;
+  std::optional<NamedPlace> place;
+  with_world([&](world::World& world) {
+    const Device& device = world.device(number);
+    station = device.station_number().value_or(1);
+    place = find_register(model, model.registers->policy().word_order_in, device.firmware());
+  });
+  if (!place) return;
+  const Table table = place->place.row->table;
+  const std::uint16_t address = place->place.address();
+  const Bytes request = play::read_request(station, table, address, 1);
+  const play::HostReply reply = play::judge_reply(request, host(*line).ask(request, WallTime{0}).reply);
+  if (reply.kind == play::HostReply::Kind::good) shadow_.write(*line, station, table, address, reply.words);
 }
 
 // --- time ----------------------------------------------------------------------------------------
@@ -148,18 +178,28 @@ void BoxExecutor::plan(const SentRequest& request, std::size_t line, const std::
                 (only_reads ? "" : "  [" + to_text(request.hazards) + "]") + remark);
 }
 
-Hazards BoxExecutor::require(std::size_t line, const SentRequest& request) {
-  throw_if_interrupted();
+/// Lists a request. A run ends its scenario at the first one that is not sent; a plan goes on.
+void BoxExecutor::plan(const SentRequest& request, std::size_t line) {
+  std::string remark;
   try {
     require_allowed(request, settings_.allowed, settings_.envelope);
   } catch (const play::NotAllowed&) {
-    plan(request, line, "  NOT SENT: needs " + flag_for(beyond(request.hazards, settings_.allowed)));
-    throw;
+    remark = "  NOT SENT: needs " + flag_for(beyond(request.hazards, settings_.allowed));
   } catch (const play::BeyondEnvelope&) {
-    plan(request, line, "  NOT SENT: beyond the envelope");
-    throw;
+    remark = "  NOT SENT: beyond the envelope";
   }
-  plan(request, line, "");
+  const bool was_cut = std::exchange(is_plan_cut_, is_plan_cut_ || !remark.empty());
+  if (was_cut && remark.empty()) remark = kFollows;
+  plan(request, line, remark);
+}
+
+Hazards BoxExecutor::require(std::size_t line, const SentRequest& request) {
+  throw_if_interrupted();
+  if (settings_.only_plans) {
+    plan(request, line);
+    return request.hazards;
+  }
+  require_allowed(request, settings_.allowed, settings_.envelope);
   const bool may_move = has(request.hazards, Hazards::motion) || has(request.hazards, Hazards::output);
   if (may_move && request.device) may_move_.insert(*request.device);
   if (may_move && !request.device)
@@ -265,66 +305,6 @@ std::vector<std::string> BoxExecutor::exchange_text(std::size_t line, const std:
   return received;
 }
 
-// --- what it was before --------------------------------------------------------------------------
-
-/// Reads the registers that a request is about to write. Triggers and views hold nothing of their own.
-void BoxExecutor::keep_before(std::size_t line, const Bytes& request) {
-  struct Whole {
-    std::uint16_t first;
-    int count;
-    bool operator==(const Whole&) const = default;
-  };
-  const std::optional<Written> written = written_by(request);
-  if (!written) return;
-  std::vector<Whole> registers;
-  with_world([&](world::World& world) {
-    for (const world::StationSetup& station : scenario_.bench.lines[line].stations) {
-      const Device& device = world.device(station.device);
-      if (device.station_number() != request[0] || device.register_bank() == nullptr) continue;
-      const RegisterMap& map = *device.model().registers;
-      for (std::size_t i = 0; i < written->words.size(); ++i) {
-        const Place place = map.at(written->table, static_cast<std::uint16_t>(written->first + i),
-                                   device.firmware(), device.register_bank()->low_word_first());
-        if (!place || place.row->access != Access::read_write || place.row->is_view) continue;
-        if (!place.row->acts_on_zero || place.row->message != nullptr) continue;
-        const Whole whole{.first = place.address(), .count = is_32_bit(place.row->type) ? 2 : 1};
-        if (registers.empty() || registers.back() != whole) registers.push_back(whole);
-      }
-    }
-  });
-  for (const Whole& whole : registers) {
-    const bool is_known = std::ranges::any_of(before_, [&](const Before& known) {
-      return known.line == line && known.station == request[0] && known.table == written->table &&
-             known.first == whole.first;
-    });
-    if (is_known) continue;
-    const play::HostReply reply = play::judge_reply(
-        play::read_request(request[0], written->table, whole.first, whole.count),
-        host(line).ask(play::read_request(request[0], written->table, whole.first, whole.count), {}).reply);
-    if (reply.kind != play::HostReply::Kind::good) continue;
-    before_.push_back({.line = line,
-                       .station = request[0],
-                       .table = written->table,
-                       .first = whole.first,
-                       .words = reply.words});
-  }
-}
-
-/// In the opposite order. What was allowed to be written is allowed to be put back.
-void BoxExecutor::put_back() {
-  is_stopping_ = true;
-  for (auto one = before_.rbegin(); one != before_.rend(); ++one) {
-    try {
-      host(one->line).ask(play::write_request(one->station, one->table, one->first, one->words), WallTime{0});
-    } catch (const std::exception& error) {
-      if (settings_.say) settings_.say("not put back: " + one_line(error.what()));
-      break;
-    }
-  }
-  before_.clear();
-  is_stopping_ = false;
-}
-
 // --- the surroundings ----------------------------------------------------------------------------
 
 /// A last word "optional" marks what need not be done: only a rig is asked for it.
@@ -334,13 +314,15 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
   if (is_optional) words.pop_back();
   throw_if_interrupted();
   if (is_rehearsal()) {
-    if (settings_.only_plans && settings_.say && (!settings_.rig.empty() || (settings_.asks && !is_optional)))
-      settings_.say("  " + std::string(settings_.rig.empty() ? "you: " : "rig: ") + deed_text(words));
+    if (settings_.only_plans) {
+      plan_deed(words, is_optional);
+      return std::nullopt;
+    }
     if (!settings_.rig.empty() || settings_.asks) return std::nullopt;
   }
   if (!settings_.rig.empty()) {
-    const CommandAnswer answer = run_command(settings_.rig, words);
-    if (answer.exit_code == 0) return std::nullopt;
+    const CommandAnswer answer = run_command(settings_.rig, words, [this] { throw_if_interrupted(); });
+    if (answer.exit_code == 0) return done(words);
     if (answer.exit_code != kRigCannot)
       throw play::RigFailed("the rig failed at `" + deed_text(words) + "` with exit code " +
                             std::to_string(answer.exit_code) + "; expected 0, or 3 for what it cannot do");
@@ -348,79 +330,38 @@ std::optional<std::string> BoxExecutor::act(const std::vector<std::string>& all)
   }
   if (is_optional) return "it is optional";
   if (settings_.asks) {
-    if (ask_person(words)) return std::nullopt;
+    if (ask_person(words, [this] { throw_if_interrupted(); })) return done(words);
     return "nobody did it: " + deed_text(words);
   }
   return "`" + deed_text(words) + "` needs a rig or a person; expected --rig COMMAND or --ask";
 }
 
+void BoxExecutor::plan_deed(const std::vector<std::string>& words, bool is_optional) {
+  const bool has_rig = !settings_.rig.empty();
+  const bool has_anyone = has_rig || settings_.asks;
+  if (is_optional && !has_rig) return;
+  const std::string remark = !has_anyone    ? "  NOT DONE: needs --rig COMMAND or --ask"
+                             : is_plan_cut_ ? "  NOT DONE: follows what is not done"
+                                            : "";
+  if (!has_anyone) is_plan_cut_ = true;
+  planned_.clear();
+  if (settings_.say) settings_.say(std::string(has_rig ? "  rig: " : "  you: ") + deed_text(words) + remark);
+}
+
+/// A controller that was off may have another order of words.
+std::optional<std::string> BoxExecutor::done(const std::vector<std::string>& words) {
+  const bool was_switched = words.size() > 2 && words[0] == "power" && words[2] != "off";
+  for (std::size_t i = 0; was_switched && i < scenario_.bench.devices.size(); ++i)
+    if (scenario_.bench.devices[i].settings.name == words[1]) ask_word_order(i);
+  return std::nullopt;
+}
+
 std::optional<std::string> BoxExecutor::tell(const std::string& name) {
   if (settings_.rig.empty() || is_rehearsal()) return std::nullopt;
-  const CommandAnswer answer = run_command(settings_.rig, {"value", name});
+  const CommandAnswer answer =
+      run_command(settings_.rig, {"value", name}, [this] { throw_if_interrupted(); });
   if (answer.exit_code != 0) return std::nullopt;
   return answer.output;
-}
-
-// --- the stop ------------------------------------------------------------------------------------
-
-void BoxExecutor::stop() {
-  if (may_move_.empty()) return;
-  const std::set<std::size_t> devices = std::exchange(may_move_, {});
-  if (is_rehearsal()) return;
-  is_stopping_ = true;
-  for (const std::size_t device : devices) {
-    try {
-      stop_device(device);
-    } catch (const std::exception& error) {
-      if (settings_.say)
-        settings_.say("stop: " + scenario_.bench.devices[device].settings.name +
-                      ": COULD NOT BE SENT: " + one_line(error.what()));
-    }
-  }
-  is_stopping_ = false;
-}
-
-void BoxExecutor::stop_device(std::size_t number) {
-  const world::Bench& bench = scenario_.bench;
-  const Model& model = *bench.devices[number].model;
-  std::optional<std::size_t> line;
-  for (std::size_t i = 0; i < bench.lines.size() && !line; ++i) {
-    const auto& stations = bench.lines[i].stations;
-    const bool is_on = std::ranges::any_of(stations, [&](const auto& one) { return one.device == number; });
-    if (is_on && hosts_[i] != nullptr) line = i;
-  }
-  if (!line) return;
-  for (const StopStep& step : model.stop) {
-    const std::string text(step.text);
-    Bytes request;
-    std::string what = text;
-    with_world([&](world::World& world) {
-      const Device& device = world.device(number);
-      const int station = device.station_number().value_or(1);
-      if (const auto place = find_register(model, text, device.firmware())) {
-        const std::uint16_t word = static_cast<std::uint16_t>(step.value);
-        request = play::write_request(station, place->place.row->table, place->place.address(),
-                                      std::span(&word, 1));
-        what += " = " + std::to_string(step.value);
-      } else if (model.window != nullptr) {
-        const WindowMessage message = window_message(device, text);
-        request = play::message_request(station, message.first, message.words);
-      }
-    });
-    std::string came = "sent";
-    if (model.rtu) {
-      const play::HostReply reply = play::judge_reply(request, host(*line).ask(request, WallTime{0}).reply);
-      came = reply.kind == play::HostReply::Kind::good        ? "done"
-             : reply.kind == play::HostReply::Kind::exception ? "REFUSED"
-                                                              : "NOT ANSWERED";
-    } else {
-      // While a program is being entered, the stop would become a line of it.
-      if (editing_.erase(*line) != 0) host(*line).send_text("EXIT", WallTime{0});
-      host(*line).send_text(text, WallTime{0});
-    }
-    if (settings_.say)
-      settings_.say("stop: " + bench.devices[number].settings.name + ": " + what + ": " + came);
-  }
 }
 
 }  // namespace understudy::emulator::box

@@ -16,6 +16,7 @@
 
 #include "emulator/box/stage/box_lines.h"
 #include "emulator/box/stage/permission.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/hazards.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/free_executor.h"
@@ -81,9 +82,16 @@ class BoxExecutor final : public play::Executor, public play::RealBox {
   void note(std::size_t line, const char* arrow, const std::string& text);
   void note_edit(std::size_t line, const std::string& text);
   void plan(const SentRequest& request, std::size_t line, const std::string& remark);
+  void plan(const SentRequest& request, std::size_t line);
+  void plan_deed(const std::vector<std::string>& words, bool is_optional);
+  std::optional<std::string> done(const std::vector<std::string>& words);
+  /// Returns the real line of a device, or nothing.
+  std::optional<std::size_t> line_of(std::size_t device) const;
+  void ask_word_order(std::size_t device);
   void keep_before(std::size_t line, const Bytes& request);
   void put_back();
   void stop_device(std::size_t device);
+  std::string send_stop(std::size_t device, std::size_t line, const StopStep& step);
   void throw_if_interrupted() const;
   LineHost& host(std::size_t line) { return *hosts_[line]; }
 
@@ -97,6 +105,7 @@ class BoxExecutor final : public play::Executor, public play::RealBox {
   std::deque<std::string> frames_;
   std::set<std::size_t> may_move_;  // devices
   std::set<std::string> planned_;   // reads since the last write
+  bool is_plan_cut_ = false;        // something is not sent or done, so nothing after it is
   /// The lines of text on which a program is being entered, with the commands that began it.
   std::map<std::size_t, EditMark> editing_;
   /// The value of a register before its first write.

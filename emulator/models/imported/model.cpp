@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -96,6 +97,43 @@ void ImportedModel::find_what_moves() {
   }
 }
 
+/// Returns how a host names a spot: "CONTROL.STOP", "CONTROL.1". Nothing if it can be written by no name.
+std::optional<std::string> ImportedModel::name_of(const Spot& spot) const {
+  const RegisterRow& row = map_.rows()[spot.number];
+  const ListedRegister& listed = description_.registers[spot.number];
+  if (row.access == Access::read || row.table == Table::input || row.table == Table::discrete) return {};
+  const std::string name = map_.unique_name(row, 0);
+  if (spot.is_whole()) return name;
+  for (const BitName& one : listed.bits)
+    if (one.bit == spot.bit && one.width == spot.width) return name + "." + one.name;
+  return spot.width == 1 ? std::optional(name + "." + std::to_string(spot.bit)) : std::nullopt;
+}
+
+/// Every axis is stopped, at once if it can be, and then no jog bit stays on.
+void ImportedModel::find_stops() {
+  std::vector<std::pair<std::string, Value>> found;
+  const auto add = [&](const Spot& spot, Value value) {
+    const auto name = name_of(spot);
+    if (name && std::ranges::find(found, std::pair(*name, value)) == found.end())
+      found.emplace_back(*name, value);
+  };
+  for (const AxisBinding& axis : description_.axes) {
+    const auto& at_once = axis.command(Command::stop_at_once);
+    const auto& stop = at_once ? at_once : axis.command(Command::stop);
+    if (stop) add(stop->spot, stop->value.value_or(1));
+  }
+  for (const AxisBinding& axis : description_.axes) {
+    for (const Command which : {Command::forward, Command::backward}) {
+      const auto& jog = axis.command(which);
+      const bool is_bit = jog && (!jog->spot.is_whole() || type_of(jog->spot.number) == Type::bit);
+      if (is_bit && jog->matches(1)) add(jog->spot, 0);
+    }
+  }
+  for (const auto& [name, value] : found) stop_names_.push_back(name);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    stops_.push_back({.text = stop_names_[i], .value = found[i].second});
+}
+
 Model ImportedModel::made_model() {
   const Line& line = description_.line;
   ports_ = {{.kind = PortRow::Kind::rs485,
@@ -133,6 +171,7 @@ Model ImportedModel::made_model() {
     if (!shown_[i].empty() && row.access != Access::write) state_names_.push_back(map_.unique_name(row, 0));
   }
   state_registers_.assign(state_names_.begin(), state_names_.end());
+  find_stops();
   return Model{.name = description_.name,
                .title = description_.title,
                .firmwares = description_.firmwares,
@@ -152,6 +191,7 @@ Model ImportedModel::made_model() {
                                .limits = line.limits,
                                .identity = identity_,
                                .server_id = line.server_id},
+               .stop = stops_,
                .description = description_.text,
                .make = [this](const DeviceSettings& settings) -> std::unique_ptr<Device> {
                  return std::make_unique<ImportedDevice>(*this, settings);

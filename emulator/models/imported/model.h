@@ -40,6 +40,8 @@ class ImportedModel {
  private:
   std::vector<RegisterRow> bound_rows();
   Model made_model();
+  std::optional<std::string> name_of(const Spot& spot) const;
+  void find_stops();
   void find_what_moves();
 
   const Description description_;
@@ -55,6 +57,8 @@ class ImportedModel {
   std::vector<AxisRow> axes_;
   std::vector<std::string> state_names_;
   std::vector<std::string_view> state_registers_;
+  std::vector<std::string> stop_names_;
+  std::vector<StopStep> stops_;
   Model model_;
 };
 
