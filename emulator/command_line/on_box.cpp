@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,6 +107,15 @@ void require_flags_of_boxes(const RunArguments& arguments) {
     if (is_given)
       throw UsageError(std::string(flag) +
                        ": needs the internal state of a simulated controller; expected it without --on");
+  }
+}
+
+void require_lines_of_benches(const OnArguments& arguments, const std::set<std::string>& lines) {
+  std::string names;
+  for (const std::string& line : lines) names += (names.empty() ? "" : ", ") + line;
+  for (const auto& [name, port] : ports_of(arguments)) {
+    if (!lines.contains(name))
+      throw UsageError("--on: no bench has a line called " + quoted(name) + "; expected one of " + names);
   }
 }
 

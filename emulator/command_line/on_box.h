@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 
 #include "emulator/box/stage/box_executor.h"
@@ -17,6 +18,8 @@ bool is_on_box(const RunArguments& arguments);
 /// Throws UsageError for flags that need the inner state of a simulated controller, which a real one does not
 /// show.
 void require_flags_of_boxes(const RunArguments& arguments);
+/// `lines` are those of all benches. Throws UsageError if a port is for another one.
+void require_lines_of_benches(const OnArguments& arguments, const std::set<std::string>& lines);
 
 class OnBox {
  public:

@@ -14,6 +14,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/failure_story.h"
 #include "emulator/command_line/log.h"
+#include "emulator/command_line/on_box.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
@@ -87,10 +88,11 @@ void RunAccount::add(std::vector<play::ScenarioResult> results, std::uint64_t ma
                      const std::function<std::vector<play::ScenarioResult>()>& again) {
   bool has_failed = false;
   std::vector<play::ResultRow> rows;
+  const bool has_hash = !arguments_.real_time && !is_on_box(arguments_);
   for (play::ScenarioResult& result : results) {
     const bool is_new = add_one(result, files, progress, again);
     has_failed = has_failed || result.failure;
-    if (!rows_.empty()) rows.push_back(play::row_of(result, made_of, !arguments_.real_time));
+    if (!rows_.empty()) rows.push_back(play::row_of(result, made_of, has_hash));
     const bool is_shown = is_new || (!result.which.is_varied && shown_.size() < kMaxShown);
     if (!arguments_.report.empty() && is_shown) shown_.push_back(std::move(result));
   }

@@ -83,6 +83,7 @@ struct Known {
   std::vector<SavedFile> saved{};
   std::set<std::string> warned{};  // warnings about programs, which are printed only once
   std::string trace_error{};       // why --trace-also does not fit one of the scenarios; empty: it fits
+  std::set<std::string> lines{};   // of all benches
 };
 
 void warn(const play::Scenario& scenario, Known& known) {
@@ -96,6 +97,7 @@ bool has_command(const RunArguments& arguments) { return !arguments.host.command
 
 void note_saved(const play::Scenario& scenario, const RunArguments& arguments, Known& known) {
   ++known.cases;
+  for (const world::LineSetup& line : scenario.bench.lines) known.lines.insert(line.name);
   require_steps_for(scenario, has_command(arguments));
   if (!play::matches(arguments.filter, scenario.name, play::identity_of(scenario.which))) return;
   warn(scenario, known);
@@ -153,9 +155,9 @@ RunFolders folders_of(const RunArguments& arguments) {
           .trace_also = arguments.trace_also};
 }
 
-/// Throws UsageError if a written file is also read, or is written twice. The order of scenarios does not
-/// matter.
-void require_own_files(Known& known, const RunArguments& arguments) {
+/// Throws UsageError if a written file is also read, or is written twice, or if a flag names what no scenario
+/// has. The order of scenarios does not matter.
+void require_fitting_flags(Known& known, const RunArguments& arguments) {
   FileClaims& claims = known.claims;
   std::vector<FileClaim> of_this;  // one case may save a file twice
   for (std::size_t i = 0; i < known.saved.size(); ++i) {
@@ -174,6 +176,7 @@ void require_own_files(Known& known, const RunArguments& arguments) {
   for (const std::string& path : arguments.results) require_output(claims, "--results", path);
   require_folders(claims, folders_of(arguments));
   if (!known.trace_error.empty()) throw UsageError(known.trace_error);
+  require_lines_of_benches(arguments.on, known.lines);
 }
 
 /// Returns how recordings of failures are made.
@@ -383,7 +386,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   Known known;
   if (!add_all(case_list, arguments, known)) return kExitBadInput;
   require_some(case_list, arguments);
-  require_own_files(known, arguments);
+  require_fitting_flags(known, arguments);
   ResultFile junit("--junit", arguments.junit, ContentKind::junit);
   ResultFile report("--report", arguments.report, ContentKind::page);
   RunCoverage coverage(arguments);
@@ -402,7 +405,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
   Players players(runner, case_list, has_command(arguments), threads);
   bool was_interrupted = false;
   {
-    ProgressLine progress(total);
+    ProgressLine progress(total, !arguments.on.ask);
     const auto next = [&] {
       std::optional<play::CaseId> which_case;
       while ((which_case = selection.next())) {

@@ -1,7 +1,6 @@
 // `understudy run --on`: scenarios with a real controller at the end of the line. `serve` is the controller,
 // or a box that counts what it is asked for.
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <filesystem>
 #include <string>
@@ -135,21 +134,6 @@ TEST(RunOn, StopsFirstWhenItFails) {
   EXPECT_TRUE(has(on.errors, "stop: box: ALL_STOP = 1: done")) << on.errors;
 }
 
-TEST(RunOn, StopsFirstWhenItIsInterrupted) {
-  for (const int signal_number : {SIGINT, SIGTERM}) {
-    const PrivateFolder folder;
-    const CountingBox box;
-    const std::string file = folder.write("case.yaml", scenario("  - write: { box.Aaxis_Move_INC: 1 }\n"
-                                                                "  - advance: 60s\n"));
-    Process process({UNDERSTUDY_BINARY, "run", file, "--on", "line=" + box.path(), "--allow-motion"});
-    ASSERT_TRUE(eventually([&] { return box.writes_to(kMove) == 1; }));
-    process.send(signal_number);
-    EXPECT_EQ(process.wait(kPatience), 1);
-    EXPECT_GE(box.writes_to(kAllStop), 1);
-    EXPECT_TRUE(has(process.errors(), "stop: box: ALL_STOP = 1: done")) << process.errors();
-  }
-}
-
 TEST(RunOn, LetsARigDoWhatNeedsTheMachine) {
   const PrivateFolder folder;
   const RunningUnderstudy served;
@@ -232,6 +216,95 @@ TEST(RunOn, SaysWhatWasTriedIfNothingAnswers) {
                              {"--reply-timeout", "20ms"});
   EXPECT_EQ(on.exit_code, 3);
   EXPECT_TRUE(has(on.errors, "station 1 did not answer at 9600 8E1")) << on.errors;
+}
+
+TEST(RunOn, RefusesALineThatNoBenchHas) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string file = folder.write("case.yaml", scenario("  - expect: { box.HW_Code: 0 }\n"));
+  const Finished on = understudy({"run", file, "--on", "line=" + box.path(), "--on", "lime=" + box.path()});
+  EXPECT_EQ(on.exit_code, 2) << on.output;
+  EXPECT_TRUE(has(on.errors, "--on: no bench has a line called 'lime'; expected one of line")) << on.errors;
+  EXPECT_EQ(box.reads(), 0);
+}
+
+TEST(RunOn, PlansWhatFollowsARequestThatIsNotAllowed) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string text = scenario(
+      "  - write: { box.Aaxis_Pulse: 100 }\n"
+      "  - write: { box.Aaxis_Move_INC: 1 }\n"
+      "  - write: { box.Aaxis_Pulse: 200 }\n"
+      "  - input: { box.DIN_2: on }\n"
+      "  - expect: { box.HW_Code: 0 }\n");
+  const Finished on = run_on(folder, text, box.path(), {"--allow-writes", "--plan"});
+  EXPECT_EQ(on.exit_code, 0) << on.errors;
+  std::size_t at = 0;
+  for (const char* const part :
+       {"box.Aaxis_Pulse = 100  [settings]\n", "box.Aaxis_Move_INC = 1  [settings motion]  NOT SENT: needs ",
+        "box.Aaxis_Pulse = 200  [settings]  NOT SENT: follows",
+        "you: input box.DIN_2 on  NOT DONE: needs --rig", "HW_Code  NOT SENT: follows"}) {
+    const std::size_t found = on.output.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part << "\n" << on.output;
+    at = found;
+  }
+  EXPECT_EQ(box.reads() + box.writes(), 0);
+}
+
+/// The reply of the first scenario has 37 bytes; it expects 5 of them.
+TEST(RunOn, KeepsTheRestOfAReplyOutOfTheNextOne) {
+  const PrivateFolder folder;
+  const RunningUnderstudy served;
+  const std::string longer = folder.write(
+      "longer.yaml", scenario("  - send: { bytes: 01 03 10 00 00 10 +crc, reply: 01 83 02 +crc }\n"));
+  const std::string next = folder.write("next.yaml", scenario("  - expect: { box.HW_Code: 0xC001 }\n"));
+  for (int i = 0; i < 3; ++i) {
+    const Finished on = understudy({"run", longer, next, "--on", "line=" + served.port()});
+    EXPECT_TRUE(has(on.output, "1 passed, 1 failed")) << on.output << on.errors;
+  }
+}
+
+TEST(RunOn, KeepsTheRestOfAListingOutOfTheNextAnswer) {
+  const PrivateFolder folder;
+  std::string program;
+  for (int i = 0; i < 40; ++i) program += "N" + std::to_string(i) + "=" + std::to_string(i) + "\n";
+  const auto served = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n"
+      "      - { name: box, model: slim, program: " +
+      folder.write("long.slim", program) + " }\n");
+  const std::string listing =
+      folder.write("listing.yaml", scenario("  - send: { text: \"ULP\", reply: \"x\" }\n", "slim"));
+  const std::string next =
+      folder.write("next.yaml", scenario("  - send: { text: \"?PE\", reply: \"0\" }\n", "slim"));
+  for (int i = 0; i < 3; ++i) {
+    const Finished on = understudy({"run", listing, next, "--on", "line=" + served->port()});
+    EXPECT_TRUE(has(on.output, "1 passed, 1 failed")) << on.output << on.errors;
+  }
+}
+
+TEST(RunOn, AsksForTheOrderOfWords) {
+  const PrivateFolder folder;
+  const auto served = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines:\n  line:\n    link: port\n    stations:\n"
+      "      - { name: hidden, model: rs-m8194h, set: { WORD_ORDER: 1, VAR0: 70000 } }\n");
+  const std::string text = scenario(
+      "  - expect: { box.VAR0: 70000 }\n"
+      "  - command: { box: RSM_FIXED_MOVE X 900 }\n"
+      "  - wait: { until: box['Logic Position X'] == 900, within: 10s }\n",
+      "rs-m8194h");
+  const Finished on = run_on(folder, text, served->port(), {"--allow-motion"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+}
+
+TEST(RunOn, HasNoHashInItsResults) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const Finished on = run_on(folder, scenario("  - expect: { box.HW_Code: 0 }\n"), box.path(),
+                             {"--results", folder / "results.jsonl"});
+  EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;
+  const std::string rows = run({"cat", folder / "results.jsonl"}).output;
+  EXPECT_TRUE(has(rows, "\"verdict\"")) << rows;
+  EXPECT_FALSE(has(rows, "0000000000000000")) << rows;
 }
 
 TEST(RunOn, RefusesFlagsThatNeedTruths) {
