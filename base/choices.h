@@ -74,6 +74,28 @@ constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id,
   }
 }
 
+/// Returns the number that an option of a row begins with: 256 of "256_lines".
+constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
+  std::string_view rest = row.options;
+  for (; option_number > 0; --option_number) rest.remove_prefix(rest.find('|') + 1);
+  if (rest.empty() || rest.front() < '0' || rest.front() > '9') throw "the option has no number";
+  int number = 0;
+  for (const char c : rest) {
+    if (c < '0' || c > '9') break;
+    number = 10 * number + (c - '0');
+  }
+  return number;
+}
+
+/// Returns the index of a row whose options are numbers. In a constant expression, a row with another option
+/// does not compile.
+constexpr std::size_t numbers_row(std::span<const ChoiceRow> rows, std::string_view id) {
+  const std::size_t row = choice_number(rows, id);
+  const auto bars = std::ranges::count(rows[row].options, '|');
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(bars); ++i) (void)number_of(rows[row], i);
+  return row;
+}
+
 /// The options in effect of a table's rows, for the code of a part that knows only these rows, such as a
 /// language. By default it is the first option of each row.
 template <const auto& kRows>
@@ -83,6 +105,10 @@ class OptionsOf {
   struct Named {
     std::size_t row = 0;
     std::uint8_t number = 0;
+  };
+  /// One of these rows, whose options are numbers.
+  struct Numbers {
+    std::size_t row = 0;
   };
   static constexpr std::size_t kCount = std::size(kRows);
 
@@ -101,12 +127,19 @@ class OptionsOf {
     return numbers_[option.row] == option.number;
   }
   constexpr void choose(const Named& option) { numbers_[option.row] = option.number; }
+  /// Returns the number that the option in effect begins with.
+  constexpr int number(const Numbers& of) const {
+    if (asked_ != nullptr) asked_[of.row] = 1;
+    return number_of(kRows[of.row], numbers_[of.row]);
+  }
 
   /// Returns the option. In a constant expression, an unknown row or option does not compile.
   static constexpr Named named(std::string_view id, std::string_view name) {
     const Option found = option_of(kRows, id, name);
     return {found.choice, found.number};
   }
+  /// Returns the row. In a constant expression, a row whose options are not numbers does not compile.
+  static constexpr Numbers numbers(std::string_view id) { return {numbers_row(kRows, id)}; }
 
  private:
   std::array<std::uint8_t, kCount> numbers_{};

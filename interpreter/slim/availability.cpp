@@ -5,6 +5,7 @@
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/verbs.h"
 
 namespace understudy::interpreter::slim {
@@ -42,23 +43,24 @@ bool takes_real_variable(const CommandRow& row) { return row.slots[0] == Slot::r
 
 }  // namespace
 
-bool is_allowed(const Command& command, Place place, const Columns& columns) {
+bool is_allowed(const Command& command, Place place, const Options& options) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(command.row)];
   // A typed command cannot wait for a number.
   if (place != Place::program && asks_host(command)) return false;
   switch (place) {
     case Place::program:
       if (row.program != Printed::nothing) return row.program == Printed::yes;
-      return !is_for_hosts(row) || (columns.saves == Columns::Saves::stored_too && is_save(row.verb));
+      return !is_for_hosts(row) ||
+             (is_save(row.verb) && options.chose(option("first_list_columns", "saves_in_programs_too")));
     case Place::immediate:
       if (row.immediate == Printed::nothing) return !is_one_of(kForPrograms, row.verb);
       if (row.immediate == Printed::yes) return true;
-      return columns.variable_forms == Columns::VariableForms::typed_too && takes_real_variable(row);
+      return takes_real_variable(row) && options.chose(option("immediate_column", "taken"));
     case Place::external:
       // EXIT leaves a running program; it has no meaning elsewhere.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;
-      if (row.verb == Verb::reset) return columns.external == Columns::External::with_reset;
-      return columns.external != Columns::External::strict && is_let_through(row);
+      if (row.verb == Verb::reset) return options.chose(option("while_program_runs", "reset_too"));
+      return is_let_through(row) && !options.chose(option("while_program_runs", "external_column_only"));
   }
   return false;
 }

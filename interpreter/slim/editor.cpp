@@ -8,6 +8,7 @@
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/error.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 #include "interpreter/slim/verbs.h"
 #include "interpreter/slim/words.h"
@@ -18,23 +19,23 @@ namespace {
 constexpr char kEscape = '\x1B';
 
 /// Returns the line number from 0; -1 for line 0 if lines are numbered from 1.
-int line_named_by(const Command& command, const ProgramOptions& options) {
-  return static_cast<int>(command.operands.at(0).number) - options.first_number;
+int line_named_by(const Command& command, const Options& options) {
+  return static_cast<int>(command.operands.at(0).number) - first_number(options);
 }
 
-bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& options) {
+bool is_end(Editor::Mode mode, std::string_view text, const Options& options) {
   if (text.find(kEscape) != std::string_view::npos) return true;
   const std::string word = in_capitals(without_blanks(text));
   if (word == "EXIT") return true;
   if (mode == Editor::Mode::download) return word == "END";
-  return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
+  return word.empty() && !options.chose(option("edit_end", "exit_or_esc"));
 }
 
 /// The arguments of an editing command.
 struct EditArguments {
   Editor& editor;
   Program& program;
-  const ProgramOptions& options;
+  const Options& options;
   int line;  // the line that the command names
 };
 using Beginning = Error (*)(const EditArguments&);
@@ -66,7 +67,8 @@ constexpr HandlerRow<Verb, Beginning> kBeginningRows[] = {
     {Verb::program_insert,
      [](const EditArguments& arguments) {
        if (arguments.line < 0 || arguments.line > arguments.program.size()) return Error::range;
-       if (arguments.program.size() >= arguments.options.capacity) return Error::buffer_full;
+       if (arguments.program.size() >= arguments.options.number(numbers("program_size")))
+         return Error::buffer_full;
        arguments.editor = {.mode = Editor::Mode::insert, .line = arguments.line};
        return Error::none;
      }},
@@ -79,14 +81,14 @@ constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRo
 
 }  // namespace
 
-Error begin_edit(Editor& editor, Program& program, const Command& command, const ProgramOptions& options) {
+Error begin_edit(Editor& editor, Program& program, const Command& command, const Options& options) {
   if (!kBeginnings.has(command.verb)) return Error::syntax;
   // The command names no line if no number follows it.
   const int line = command.operands.empty() ? 0 : line_named_by(command, options);
   return kBeginnings[command.verb]({editor, program, options, line});
 }
 
-Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options) {
+Error enter_line(Editor& editor, Program& program, std::string_view text, const Options& options) {
   const Editor at_work = editor;
   if (is_end(at_work.mode, text, options)) {
     editor = {};
@@ -95,8 +97,7 @@ Error enter_line(Editor& editor, Program& program, std::string_view text, const 
   // Ignored if empty lines do not end the editing; a file sent by a terminal may contain them.
   if (without_blanks(text).empty()) return Error::none;
   const auto one_line = [&](Error error) {
-    const bool is_over =
-        error == Error::none || options.refused_line == ProgramOptions::RefusedLine::ends_pe_and_pi;
+    const bool is_over = error == Error::none || options.chose(option("refused_line", "ends_editing"));
     if (is_over) editor = {};
     return error;
   };
@@ -110,16 +111,15 @@ Error enter_line(Editor& editor, Program& program, std::string_view text, const 
   return Error::not_allowed;
 }
 
-std::optional<int> next_line_number(const Editor& editor, const Program& program,
-                                    const ProgramOptions& options) {
+std::optional<int> next_line_number(const Editor& editor, const Program& program, const Options& options) {
   switch (editor.mode) {
     case Editor::Mode::none: return std::nullopt;
     case Editor::Mode::replace:
-    case Editor::Mode::insert: return editor.line + options.first_number;
+    case Editor::Mode::insert: return editor.line + first_number(options);
     case Editor::Mode::lines:
     case Editor::Mode::download: break;
   }
-  return program.size() + options.first_number;
+  return program.size() + first_number(options);
 }
 
 }  // namespace understudy::interpreter::slim

@@ -5,6 +5,9 @@
 #include <optional>
 #include <string_view>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 
 namespace understudy::interpreter::slim {
@@ -26,16 +29,15 @@ struct Editor {
 constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::Mode::none; }
 
 /// Executes one of the six commands. If it returns an error, nothing has changed.
-Error begin_edit(Editor& editor, Program& program, const Command& command,
-                 const ProgramOptions& options = {});
+Error begin_edit(Editor& editor, Program& program, const Command& command, const Options& options = {});
 
 /// Handles a line that arrives during editing. A line with an error is not stored, and editing continues,
 /// because the next line is meant for the program too. A line that contains ESC (0x1B) ends the editing and
 /// is not stored.
-Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options = {});
+Error enter_line(Editor& editor, Program& program, std::string_view text, const Options& options = {});
 
 /// Returns the number of the next line, for a prompt.
 std::optional<int> next_line_number(const Editor& editor, const Program& program,
-                                    const ProgramOptions& options = {});
+                                    const Options& options = {});
 
 }  // namespace understudy::interpreter::slim

@@ -8,6 +8,7 @@
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/error.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::interpreter::slim {
 namespace {
@@ -16,8 +17,8 @@ using Kind = Operand::Kind;
 
 bool is_complete(const Event& event) { return event.has_condition && event.has_address; }
 
-void arm(Event& event, const EventOptions& options) {
-  event.armed = options.at_arming == EventOptions::AtArming::fires;
+void arm(Event& event, const Options& options) {
+  event.armed = !options.chose(option("event_at_arming", "waits_for_a_change"));
   event.pending = false;
 }
 
@@ -89,7 +90,7 @@ Error test_condition(Condition condition, std::span<const Operand> operands, con
   return Error::none;
 }
 
-void define_event(Events& events, const Command& command, const EventOptions& options) {
+void define_event(Events& events, const Command& command, const Options& options) {
   Event& event = events[static_cast<std::size_t>(command.operands[0].index - 1)];
   if (command.verb == Verb::on_event) {
     event.has_address = true;
@@ -102,11 +103,11 @@ void define_event(Events& events, const Command& command, const EventOptions& op
   arm(event, options);
 }
 
-void arm_events(Events& events, const EventOptions& options) {
+void arm_events(Events& events, const Options& options) {
   for (Event& event : events) arm(event, options);
 }
 
-Error check_events(Events& events, const EventOptions& options, const Machine& machine) {
+Error check_events(Events& events, const Options& options, const Machine& machine) {
   Error first_error = Error::none;
   for (Event& event : events) {
     if (!is_complete(event)) continue;
@@ -123,7 +124,7 @@ Error check_events(Events& events, const EventOptions& options, const Machine& m
     }
     if (!holds) {
       event.armed = true;
-      if (options.held == EventOptions::Held::is_dropped) event.pending = false;
+      if (event.pending && options.chose(option("held_event", "is_dropped"))) event.pending = false;
     }
   }
   return first_error;

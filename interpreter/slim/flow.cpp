@@ -17,6 +17,7 @@
 #include "interpreter/slim/error.h"
 #include "interpreter/slim/events.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/parse.h"
 #include "interpreter/slim/program.h"
 #include "interpreter/slim/verbs.h"
@@ -42,6 +43,16 @@ std::optional<Kind> asked_of_host(const Command& command) {
   return asking->kind;
 }
 
+/// Returns how many lines run in a tick. A line that waits or fails is the last one in its tick.
+int lines_a_tick(const Options& options) {
+  return options.chose(option("lines_a_tick", "four_a_millisecond")) ? 4 : 1;
+}
+
+/// Returns the unit of tm in JTI and JNTI.
+int window_unit_ms(const Options& options) {
+  return options.chose(option("time_unit", "4_milliseconds")) ? 4 : 1;
+}
+
 /// Returns the first multiple of `every_ms` that is not before `ms`.
 std::int64_t moment_from(std::int64_t ms, int every_ms) {
   const std::int64_t past_ms = ms % every_ms;
@@ -51,7 +62,7 @@ std::int64_t moment_from(std::int64_t ms, int every_ms) {
 /// Runs one line in a tick.
 class LineRun {
  public:
-  LineRun(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
+  LineRun(Execution& execution, std::int64_t now_ms, const Program& program, const Options& options,
           Machine& machine)
       : execution_(execution), now_ms_(now_ms), program_(program), options_(options), machine_(machine) {}
 
@@ -69,7 +80,7 @@ class LineRun {
 
   Error fail(Error error) {
     execution_.has_number = false;
-    if (options_.failed_line == FlowOptions::FailedLine::is_passed) {
+    if (options_.chose(option("failed_line", "is_passed_over"))) {
       next_line();
     } else {
       finish(execution_, Ending::failed, error);
@@ -131,7 +142,7 @@ class LineRun {
 
   Error take_bare_number(const Command& asking) {
     const bool is_integer = asking.verb == Verb::get_integer;
-    if (options_.bare_number == FlowOptions::BareNumber::is_dropped) return next_line();
+    if (!options_.chose(option("bare_number", "into_n0_or_r0"))) return next_line();
     Command command{.verb = Verb::set_variable, .row = is_integer ? row_of("N#=data") : row_of("R#=data")};
     command.operands.push_back({.kind = is_integer ? Kind::integer_variable : Kind::real_variable});
     command.operands.push_back(
@@ -147,7 +158,7 @@ class LineRun {
   }
 
   Error jump_to(const Operand& address) {
-    const std::optional<int> line = program_.find(address, options_.program);
+    const std::optional<int> line = program_.find(address, options_);
     return line ? go_to(*line) : Error::address;
   }
 
@@ -165,7 +176,7 @@ class LineRun {
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
     if (holds && decide(true)) return jump_to(command.operands.back());
-    const auto window_ms = static_cast<std::int64_t>(command.operands[1].number) * options_.window_unit_ms;
+    const auto window_ms = static_cast<std::int64_t>(command.operands[1].number) * window_unit_ms(options_);
     const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
     if (now_ms_ < until_ms) return hold(Hold::window, until_ms);
     decide(false);
@@ -174,8 +185,8 @@ class LineRun {
 
   Error call(const Command& command) {
     const auto calls = std::ranges::count(execution_.stack, false, &Frame::of_event);
-    const std::optional<int> line = program_.find(command.operands[0], options_.program);
-    if (!line || calls >= options_.call_depth) return Error::address;
+    const std::optional<int> line = program_.find(command.operands[0], options_);
+    if (!line || calls >= options_.number(numbers("call_depth"))) return Error::address;
     execution_.stack.push_back({.line = execution_.line + 1});
     return go_to(*line);
   }
@@ -186,7 +197,7 @@ class LineRun {
     execution_.stack.pop_back();
     go_to(frame.line);
     const bool is_timed = frame.hold == Hold::timer || frame.hold == Hold::window;
-    if (is_timed && options_.interrupted_timer == FlowOptions::InterruptedTimer::continues) {
+    if (is_timed && options_.chose(option("interrupted_wait", "have_gone_on"))) {
       hold(frame.hold, frame.until_ms);
     }
     return Error::none;
@@ -206,7 +217,7 @@ class LineRun {
   }
 
   Error define(const Command&) {
-    define_event(execution_.events, original(), options_.events);
+    define_event(execution_.events, original(), options_);
     return next_line();
   }
 
@@ -236,7 +247,7 @@ class LineRun {
   Execution& execution_;
   std::int64_t now_ms_;
   const Program& program_;
-  const FlowOptions& options_;
+  const Options& options_;
   Machine& machine_;
   bool begins_ = false;  // set only if there is an observer
 };
@@ -257,13 +268,13 @@ constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(
                 }));
 
 /// Enters the routine of the event whose turn it is, if there is one.
-Error serve_events(Execution& execution, const Program& program, const FlowOptions& options) {
+Error serve_events(Execution& execution, const Program& program, const Options& options) {
   // A line that has received its number from the host runs first; otherwise the routine would take the
   // number.
   if (in_event_routine(execution) || execution.has_number) return Error::none;
   const std::optional<Operand> address = take_event(execution.events);
   if (!address) return Error::none;
-  const std::optional<int> line = program.find(*address, options.program);
+  const std::optional<int> line = program.find(*address, options);
   if (!line) return Error::address;
   execution.stack.push_back(
       {.line = execution.line, .of_event = true, .hold = execution.hold, .until_ms = execution.until_ms});
@@ -274,13 +285,13 @@ Error serve_events(Execution& execution, const Program& program, const FlowOptio
 }
 
 /// Reads a number in a form and range that GETI or GETR accepts.
-Error read_number(std::string_view text, Kind asked, const Dialect& dialect, double& number) {
+Error read_number(std::string_view text, Kind asked, const Options& options, double& number) {
   const std::optional<Operand> read = parse_number(text);
   if (!read) return Error::syntax;
   number = read->number;
   if (asked == Kind::get_integer) {
     if (read->kind != Kind::integer) return Error::syntax;
-    return number >= dialect.integer_min && number <= kIntegerMax ? Error::none : Error::range;
+    return number >= integer_min(options) && number <= kIntegerMax ? Error::none : Error::range;
   }
   constexpr double kMax = std::numeric_limits<float>::max();
   number = rounded_real(number);
@@ -290,8 +301,8 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
 /// Returns the first tick after `done_ms` in which a line may do anything, or in which the next event has its
 /// turn.
 std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                          const FlowOptions& options, const Machine& machine) {
-  const std::int64_t next_ms = moment_from(done_ms + 1, options.lines_every_ms);
+                          const Options& options, const Machine& machine) {
+  const std::int64_t next_ms = moment_from(done_ms + 1, line_interval_ms(options));
   const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
   if (is_pending && !in_event_routine(execution)) return next_ms;
 
@@ -304,7 +315,7 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
     if (test_condition(condition, command->operands, machine, input_holds) != Error::none) return next_ms;
   }
   const auto timed_ms = [&] {
-    return moment_from(std::max(execution.until_ms, next_ms), options.lines_every_ms);
+    return moment_from(std::max(execution.until_ms, next_ms), line_interval_ms(options));
   };
   switch (execution.hold) {
     case Hold::nothing: return next_ms;
@@ -319,15 +330,15 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
 
 /// Starts the routine of an event while no program runs: from the next tick on, the routine is a program.
 Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program& program,
-                       const FlowOptions& options, const Machine& machine) {
-  if (options.events_need_program) return Error::none;
-  if (now_ms % options.events.check_interval_ms == 0) {
-    const Error error = check_events(execution.events, options.events, machine);
+                       const Options& options, const Machine& machine) {
+  if (events_need_program(options)) return Error::none;
+  if (now_ms % check_interval_ms(options) == 0) {
+    const Error error = check_events(execution.events, options, machine);
     if (error != Error::none) return error;
   }
   const std::optional<Operand> address = take_event(execution.events);
   if (!address) return Error::none;
-  const std::optional<int> line = program.find(*address, options.program);
+  const std::optional<int> line = program.find(*address, options);
   if (!line) return Error::address;
   Events events = std::move(execution.events);
   execution = {.running = true, .line = *line, .events = std::move(events)};
@@ -340,13 +351,12 @@ bool in_event_routine(const Execution& execution) {
   return std::ranges::any_of(execution.stack, &Frame::of_event);
 }
 
-Error start(Execution& execution, const Program& program, const Operand* address,
-            const FlowOptions& options) {
-  const Operand first{.kind = Kind::integer, .number = static_cast<double>(options.program.first_number)};
-  const std::optional<int> line = program.find(address == nullptr ? first : *address, options.program);
+Error start(Execution& execution, const Program& program, const Operand* address, const Options& options) {
+  const Operand first{.kind = Kind::integer, .number = static_cast<double>(first_number(options))};
+  const std::optional<int> line = program.find(address == nullptr ? first : *address, options);
   if (!line) return Error::address;
   Events events = std::move(execution.events);
-  arm_events(events, options.events);
+  arm_events(events, options);
   execution = {.running = true, .line = *line, .events = std::move(events)};
   return Error::none;
 }
@@ -356,36 +366,36 @@ void stop(Execution& execution) {
 }
 
 Error give_number(Execution& execution, const Program& program, std::string_view text,
-                  const Dialect& dialect) {
+                  const Options& options) {
   if (!wants_number(execution) || execution.line >= program.size()) return Error::not_allowed;
   const std::optional<Command>& command = program.line(execution.line).parsed.command;
   const std::optional<Kind> asked = command ? asked_of_host(*command) : std::nullopt;
   if (!asked) return Error::not_allowed;
   double number = 0;
-  if (const Error error = read_number(text, *asked, dialect, number); error != Error::none) return error;
+  if (const Error error = read_number(text, *asked, options, number); error != Error::none) return error;
   execution.has_number = true;
   execution.number = number;
   return Error::none;
 }
 
-Error step(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
+Error step(Execution& execution, std::int64_t now_ms, const Program& program, const Options& options,
            Machine& machine) {
   if (!execution.running) return run_lonely_event(execution, now_ms, program, options, machine);
   LineRun line(execution, now_ms, program, options, machine);
-  const bool is_lines_turn = now_ms % options.lines_every_ms == 0;
+  const bool is_lines_turn = now_ms % line_interval_ms(options) == 0;
   // A wait that is over ends before an event can restart it.
   if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.next_line();
   if (!execution.running) return Error::none;
   Error event_error = Error::none;
-  if (now_ms % options.events.check_interval_ms == 0) {
-    event_error = check_events(execution.events, options.events, machine);
+  if (now_ms % check_interval_ms(options) == 0) {
+    event_error = check_events(execution.events, options, machine);
   }
   if (is_lines_turn && event_error == Error::none) event_error = serve_events(execution, program, options);
-  if (event_error != Error::none && options.failed_line == FlowOptions::FailedLine::ends_program) {
+  if (event_error != Error::none && !options.chose(option("failed_line", "is_passed_over"))) {
     return line.fail(event_error);
   }
   if (!is_lines_turn) return event_error;
-  for (int i = 0; i < options.lines_per_tick && execution.running; ++i) {
+  for (int i = 0; i < lines_a_tick(options) && execution.running; ++i) {
     if (execution.hold == Hold::timer) break;
     const Error error = line.run();
     if (error != Error::none) return error;
@@ -395,11 +405,10 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 }
 
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                            const FlowOptions& options, const Machine& machine) {
-  if (!execution.running && options.events_need_program) return kNever;
+                            const Options& options, const Machine& machine) {
+  if (!execution.running && events_need_program(options)) return kNever;
   const bool sees_event = would_change(execution.events, machine);
-  const std::int64_t check_ms =
-      sees_event ? moment_from(done_ms + 1, options.events.check_interval_ms) : kNever;
+  const std::int64_t check_ms = sees_event ? moment_from(done_ms + 1, check_interval_ms(options)) : kNever;
   if (!execution.running) {
     const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
     return is_pending ? done_ms + 1 : check_ms;

@@ -9,35 +9,13 @@
 
 #include "interpreter/slim/events.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 
 namespace understudy::interpreter::slim {
 
 /// Means that no tick will do anything until a command arrives.
 inline constexpr std::int64_t kNever = INT64_MAX;
-
-/// Options about running that the manual leaves open.
-struct FlowOptions {
-  ProgramOptions program = {};
-  int lines_per_tick = 1;  // a line that waits or fails is the last one in its tick
-  int lines_every_ms = 1;  // lines run at every multiple of this time
-  int window_unit_ms = 1;  // unit of tm in JTI and JNTI
-  int call_depth = 16;
-  EventOptions events = {};
-  /// The number of a GETI or GETR that is alone on its line is dropped, or is stored in N0 or R0.
-  enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
-  /// If true, events need a running program; if false, they also call their routine without one.
-  bool events_need_program = true;
-  /// If an event interrupts WT or JTI, the wait starts again afterwards, or its time has continued to run.
-  enum class InterruptedTimer : std::uint8_t {
-    begins_again,
-    continues
-  } interrupted_timer = InterruptedTimer::begins_again;
-  /// A line that the machine refuses ends the program, or is skipped.
-  enum class FailedLine : std::uint8_t { ends_program, is_passed } failed_line = FailedLine::ends_program;
-
-  bool operator==(const FlowOptions&) const = default;
-};
 
 /// Why a program is not running.
 enum class Ending : std::uint8_t {
@@ -84,7 +62,7 @@ struct Execution {
 
 /// `G`: starts at an address (null: line 0), from the next tick. If there is no such line, returns
 /// Error::address and changes nothing.
-Error start(Execution& execution, const Program& program, const Operand* address, const FlowOptions& options);
+Error start(Execution& execution, const Program& program, const Operand* address, const Options& options);
 /// Returns true between an event and the RET of its routine.
 bool in_event_routine(const Execution& execution);
 /// `EXIT`: stops the program. What it has started continues.
@@ -97,20 +75,20 @@ constexpr bool wants_number(const Execution& execution) {
 /// Handles the host's line while wants_number() is true. If it is refused (syntax, range), the program
 /// continues to wait.
 Error give_number(Execution& execution, const Program& program, std::string_view text,
-                  const Dialect& dialect = {});
+                  const Options& options = {});
 
 /// Runs one tick, at a `now_ms` later than that of the previous one. Returns the error of a line that failed.
-Error step(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
+Error step(Execution& execution, std::int64_t now_ms, const Program& program, const Options& options,
            Machine& machine);
 
 /// Returns the first tick after `done_ms` in which step() may do anything, provided that the program and the
 /// machine stay as they are and the host sends nothing, or kNever. Ticks before it may be skipped. While the
 /// machine makes a command wait (Hold::machine), only the machine knows when it will execute it.
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                            const FlowOptions& options, const Machine& machine);
+                            const Options& options, const Machine& machine);
 
 /// Returns true if a run of this program can have reached this state. Used for states that are restored from
 /// a file.
-bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options);
+bool is_sound(const Execution& execution, const Program& program, const Options& options);
 
 }  // namespace understudy::interpreter::slim

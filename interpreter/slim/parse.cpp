@@ -14,6 +14,7 @@
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/commands.h"
 #include "interpreter/slim/error.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/slots.h"
 #include "interpreter/slim/words.h"
 
@@ -95,7 +96,7 @@ void keep_better(ParseResult& best, bool is_first, Error error) {
   if (is_first || error == Error::range) best.error = error;
 }
 
-ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Dialect& dialect) {
+ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Options& options) {
   std::vector<std::string_view> items;
   if (begins_with_quote(rest)) {
     items.push_back(rest);
@@ -110,7 +111,7 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
     if (!key.is_called(name.word)) continue;
     if (is_no_module(name)) return refused(Error::range);
     const CommandRow& row = kCommands[i];
-    Operands operands = match_slots(row, items, nullptr, dialect);
+    Operands operands = match_slots(row, items, nullptr, options);
     if (operands.error == Error::none) {
       return understood({.verb = row.verb,
                          .row = static_cast<int>(i),
@@ -124,10 +125,10 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
 }
 
 /// Parses the part after "=", for a row with its own name or for any parameter.
-ParseResult assign(const Prefixed& name, int row_number, std::string_view data, const Dialect& dialect) {
+ParseResult assign(const Prefixed& name, int row_number, std::string_view data, const Options& options) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(row_number)];
   const std::array<std::string_view, 1> items{without_blanks(data)};
-  Operands operands = match_slots(row, items, nullptr, dialect);
+  Operands operands = match_slots(row, items, nullptr, options);
   if (operands.error != Error::none) return refused(operands.error);
   Command command{.verb = row.verb, .row = row_number, .module = name.module};
   command.operands = std::move(operands.operands);
@@ -144,13 +145,13 @@ int row_of_variable(Kind kind, bool is_query) {
   return holds_integer(kind) ? row_of("N#=data") : row_of("R#=data");
 }
 
-ParseResult assign_variable(std::string_view target_text, std::string_view data, const Dialect& dialect) {
+ParseResult assign_variable(std::string_view target_text, std::string_view data, const Options& options) {
   const Item target = parse_item(target_text);
   const Kind kind = target.operand.kind;
   const int row_number = row_of_variable(kind, false);
   const CommandRow& row = kCommands[static_cast<std::size_t>(row_number)];
   const std::array<std::string_view, 1> items{without_blanks(data)};
-  Operands operands = match_slots(row, items, &target.operand, dialect);
+  Operands operands = match_slots(row, items, &target.operand, options);
   if (target.error == Error::syntax || operands.error == Error::syntax) return refused(Error::syntax);
   if (target.error != Error::none) return refused(target.error);
   if (operands.error != Error::none) return refused(operands.error);
@@ -158,7 +159,7 @@ ParseResult assign_variable(std::string_view target_text, std::string_view data,
   return understood({.verb = row.verb, .row = row_number, .operands = std::move(operands.operands)});
 }
 
-ParseResult parse_assignment(const Prefixed& name, std::string_view data, const Dialect& dialect) {
+ParseResult parse_assignment(const Prefixed& name, std::string_view data, const Options& options) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const RowKey& key = kRowKeys[i];
     if (key.syntax != RowKey::Syntax::assignment || key.takes_module != name.has_prefix) continue;
@@ -168,11 +169,11 @@ ParseResult parse_assignment(const Prefixed& name, std::string_view data, const 
         row.slots[0] == Slot::data && row.verb == Verb::set_variable;  // NS without an index
     if (is_element) continue;
     if (is_no_module(name)) return refused(Error::range);
-    return assign(name, static_cast<int>(i), data, dialect);
+    return assign(name, static_cast<int>(i), data, options);
   }
   if (!is_parameter_name(name.word)) return refused(Error::syntax);
   if (is_no_module(name)) return refused(Error::range);
-  return assign(name, name.has_prefix ? row_of("Tp<name>=data") : row_of("<name>=data"), data, dialect);
+  return assign(name, name.has_prefix ? row_of("Tp<name>=data") : row_of("<name>=data"), data, options);
 }
 
 /// Returns the row of a query without a prefix; -1 for a parameter.
@@ -194,7 +195,7 @@ ParseResult query_variable(std::string_view text, int module) {
   return understood(std::move(command));
 }
 
-ParseResult parse_query(std::string_view text, const Dialect& dialect) {
+ParseResult parse_query(std::string_view text, const Options& options) {
   std::string_view rest = text;
   Prefixed name = split_prefix(take_word(rest));
   if (name.word.empty()) return refused(Error::syntax);
@@ -209,7 +210,7 @@ ParseResult parse_query(std::string_view text, const Dialect& dialect) {
   if (is_no_module(name)) return refused(Error::range);
   const int row = plain_row < 0 || name.has_prefix ? row_of("?Tp<name>") : plain_row;
   const CommandRow& meant = kCommands[static_cast<std::size_t>(plain_row < 0 ? row : plain_row)];
-  Operands operands = match_slots(meant, split_at_commas(rest), nullptr, dialect);
+  Operands operands = match_slots(meant, split_at_commas(rest), nullptr, options);
   if (operands.error != Error::none) return refused(operands.error);
   return understood({.verb = meant.verb,
                      .row = row,
@@ -218,8 +219,8 @@ ParseResult parse_query(std::string_view text, const Dialect& dialect) {
                      .name = std::move(name.word)});
 }
 
-ParseResult parse_command(std::string_view text, const Dialect& dialect) {
-  if (text.starts_with('?')) return parse_query(text.substr(1), dialect);
+ParseResult parse_command(std::string_view text, const Options& options) {
+  if (text.starts_with('?')) return parse_query(text.substr(1), options);
   std::string_view rest = text;
   const std::string word = take_word(rest);
   if (word.empty()) return refused(Error::syntax);
@@ -228,19 +229,19 @@ ParseResult parse_command(std::string_view text, const Dialect& dialect) {
   if ((word == "NS" || word == "RS") && rest.starts_with('(')) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return refused(Error::syntax);
-    return assign_variable(without_blanks(text.substr(0, equals)), text.substr(equals + 1), dialect);
+    return assign_variable(without_blanks(text.substr(0, equals)), text.substr(equals + 1), options);
   }
   const bool is_assignment = rest.starts_with('=');
-  if (is_assignment && is_variable_word(word)) return assign_variable(word, rest.substr(1), dialect);
+  if (is_assignment && is_variable_word(word)) return assign_variable(word, rest.substr(1), options);
   const Prefixed name = split_prefix(word);
   if (name.word.empty()) return refused(Error::syntax);
-  return is_assignment ? parse_assignment(name, rest.substr(1), dialect) : parse_plain(name, rest, dialect);
+  return is_assignment ? parse_assignment(name, rest.substr(1), options) : parse_plain(name, rest, options);
 }
 
 }  // namespace
 
-ParseResult parse_line(std::string_view text, const Dialect& dialect) {
-  if (text.size() > dialect.longest_line) return refused(Error::syntax);
+ParseResult parse_line(std::string_view text, const Options& options) {
+  if (text.size() > longest_line(options)) return refused(Error::syntax);
   text = without_blanks(text);
   std::string label;
   if (text.starts_with('$')) {
@@ -251,7 +252,7 @@ ParseResult parse_line(std::string_view text, const Dialect& dialect) {
     text = end == std::string_view::npos ? std::string_view() : without_blanks(text.substr(end));
   }
   if (text.empty()) return {.line = {.label = std::move(label)}};
-  ParseResult result = parse_command(text, dialect);
+  ParseResult result = parse_command(text, options);
   if (result.error == Error::none) result.line.label = std::move(label);
   return result;
 }

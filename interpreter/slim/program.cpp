@@ -10,6 +10,7 @@
 #include "interpreter/slim/availability.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/error.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/parse.h"
 #include "interpreter/slim/words.h"
 
@@ -37,30 +38,29 @@ Program::Checked Program::failing(Checked checked, std::string_view text) {
 }
 
 /// Checks the line of `text` alone, without the other lines.
-Program::Checked Program::check_alone(std::string_view text, const ProgramOptions& options) {
-  ParseResult result = parse_line(text, options.dialect);
+Program::Checked Program::check_alone(std::string_view text, const Options& options) {
+  ParseResult result = parse_line(text, options);
   if (result.error != Error::none) return {.error = result.error};
   const std::string_view trimmed = without_blanks(text);
   if (trimmed.empty()) return {.error = Error::syntax};
   const auto& command = result.line.command;
-  if (command && !is_allowed(*command, Place::program, options.columns)) return {.error = Error::not_allowed};
+  if (command && !is_allowed(*command, Place::program, options)) return {.error = Error::not_allowed};
   if (command && options.check_command != nullptr) {
     if (const Error error = options.check_command(*command); error != Error::none) return {.error = error};
   }
   return {.line = {.text = std::string(trimmed), .parsed = std::move(result.line)}};
 }
 
-Program::Checked Program::check(std::string_view text, int replaced, const ProgramOptions& options) const {
+Program::Checked Program::check(std::string_view text, int replaced, const Options& options) const {
   Checked checked = check_alone(text, options);
-  if (options.check == ProgramOptions::Check::as_run) {
+  if (checks_as_run(options)) {
     const std::string_view trimmed = without_blanks(text);
-    if (trimmed.empty() || text.size() > options.dialect.longest_line || ends_transfer(trimmed))
-      return checked;
+    if (trimmed.empty() || text.size() > longest_line(options) || ends_transfer(trimmed)) return checked;
     return failing(std::move(checked), trimmed);
   }
   const std::string& label = checked.line.parsed.label;
   if (checked.error != Error::none || label.empty() ||
-      options.same_label == ProgramOptions::SameLabel::first_counts) {
+      options.chose(option("same_label", "the_first_counts"))) {
     return checked;
   }
   for (int i = 0; i < size(); ++i) {
@@ -69,11 +69,10 @@ Program::Checked Program::check(std::string_view text, int replaced, const Progr
   return checked;
 }
 
-/// With Check::as_run, the lines alone decide which of those with this label fail, not the order in which
+/// If checks_as_run(), the lines alone decide which of those with this label fail, not the order in which
 /// they were entered, so a program is the same after it is saved and loaded.
-void Program::judge_label(const std::string& label, const ProgramOptions& options) {
-  if (label.empty() || options.check != ProgramOptions::Check::as_run ||
-      options.same_label != ProgramOptions::SameLabel::refused) {
+void Program::judge_label(const std::string& label, const Options& options) {
+  if (label.empty() || !checks_as_run(options) || options.chose(option("same_label", "the_first_counts"))) {
     return;
   }
   bool is_taken = false;
@@ -86,9 +85,9 @@ void Program::judge_label(const std::string& label, const ProgramOptions& option
   }
 }
 
-Error Program::insert(int number, std::string_view text, const ProgramOptions& options) {
+Error Program::insert(int number, std::string_view text, const Options& options) {
   if (number < 0 || number > size()) return Error::range;
-  if (size() >= options.capacity) return Error::buffer_full;
+  if (size() >= options.number(numbers("program_size"))) return Error::buffer_full;
   Checked checked = check(text, -1, options);
   if (checked.error != Error::none) return checked.error;
   const std::string label = checked.line.parsed.label;
@@ -97,7 +96,7 @@ Error Program::insert(int number, std::string_view text, const ProgramOptions& o
   return Error::none;
 }
 
-Error Program::replace(int number, std::string_view text, const ProgramOptions& options) {
+Error Program::replace(int number, std::string_view text, const Options& options) {
   if (number < 0 || number >= size()) return Error::range;
   Checked checked = check(text, number, options);
   if (checked.error != Error::none) return checked.error;
@@ -109,7 +108,7 @@ Error Program::replace(int number, std::string_view text, const ProgramOptions& 
   return Error::none;
 }
 
-Error Program::remove(int number, const ProgramOptions& options) {
+Error Program::remove(int number, const Options& options) {
   if (number < 0 || number >= size()) return Error::range;
   const std::string label = line(number).parsed.label;
   lines_.erase(lines_.begin() + number);
@@ -117,9 +116,9 @@ Error Program::remove(int number, const ProgramOptions& options) {
   return Error::none;
 }
 
-std::optional<int> Program::find(const Operand& address, const ProgramOptions& options) const {
+std::optional<int> Program::find(const Operand& address, const Options& options) const {
   if (address.kind == Operand::Kind::integer) {
-    const double line = address.number - options.first_number;
+    const double line = address.number - first_number(options);
     if (line < 0 || line >= size()) return std::nullopt;
     return static_cast<int>(line);
   }
@@ -129,11 +128,11 @@ std::optional<int> Program::find(const Operand& address, const ProgramOptions& o
   return std::nullopt;
 }
 
-std::vector<std::string> Program::listing(const ProgramOptions& options) const {
-  if (options.listing == ProgramOptions::Listing::bare) return texts();
+std::vector<std::string> Program::listing(const Options& options) const {
+  if (options.chose(option("listing", "text"))) return texts();
   std::vector<std::string> listed;
   for (int i = 0; i < size(); ++i) {
-    listed.push_back(std::to_string(i + options.first_number) + ": " + line(i).text);
+    listed.push_back(std::to_string(i + first_number(options)) + ": " + line(i).text);
   }
   return listed;
 }
@@ -150,7 +149,7 @@ std::vector<std::string> Program::texts() const {
   return texts;
 }
 
-bool Program::set_texts(const std::vector<std::string>& texts, const ProgramOptions& options) {
+bool Program::set_texts(const std::vector<std::string>& texts, const Options& options) {
   Program program;
   for (const std::string& text : texts) {
     if (program.insert(program.size(), text, options) != Error::none) return false;

@@ -3,49 +3,22 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "interpreter/slim/availability.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/error.h"
-#include "interpreter/slim/parse.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::interpreter::slim {
-
-/// Options about stored programs that the manual leaves open.
-struct ProgramOptions {
-  Dialect dialect = {};
-  Columns columns = {};
-  int capacity = 1000;   // lines
-  int first_number = 0;  // number of the first line, in addresses and in PE, PI, PD and PL
-  /// A line that no program can execute is refused when it is entered, or when it runs.
-  enum class Check : std::uint8_t { as_entered, as_run } check = Check::as_entered;
-  /// Checks a command as far as the machine can without its state, such as whether a parameter exists; null:
-  /// no check.
-  Error (*check_command)(const Command& command) = nullptr;
-  /// During entry, an empty line ends the editing, or is ignored.
-  enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
-  /// After a refused line, PE and PI wait for another line, or end.
-  enum class RefusedLine : std::uint8_t {
-    is_asked_for_again,
-    ends_pe_and_pi
-  } refused_line = RefusedLine::is_asked_for_again;
-  /// A line with the label of another line is refused, or only the first one is found.
-  enum class SameLabel : std::uint8_t { refused, first_counts } same_label = SameLabel::refused;
-  /// PL shows "0: MA 100", or the line alone.
-  enum class Listing : std::uint8_t { numbered, bare } listing = Listing::numbered;
-
-  bool operator==(const ProgramOptions&) const = default;
-};
 
 struct StoredLine {
   std::string text;  // as entered, without surrounding blanks
   ParsedLine parsed;
-  // With Check::as_run, the error with which the line fails when it is reached. It may have a label.
+  // If lines are checked when they run, the error with which the line fails when it is reached. It may have a
+  // label.
   Error error = Error::none;
 
   bool operator==(const StoredLine&) const = default;
@@ -59,27 +32,27 @@ class Program {
   /// `number` may be size(), to insert after the last line. insert() and replace() refuse the following, and
   /// change nothing: a line that does not parse, or is empty; a command that is not allowed in a program
   /// (not_allowed); a label of another line (address); a number that does not exist (range); more lines than
-  /// fit (buffer_full). With Check::as_run they refuse only empty lines, lines that are too long, and lines
+  /// fit (buffer_full). If checks_as_run(), they refuse only empty lines, lines that are too long, and lines
   /// that end a transfer; of several lines with the same label, the first one is valid and the others fail
   /// with `address`, in whatever order they were entered.
-  Error insert(int number, std::string_view text, const ProgramOptions& options = {});
-  Error replace(int number, std::string_view text, const ProgramOptions& options = {});
-  Error remove(int number, const ProgramOptions& options = {});
+  Error insert(int number, std::string_view text, const Options& options = {});
+  Error replace(int number, std::string_view text, const Options& options = {});
+  Error remove(int number, const Options& options = {});
   void clear() { lines_.clear(); }
 
   /// Returns the line to which an address (a label or a number) refers. Of two equal labels, the first one
   /// counts.
-  std::optional<int> find(const Operand& address, const ProgramOptions& options = {}) const;
+  std::optional<int> find(const Operand& address, const Options& options = {}) const;
 
   /// Returns the lines for `PL`.
-  std::vector<std::string> listing(const ProgramOptions& options = {}) const;
+  std::vector<std::string> listing(const Options& options = {}) const;
   /// Returns the lines for `ULP`: all lines, then END.
   std::vector<std::string> upload() const;
 
   /// Save and restore the program. set_texts() returns false for texts that no program can hold, and leaves
   /// the program unchanged.
   std::vector<std::string> texts() const;
-  bool set_texts(const std::vector<std::string>& texts, const ProgramOptions& options = {});
+  bool set_texts(const std::vector<std::string>& texts, const Options& options = {});
 
   bool operator==(const Program&) const = default;
 
@@ -89,10 +62,10 @@ class Program {
     Error error = Error::none;
     StoredLine line = {};
   };
-  Checked check(std::string_view text, int replaced, const ProgramOptions& options) const;
-  static Checked check_alone(std::string_view text, const ProgramOptions& options);
+  Checked check(std::string_view text, int replaced, const Options& options) const;
+  static Checked check_alone(std::string_view text, const Options& options);
   static Checked failing(Checked checked, std::string_view text);
-  void judge_label(const std::string& label, const ProgramOptions& options);
+  void judge_label(const std::string& label, const Options& options);
   std::vector<StoredLine> lines_;
 };
 

@@ -14,7 +14,7 @@
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/error.h"
-#include "interpreter/slim/parse.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {
@@ -32,8 +32,13 @@ constexpr Range kNoNegatives{0, std::numeric_limits<std::int32_t>::max()};
 constexpr Range kAnyReal{-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
 /// The range of an integer variable.
-constexpr Range integer_range(const Dialect& dialect) {
-  return {static_cast<double>(dialect.integer_min), kIntegerMax};
+constexpr Range integer_range(const Options& options) {
+  return {static_cast<double>(integer_min(options)), kIntegerMax};
+}
+
+/// Returns true if the value of a query is also a function: N0=PE, JG VM,R0,$A.
+constexpr bool takes_quantities(const Options& options) {
+  return options.chose(option("functions", "what_queries_show_too"));
 }
 
 constexpr bool is_constant(const Operand& operand) {
@@ -59,11 +64,11 @@ Error check_real(Operand& operand, Range range) {
 }
 
 /// Checks a constant, variable or function for a variable of one type.
-Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
+Error check_typed(Operand& operand, bool for_integer, const Options& options) {
   switch (operand.kind) {
     case Kind::integer:
     case Kind::real:
-      if (for_integer) return check_whole(operand, integer_range(dialect));
+      if (for_integer) return check_whole(operand, integer_range(options));
       return check_real(operand, kAnyReal);
     case Kind::integer_variable:
     case Kind::integer_array:
@@ -73,7 +78,7 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
     case Kind::get_real: return for_integer ? Error::syntax : Error::none;
     case Kind::analog:
     case Kind::clock: return Error::none;
-    case Kind::quantity: return dialect.quantities ? Error::none : Error::syntax;
+    case Kind::quantity: return takes_quantities(options) ? Error::none : Error::syntax;
     case Kind::port:
     case Kind::label:
     case Kind::text:
@@ -84,8 +89,9 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
 }
 
 /// Checks the value of an assignment. A real variable accepts integers too; a parameter accepts any number.
-Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
-  const bool is_number = is_constant(operand) || (operand.kind == Kind::quantity && dialect.quantities) ||
+Error check_data(Operand& operand, const Operand* target, const Options& options) {
+  const bool is_number = is_constant(operand) ||
+                         (operand.kind == Kind::quantity && takes_quantities(options)) ||
                          is_variable(operand.kind) || operand.kind == Kind::analog ||
                          operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
@@ -94,8 +100,8 @@ Error check_data(Operand& operand, const Operand* target, const Dialect& dialect
     operand.number = rounded_real(operand.number);
     return in_range(operand.number, kAnyReal);
   }
-  if (holds_integer(target->kind)) return check_typed(operand, true, dialect);
-  return is_constant(operand) ? check_typed(operand, false, dialect) : Error::none;
+  if (holds_integer(target->kind)) return check_typed(operand, true, options);
+  return is_constant(operand) ? check_typed(operand, false, options) : Error::none;
 }
 
 /// Adds an error. Syntax errors take precedence over range errors, because the values of an invalid command
@@ -108,8 +114,8 @@ void add_error(Error& sum, Error error) {
 class Matching {
  public:
   Matching(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
-           const Dialect& dialect)
-      : row_(row), items_(items), target_(target), dialect_(dialect) {}
+           const Options& options)
+      : row_(row), items_(items), target_(target), options_(options) {}
 
   Operands run() {
     for (const Slot slot : row_.slots) {
@@ -155,13 +161,7 @@ class Matching {
     const bool is_gap = operand.number > 5 && operand.number < 8;
     return error == Error::none && is_gap ? Error::range : error;
   }
-  Error real(Operand& operand, Range range) const {
-    const bool takes_variable =
-        row_.takes_module() && (row_.verb == Verb::move_absolute || row_.verb == Verb::move_relative) &&
-        dialect_.module_move_from_variable == Dialect::ModuleMoveFromVariable::accepted;
-    if (takes_variable && operand.kind == Kind::real_variable) return Error::none;
-    return check_real(operand, range);
-  }
+  Error real(Operand& operand, Range range) const { return check_real(operand, range); }
   Error real_variable(Operand& operand, Range /*any*/) const {
     return is(operand.kind == Kind::real_variable);
   }
@@ -176,7 +176,7 @@ class Matching {
   }
   Error event(Operand& operand, Range /*any*/) const {
     if (operand.kind != Kind::event) return Error::syntax;
-    return operand.index <= dialect_.event_count ? Error::none : Error::range;
+    return operand.index <= options_.number(numbers("events")) ? Error::none : Error::range;
   }
 
   // --- readers ---------------------------------------------------------------------------------
@@ -191,7 +191,7 @@ class Matching {
   /// The form of SAA is printed with Rx,Ry and fa,fz, and explained with four variables.
   bool is_printed_constant(Slot slot, const Operand& operand) const {
     return row_.verb == Verb::helix_absolute && slot == Slot::real_variable && is_constant(operand) &&
-           result_.operands.size() >= 2 && dialect_.helix_constants;
+           result_.operands.size() >= 2 && !options_.chose(option("helix_variables", "four_variables"));
   }
 
   Item next_item() {
@@ -218,7 +218,7 @@ class Matching {
     // The DATA command names the variable itself.
     const Operand* target = result_.operands.empty() ? target_ : &result_.operands.back();
     Item item = next_item();
-    if (item.error == Error::none) item.error = check_data(item.operand, target, dialect_);
+    if (item.error == Error::none) item.error = check_data(item.operand, target, options_);
     add(std::move(item));
   }
   void take_comparand(Slot /*slot*/) {
@@ -226,7 +226,7 @@ class Matching {
     if (items_.empty()) return add_error(result_.error, Error::syntax);
     const Item variable = parse_item(items_.front());
     const bool is_known = item.error == Error::none && variable.error == Error::none;
-    if (is_known) item.error = check_typed(item.operand, holds_integer(variable.operand.kind), dialect_);
+    if (is_known) item.error = check_typed(item.operand, holds_integer(variable.operand.kind), options_);
     add(std::move(item));
   }
   /// An event and its condition are separated by a blank, not by a comma.
@@ -273,7 +273,7 @@ class Matching {
   const CommandRow& row_;
   std::span<const std::string_view> items_;
   const Operand* target_;
-  const Dialect& dialect_;
+  const Options& options_;
   std::string_view condition_ = {};
   Operands result_ = {};
 };
@@ -324,8 +324,8 @@ static_assert(is_last<Slot::text>(), "rules must be in the order of Slot, one fo
 }  // namespace
 
 Operands match_slots(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
-                     const Dialect& dialect) {
-  return Matching(row, items, target, dialect).run();
+                     const Options& options) {
+  return Matching(row, items, target, options).run();
 }
 
 std::string_view condition_word(Condition condition) {

@@ -7,7 +7,7 @@
 
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/error.h"
-#include "interpreter/slim/parse.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::interpreter::slim {
 
@@ -19,7 +19,7 @@ struct Operands {
 /// Matches the items after a command's name with a row's slots. `target` is the target of an assignment, null
 /// for a parameter.
 Operands match_slots(const CommandRow& row, std::span<const std::string_view> items, const Operand* target,
-                     const Dialect& dialect);
+                     const Options& options);
 
 /// Returns the word for an event's condition: "NZ".
 std::string_view condition_word(Condition condition);

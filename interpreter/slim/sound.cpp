@@ -9,6 +9,7 @@
 #include "interpreter/slim/error.h"
 #include "interpreter/slim/events.h"
 #include "interpreter/slim/flow.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/parse.h"
 #include "interpreter/slim/program.h"
 #include "interpreter/slim/text_of.h"
@@ -17,13 +18,13 @@ namespace understudy::interpreter::slim {
 namespace {
 
 /// Returns true if the parser makes the same command from the command's text.
-bool reads_back(const Command& command, const Dialect& dialect) {
-  const ParseResult result = parse_line(text_of(command), dialect);
+bool reads_back(const Command& command, const Options& options) {
+  const ParseResult result = parse_line(text_of(command), options);
   return result.error == Error::none && result.line.command == command;
 }
 
-bool is_sound(const Event& event, int number, const Dialect& dialect) {
-  if (number > dialect.event_count && (event.has_condition || event.has_address)) return false;
+bool is_sound(const Event& event, int number, const Options& options) {
+  if ((event.has_condition || event.has_address) && number > options.number(numbers("events"))) return false;
   const Operand name{.kind = Operand::Kind::event, .index = number};
   if (event.has_condition) {
     Command command{.verb = Verb::set_event, .row = row_of("SET EVk cond"), .operands = {name}};
@@ -34,7 +35,7 @@ bool is_sound(const Event& event, int number, const Dialect& dialect) {
       // No condition contains these kinds, whose text needs a valid index.
       return operand.kind >= Operand::Kind::event && operand.kind != Operand::Kind::quantity;
     });
-    if (!has_known_kinds || !reads_back(command, dialect)) return false;
+    if (!has_known_kinds || !reads_back(command, options)) return false;
   }
   const bool is_address =
       event.address.kind == Operand::Kind::integer || event.address.kind == Operand::Kind::label;
@@ -64,9 +65,9 @@ bool is_sound(const Frame& frame, const Program& program) {
 
 }  // namespace
 
-bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options) {
+bool is_sound(const Execution& execution, const Program& program, const Options& options) {
   for (std::size_t i = 0; i < execution.events.size(); ++i) {
-    if (!is_sound(execution.events[i], static_cast<int>(i) + 1, options.program.dialect)) return false;
+    if (!is_sound(execution.events[i], static_cast<int>(i) + 1, options)) return false;
   }
   if (!execution.running) return execution.hold == Hold::nothing && execution.stack.empty();
   const bool is_line = execution.line >= 0 && execution.line < program.size();
@@ -74,7 +75,8 @@ bool is_sound(const Execution& execution, const Program& program, const FlowOpti
   const auto routines = std::ranges::count(execution.stack, true, &Frame::of_event);
   const auto calls = std::ranges::ssize(execution.stack) - routines;
   const auto is_sound_frame = [&](const Frame& frame) { return is_sound(frame, program); };
-  return routines <= 1 && calls <= options.call_depth && std::ranges::all_of(execution.stack, is_sound_frame);
+  return routines <= 1 && calls <= options.number(numbers("call_depth")) &&
+         std::ranges::all_of(execution.stack, is_sound_frame);
 }
 
 }  // namespace understudy::interpreter::slim

@@ -9,7 +9,7 @@
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/events.h"
 #include "interpreter/slim/flow.h"
-#include "interpreter/slim/parse.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 
 namespace understudy {
@@ -19,8 +19,12 @@ namespace lang = interpreter::slim;
 namespace {
 
 /// The options under which a program can hold everything that any device can hold.
-constexpr lang::ProgramOptions kAnyProgram{
-    .dialect = lang::kWidestDialect, .capacity = 4000, .check = lang::ProgramOptions::Check::as_run};
+constexpr lang::Options kAnyProgram = [] {
+  lang::Options options = lang::kWidestDialect;
+  options.choose(lang::option("program_size", "4000_lines"));
+  options.choose(lang::option("program_check", "when_it_runs"));
+  return options;
+}();
 
 }  // namespace
 

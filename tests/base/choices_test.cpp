@@ -57,5 +57,29 @@ TEST(Choices, AnUnknownOptionIsRefusedWithThoseThereAre) {
   }
 }
 
+constexpr ChoiceRow kLanguage[] = {
+    {"room", "1", "how much", "100_lines|25_lines|4", Confidence::proposal, "why"},
+    {"case", "1", "which", "upper|either", Confidence::proposal, "why"},
+};
+using Options = OptionsOf<kLanguage>;
+
+TEST(Choices, OptionsThatAreNumbersAreReadFromTheirNames) {
+  constexpr Options::Numbers kRoom = Options::numbers("room");
+  EXPECT_EQ(Options{}.number(kRoom), 100);
+  EXPECT_EQ(Options{Options::named("room", "25_lines")}.number(kRoom), 25);
+  EXPECT_EQ(Options{Options::named("room", "4")}.number(kRoom), 4);
+  EXPECT_ANY_THROW(Options::numbers("case"));
+}
+
+TEST(Choices, ALanguageNotesTheRowsThatItAsksFor) {
+  const std::vector<std::uint8_t> chosen{1, 1};
+  std::vector<std::uint8_t> asked{0, 0};
+  const Options options(chosen, asked.data());
+  EXPECT_TRUE(options.chose(Options::named("case", "either")));
+  EXPECT_EQ(asked, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(options.number(Options::numbers("room")), 25);
+  EXPECT_EQ(asked, (std::vector<std::uint8_t>{1, 1}));
+}
+
 }  // namespace choices_test
 }  // namespace understudy

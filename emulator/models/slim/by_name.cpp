@@ -34,7 +34,7 @@ const std::optional<lang::Command>& QueriesByName::query_of(const Setup& setup, 
   if (const auto known = queries_.find(name); known != queries_.end()) return known->second;
   if (queries_.size() >= kMax) queries_.clear();
   std::optional<lang::Command>& query = queries_[std::string(name)];
-  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), setup.of_programs().dialect);
+  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), setup.language);
   if (parsed.error != Error::none || !parsed.line.command) return query;
   const auto row = static_cast<std::size_t>(parsed.line.command->row);
   if (lang::kCommands[row].is_query()) query = std::move(parsed.line.command);
@@ -66,8 +66,8 @@ std::optional<std::string> assign_by_name(State& state, const Setup& setup, cons
   if (!(std::abs(value) <= std::numeric_limits<float>::max())) return "is out of range";
   const bool is_whole = value == std::trunc(value) && std::abs(value) < 1e15;
   const std::string beginning = std::string(name) + "=";
-  lang::ParseResult parsed = lang::parse_line(
-      beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), setup.of_programs().dialect);
+  lang::ParseResult parsed =
+      lang::parse_line(beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), setup.language);
   if (parsed.error == Error::none && parsed.line.command) {
     lang::Command& command = *parsed.line.command;
     if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {

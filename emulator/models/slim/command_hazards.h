@@ -14,6 +14,7 @@
 #include "emulator/device/register_map/hazards.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/commands.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/parse.h"
 
 namespace understudy::emulator::models::slim {

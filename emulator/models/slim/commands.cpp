@@ -341,15 +341,15 @@ struct Actions {
     State& state = order.state;
     const auto& operands = order.command.operands;
     return start(state.execution, state.program, operands.empty() ? nullptr : operands.data(),
-                 order.setup.flow);
+                 order.setup.language);
   }
   static Error define(Order& order) {
-    define_event(order.state.execution.events, order.command, order.setup.flow.events);
+    define_event(order.state.execution.events, order.command, order.setup.language);
     return Error::none;
   }
   static Error edit(Order& order) {
     State& state = order.state;
-    return begin_edit(state.editor, state.program, order.command, order.setup.of_programs());
+    return begin_edit(state.editor, state.program, order.command, order.setup.language);
   }
 
   static constexpr ActionRow kPrograms[] = {
@@ -361,7 +361,7 @@ struct Actions {
          return Error::none;
        })},
       {Verb::program_list, typed_only([](Order& o) {
-         o.lines = o.state.program.listing(o.setup.of_programs());
+         o.lines = o.state.program.listing(o.setup.language);
          return Error::none;
        })},
       {Verb::upload, typed_only([](Order& o) {

@@ -35,6 +35,7 @@
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/flow.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -143,7 +144,7 @@ void Slim::run_interpreters(Tick tick) {
   if (program_is_held(state_, setup_)) return;
   failed_module_ = 0;
   if (watch() != nullptr) watch()->program_loaded(mark_of(state_.program));
-  const Error error = step(state_.execution, tick, state_.program, setup_.flow, *this);
+  const Error error = step(state_.execution, tick, state_.program, setup_.language, *this);
   if (error == Error::none) return;
   // A program that fails repeatedly is faster than its line: errors for which the line has no room are only
   // stored.
@@ -163,12 +164,12 @@ Tick Slim::next_active_tick(Tick done) const {
   // A program that waits for the chain checks it in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),
-                  next_active_ms(state_.execution, done, state_.program, setup_.flow, *this));
+                  next_active_ms(state_.execution, done, state_.program, setup_.language, *this));
 }
 
 Tick Slim::next_event_tick(Tick done, Tick limit, const ClearTravel& ahead) const {
   // Values that a program and its events read change with motion.
-  const bool is_looked_at = state_.execution.running || !setup_.flow.events_need_program;
+  const bool is_looked_at = state_.execution.running || !lang::events_need_program(setup_.language);
   if (state_.touched || (is_looked_at && !program_is_held(state_, setup_))) return done + 1;
   const Tick next = state_.chain.next_event_tick(done, limit, ahead);
   return next > done + 1 && sees_something_new(state_, setup_) ? done + 1 : next;

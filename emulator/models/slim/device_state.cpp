@@ -13,6 +13,7 @@
 #include "emulator/models/slim/state_fields.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/flow.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy {
 
@@ -40,27 +41,27 @@ namespace understudy::emulator::models::slim {
 namespace {
 
 /// Checks programs with the chosen options; here they are compiled from their lines.
-void settle_programs(State& state, const lang::FlowOptions& options) {
+void settle_programs(State& state, const lang::Options& options) {
   const std::vector<std::string> texts = state.program.texts();
-  require_state(state.program.set_texts(texts, options.program), "a line is not a program command");
+  require_state(state.program.set_texts(texts, options), "a line is not a program command");
   lang::Program kept;
-  require_state(kept.set_texts(state.kept_program, options.program),
-                "a stored line is not a program command");
-  require_within(state.editor.line, 0, options.program.capacity);
-  require_within(state.execution.line, 0, options.program.capacity);
+  require_state(kept.set_texts(state.kept_program, options), "a stored line is not a program command");
+  const int capacity = options.number(lang::numbers("program_size"));
+  require_within(state.editor.line, 0, capacity);
+  require_within(state.execution.line, 0, capacity);
   require_state(is_sound(state.execution, state.program, options), "the program is in an impossible state");
 }
 
 }  // namespace
 
 void Slim::check_restored(State& restored) const {
-  settle_programs(restored, setup_.flow);
+  settle_programs(restored, setup_.language);
   // Further checks depend on this bench's choices.
   for (const Errors& errors : restored.errors) {
     require_state(errors.history.size() <= setup_.history_length(), "the error history is too long");
   }
   const auto check_integers = [&](const auto& integers) {
-    const int min = setup_.of_programs().dialect.integer_min;
+    const int min = lang::integer_min(setup_.language);
     for (const std::int16_t value : integers) require_within(value, min, lang::kIntegerMax);
   };
   for (const Memory* const memory : {&restored.ram, &restored.kept}) {

@@ -25,6 +25,7 @@
 #include "interpreter/slim/events.h"
 #include "interpreter/slim/flow.h"
 #include "interpreter/slim/machine.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/parse.h"
 
 namespace understudy::emulator::models::slim {
@@ -34,13 +35,13 @@ namespace {
 /// Returns true if a line that arrives while a program waits for a number is still a command: one that is
 /// allowed while a program runs, except queries.
 bool is_heard_instead_of_number(const Setup& setup, std::string_view line) {
-  const lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
+  const lang::ParseResult parsed = lang::parse_line(line, setup.language);
   if (!parsed.line.command) return false;
   const lang::Command& command = *parsed.line.command;
   if (command.verb == lang::Verb::exit) return !setup.chose(option("get_number_exit", "nothing"));
   const bool is_query = lang::kCommands[static_cast<std::size_t>(command.row)].is_query();
   return !setup.chose(option("lines_for_a_number", "numbers_only")) && !is_query &&
-         is_allowed(command, lang::Place::external, setup.of_programs().columns);
+         is_allowed(command, lang::Place::external, setup.language);
 }
 
 bool takes_for_number(const State& state, const Setup& setup, std::string_view line) {
@@ -54,7 +55,7 @@ Error execute(State& state, const Setup& setup, const lang::Machine& machine, la
   const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
     return operand.kind == lang::Operand::Kind::quantity;
   });
-  if (has_quantity && setup.of_programs().check_command(command) != Error::none) return Error::syntax;
+  if (has_quantity && setup.language.check_command(command) != Error::none) return Error::syntax;
   if (lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) {
     Answer answer;
     const Error error = query(state, setup, command, answer);
@@ -73,7 +74,7 @@ Error execute(State& state, const Setup& setup, const lang::Machine& machine, la
 
 /// Executes a command, sends its result, and returns its error.
 Error receive_command(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
-  lang::ParseResult parsed = lang::parse_line(line, setup.of_programs().dialect);
+  lang::ParseResult parsed = lang::parse_line(line, setup.language);
   if (parsed.error == Error::none && !parsed.line.command) {
     // A label belongs in a program.
     if (parsed.line.label.empty()) return Error::none;
@@ -88,7 +89,7 @@ Error receive_command(State& state, const Setup& setup, const lang::Machine& mac
 
   lang::Command& command = *parsed.line.command;
   const lang::Place place = state.execution.running ? lang::Place::external : lang::Place::immediate;
-  if (!is_allowed(command, place, setup.of_programs().columns)) {
+  if (!is_allowed(command, place, setup.language)) {
     fail(state, setup, 0, Error::not_allowed);
     return Error::not_allowed;
   }
@@ -108,7 +109,7 @@ Error receive_command(State& state, const Setup& setup, const lang::Machine& mac
 
 TextRules text_rules(const Setup& setup) {
   return {.echo = setup.chose(option("echo", "on")),
-          .longest_line = setup.of_programs().dialect.longest_line,
+          .longest_line = lang::longest_line(setup.language),
           .line_feed_ends = !setup.chose(option("line_end", "cr_alone")),
           .has_flow_control = setup.chose(option("flow_control", "xon_xoff")),
           .echoed_end = setup.line_end()};
@@ -116,14 +117,14 @@ TextRules text_rules(const Setup& setup) {
 
 void receive_line(State& state, const Setup& setup, const lang::Machine& machine, std::string_view line) {
   if (is_editing(state.editor)) {
-    const Error error = enter_line(state.editor, state.program, line, setup.of_programs());
+    const Error error = enter_line(state.editor, state.program, line, setup.language);
     if (error != Error::none) {
       fail(state, setup, 0, error);
     } else {
       acknowledge(state, setup);
     }
   } else if (takes_for_number(state, setup, line)) {
-    const Error error = give_number(state.execution, state.program, line, setup.of_programs().dialect);
+    const Error error = give_number(state.execution, state.program, line, setup.language);
     if (error != Error::none) fail(state, setup, 0, error);
   } else {
     receive_command(state, setup, machine, line);

@@ -14,6 +14,7 @@
 #include "emulator/models/slim/motor/module.h"
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 
 namespace understudy::emulator::models::slim {
@@ -32,13 +33,13 @@ void read_image(State& state, const Setup& setup, const NvImage& given) {
   NvImage image = given;
   const std::array<Errors, kModules> errors = read_history(setup, image);
   Memory memory = read_image(image, setup.factory(), setup.memory_form());
-  const auto capacity = static_cast<std::size_t>(setup.of_programs().capacity);
+  const auto capacity = static_cast<std::size_t>(setup.language.number(lang::numbers("program_size")));
   if (image.program.size() > capacity) {
     throw NvError("program: has " + std::to_string(image.program.size()) + " lines; expected at most " +
                   std::to_string(capacity));
   }
   lang::Program program;
-  if (!program.set_texts(image.program, setup.of_programs())) {
+  if (!program.set_texts(image.program, setup.language)) {
     throw NvError(
         "program: contains a line that is not a program command; expected lines in the form that ULP prints");
   }

@@ -42,7 +42,7 @@ int fail(State& state, const Setup& setup, int module, Error error) {
 
 void conclude(State& state, const Setup& setup) {
   if (!setup.chose(option("prompt", "greater_than"))) return;
-  if (const auto number = next_line_number(state.editor, state.program, setup.of_programs())) {
+  if (const auto number = next_line_number(state.editor, state.program, setup.language)) {
     state.output += std::to_string(*number);
   }
   state.output += ">";

@@ -21,7 +21,7 @@ void power_up(State& state, const Setup& setup) {
   state.chain = Chain(setup.options);
   state.chain.skip_to(setup.now());
   state.program.clear();
-  state.program.set_texts(state.kept_program, setup.of_programs());
+  state.program.set_texts(state.kept_program, setup.language);
   state.powered_at = setup.now();
   state.clock_zero = setup.now();
   state.touched = true;

@@ -21,6 +21,7 @@
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
 #include "interpreter/slim/flow.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/program.h"
 #include "interpreter/slim/unknown_line.h"
 #include "interpreter/slim/verbs.h"
@@ -42,12 +43,12 @@ ReadProgram read_program(const Setup& setup, std::string_view text) {
     const std::size_t first = line.find_first_not_of(" \t");
     // Files may have empty lines and comments.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
-    const Error error = read.program.insert(read.program.size(), line, setup.of_programs());
+    const Error error = read.program.insert(read.program.size(), line, setup.language);
     if (error == Error::none) {
       read.text_lines.push_back(number);
       continue;
     }
-    const std::string lines_that_fit = std::to_string(setup.of_programs().capacity);
+    const std::string lines_that_fit = std::to_string(setup.language.number(lang::numbers("program_size")));
     const std::string what =
         error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
         : error == Error::range       ? "has a value out of range"

@@ -30,9 +30,8 @@
 #include "emulator/models/slim/rules/chain_options.h"
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/rules/options.h"
-#include "interpreter/slim/availability.h"
-#include "interpreter/slim/flow.h"
-#include "interpreter/slim/program.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -53,11 +52,10 @@ struct Setup {
   const Device& device;
   const int modules;  // this many are linked in the factory settings
   const ChainOptions options;
-  const lang::FlowOptions flow;
+  const lang::Options language;
 
   bool chose(const Option& option) const { return options.chose(option); }
   int number(std::size_t row) const { return options.number(row); }
-  const lang::ProgramOptions& of_programs() const { return flow.program; }
   Tick now() const { return device.now(); }
   std::int32_t input(int module, int which) const { return device.input(terminal(module, which)); }
   bool level(int module, int which) const { return input(module, which) != 0; }

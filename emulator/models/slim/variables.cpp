@@ -14,6 +14,7 @@
 #include "emulator/models/slim/state.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
+#include "interpreter/slim/options.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -49,7 +50,7 @@ Error set_variable(State& state, const Setup& setup, const lang::Operand& variab
   if (variable.kind == Kind::clock) return set_parameter(state, setup, 0, "TM", value);
   if (!std::isfinite(value)) return Error::range;
   if (holds_integer(variable.kind)) {
-    if (value < setup.of_programs().dialect.integer_min || value > lang::kIntegerMax) return Error::range;
+    if (value < lang::integer_min(setup.language) || value > lang::kIntegerMax) return Error::range;
     if (value != std::trunc(value)) return Error::range;
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;

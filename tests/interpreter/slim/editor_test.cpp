@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "interpreter/slim/parse.h"
+
 namespace understudy::interpreter::slim {
 namespace editor_test {
 

@@ -6,8 +6,6 @@
 namespace understudy::interpreter::slim {
 namespace events_test {
 
-using InterruptedTimer = FlowOptions::InterruptedTimer;
-
 /// Lines 0 and 1 define the event, so the line that waits runs from 3 ms on.
 std::vector<std::string> interrupted(const std::string& waiting) {
   return {"SET EV1 I,8", "ON EV1,$PPZ", waiting, "SET P1", "RET", "$PPZ ISET P4", "RET"};
@@ -24,7 +22,7 @@ TEST(SlimEvents, InterruptAWaitForTimeWhichBeginsAgain) {
 }
 
 TEST(SlimEvents, InterruptAWaitForTimeThatMayContinueByChoice) {
-  ProgramRun run(interrupted("WT 100"), {.interrupted_timer = InterruptedTimer::continues});
+  ProgramRun run(interrupted("WT 100"), {option("interrupted_wait", "have_gone_on")});
   run.begin();
   run.until(49);
   run.machine.inputs = {8};
@@ -74,7 +72,7 @@ TEST(SlimEvents, InterruptATimedJump) {
   // JTI at 3, event at 50, RET at 51, JTI again at 52: it checks until 152, then SET P1 at 153.
   EXPECT_EQ(again.machine.log, (Log{"50 ISET P4", "153 SET P1"}));
 
-  ProgramRun continues(interrupted("JTI 1,100,$PPZ"), {.interrupted_timer = InterruptedTimer::continues});
+  ProgramRun continues(interrupted("JTI 1,100,$PPZ"), {option("interrupted_wait", "have_gone_on")});
   continues.begin();
   continues.until(49);
   continues.machine.inputs = {8};
@@ -124,7 +122,7 @@ TEST(SlimEvents, AreHeldUntilReturnAndTheLowestComesFirst) {
   run.until(100);
   EXPECT_EQ(run.machine.log, (Log{"70 ISET P2", "72 ISET P1", "74 ISET P3"}));
 
-  ProgramRun dropping(lines, {.events = {.held = EventOptions::Held::is_dropped}});
+  ProgramRun dropping(lines, {option("held_event", "is_dropped")});
   dropping.begin();
   dropping.until(49);
   dropping.machine.inputs = {2};
@@ -158,9 +156,8 @@ TEST(SlimEvents, KnowAllConditions) {
 
 TEST(SlimEvents, FireAtOnceOrAwaitAChangeIfTheConditionAlreadyHolds) {
   for (const bool waits : {false, true}) {
-    using AtArming = EventOptions::AtArming;
-    ProgramRun run(interrupted("WT 1000"),
-                   {.events = {.at_arming = waits ? AtArming::waits_for_change : AtArming::fires}});
+    ProgramRun run(interrupted("WT 1000"), waits ? Options{option("event_at_arming", "waits_for_a_change")}
+                                                 : Options{option("event_at_arming", "fires")});
     run.machine.inputs = {8};
     run.begin();
     run.until(100);
@@ -171,7 +168,7 @@ TEST(SlimEvents, FireAtOnceOrAwaitAChangeIfTheConditionAlreadyHolds) {
 TEST(SlimEvents, DefinedByHandOutliveThePrograms) {
   ProgramRun run({"WT 50", "RET", "$PPZ ISET P4", "RET"});
   for (const std::string line : {"SET EV1 I,8", "ON EV1,$PPZ"}) {
-    define_event(run.execution.events, *parse_line(line).line.command, run.options.events);
+    define_event(run.execution.events, *parse_line(line).line.command, run.options);
   }
   run.machine.inputs = {8};
   for (const std::int64_t begun_ms : {0, 200}) {
@@ -184,8 +181,9 @@ TEST(SlimEvents, DefinedByHandOutliveThePrograms) {
 }
 
 TEST(SlimEvents, ARoutineHasRoomOnAFullStack) {
-  ProgramRun run({"SET EV1 I,8", "ON EV1,$PPZ", "CALL $A", "$A WT 1000", "$PPZ ISET P4", "RET"},
-                 {.call_depth = 1});
+  ProgramRun run({"SET EV1 I,8", "ON EV1,$PPZ", "CALL $A", "$A CALL $B", "$B CALL $C", "$C CALL $D",
+                  "$D WT 1000", "$PPZ ISET P4", "RET"},
+                 {option("call_depth", "4")});
   run.begin();
   run.until(49);
   run.machine.inputs = {8};

@@ -19,16 +19,17 @@ TEST(SlimFlow, OneLineATickUntilTheEnd) {
 }
 
 TEST(SlimFlow, SeveralLinesATickWhereTheyAreAskedFor) {
-  ProgramRun run({"SET P1", "SET P2", "SET P3", "WT 1", "SET P4"}, {.lines_per_tick = 3});
+  ProgramRun run({"SET P1", "SET P2", "SET P3", "SET P4", "WT 1", "CLR P1"},
+                 {option("lines_a_tick", "four_a_millisecond")});
   run.begin();
   run.until(10);
-  // Three lines, then WT 1 at 2 ms, and what follows 1 ms later.
-  EXPECT_EQ(run.machine.log, (Log{"1 SET P1", "1 SET P2", "1 SET P3", "3 SET P4"}));
+  // Four lines, then WT 1 at 2 ms, and what follows 1 ms later.
+  EXPECT_EQ(run.machine.log, (Log{"1 SET P1", "1 SET P2", "1 SET P3", "1 SET P4", "3 CLR P1"}));
 }
 
 TEST(SlimFlow, StartsAtALineOrALabel) {
   const std::vector<std::string> lines{"SET P1", "$B SET P2", "$b SET P3", "SET P4"};
-  const FlowOptions first_counts{.program = {.same_label = ProgramOptions::SameLabel::first_counts}};
+  const Options first_counts{option("same_label", "the_first_counts")};
   ProgramRun at_line(lines, first_counts);
   EXPECT_EQ(at_line.begin("3"), Error::none);
   at_line.until(3);
@@ -171,10 +172,10 @@ TEST(SlimFlow, CallsAreSixteenDeep) {
   EXPECT_EQ(run.machine.log.size(), 17u);
   EXPECT_EQ(run.execution.ending, Ending::failed);
   EXPECT_EQ(run.execution.error, Error::address);
-  ProgramRun shallow({"$A SET P1", "CALL $A"}, {.call_depth = 2});
+  ProgramRun shallow({"$A SET P1", "CALL $A"}, {option("call_depth", "4")});
   shallow.begin();
   shallow.until(100);
-  EXPECT_EQ(shallow.machine.log.size(), 3u);
+  EXPECT_EQ(shallow.machine.log.size(), 5u);
 }
 
 TEST(SlimFlow, ACallInTheLastLineReturnsBehindIt) {
@@ -196,7 +197,7 @@ TEST(SlimFlow, ALineThatTheMachineRefusesEndsTheProgramOrIsPassed) {
   EXPECT_EQ(ends.errors, std::vector{Error::not_linked});
   EXPECT_TRUE(ends.machine.log.empty());
 
-  ProgramRun passes(lines, {.failed_line = FlowOptions::FailedLine::is_passed});
+  ProgramRun passes(lines, {option("failed_line", "is_passed_over")});
   passes.machine.refusals = ends.machine.refusals;
   passes.begin();
   passes.until(5);

@@ -45,9 +45,10 @@ TEST(SlimMachine, InItsMainLineAProgramHasNothingToForget) {
 }
 
 TEST(SlimEvents, MayRunTheirRoutineWithoutAProgram) {
-  ProgramRun run({"SET P1", "RET", "$E SET P2", "RET"}, {.events_need_program = false});
+  ProgramRun run({"SET P1", "RET", "$E SET P2", "RET"},
+                 {option("events_without_program", "run_their_routine")});
   const auto define = [&](std::string_view line) {
-    define_event(run.execution.events, *parse_line(line).line.command, run.options.events);
+    define_event(run.execution.events, *parse_line(line).line.command, run.options);
   };
   define("SET EV1 I,1");
   define("ON EV1,$E");
@@ -70,15 +71,15 @@ TEST(SlimEvents, MayRunTheirRoutineWithoutAProgram) {
 }
 
 TEST(SlimFlow, ABareNumberMayHaveAVariable) {
-  for (const auto bare : {FlowOptions::BareNumber::is_dropped, FlowOptions::BareNumber::into_n0_or_r0}) {
-    ProgramRun run({"GETI", "GETR", "SET P1"}, {.bare_number = bare});
+  for (const bool has : {false, true}) {
+    ProgramRun run({"GETI", "GETR", "SET P1"}, has ? Options{option("bare_number", "into_n0_or_r0")}
+                                                   : Options{option("bare_number", "nowhere")});
     run.begin();
     run.until(5);
     EXPECT_EQ(give_number(run.execution, run.program, "17"), Error::none);
     run.until(10);
     EXPECT_EQ(give_number(run.execution, run.program, "2.5"), Error::none);
     run.until(20);
-    const bool has = bare == FlowOptions::BareNumber::into_n0_or_r0;
     EXPECT_EQ(run.machine.variables, (has ? std::map<std::string, double>{{"N0", 17}, {"R0", 2.5}}
                                           : std::map<std::string, double>{}));
     EXPECT_EQ(run.machine.log.back(), "12 SET P1");
@@ -86,7 +87,7 @@ TEST(SlimFlow, ABareNumberMayHaveAVariable) {
 }
 
 TEST(SlimProgram, AMachineChecksLinesAsTheyAreEntered) {
-  ProgramOptions options;
+  Options options;
   options.check_command = [](const Command& command) {
     return command.verb == Verb::set_parameter && command.name == "FOO" ? Error::syntax : Error::none;
   };
@@ -94,7 +95,7 @@ TEST(SlimProgram, AMachineChecksLinesAsTheyAreEntered) {
   EXPECT_EQ(program.insert(0, "FOO=5", options), Error::syntax);
   EXPECT_EQ(program.insert(0, "PR3=5", options), Error::none);
   EXPECT_EQ(program.replace(0, "FOO=5", options), Error::syntax);
-  options.check = ProgramOptions::Check::as_run;
+  options.choose(option("program_check", "when_it_runs"));
   EXPECT_EQ(program.insert(1, "$A FOO=5", options), Error::none);
   EXPECT_EQ(program.line(1).error, Error::syntax);
   EXPECT_EQ(program.line(1).parsed.label, "A");

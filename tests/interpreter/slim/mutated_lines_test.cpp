@@ -67,7 +67,7 @@ TEST(SlimMutatedLines, AreRefusedOrReadBack) {
 TEST(SlimMutatedLines, MakeProgramsThatComeToNoHarm) {
   Dice dice(60);
   for (int i = 0; i < 300; ++i) {
-    ProgramRun run({"SET EV1 I,1", "ON EV1,0"}, {.failed_line = FlowOptions::FailedLine::is_passed});
+    ProgramRun run({"SET EV1 I,1", "ON EV1,0"}, {option("failed_line", "is_passed_over")});
     for (int line = 0; line < 30; ++line) {
       const std::string text = dice.below(3) == 0 ? "JP " + std::to_string(dice.below(30)) : mutated(dice);
       run.program.insert(run.program.size(), text);

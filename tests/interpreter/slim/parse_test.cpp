@@ -10,8 +10,8 @@
 namespace understudy::interpreter::slim {
 namespace parse_test {
 
-Command command_of(std::string_view text, const Dialect& dialect = {}) {
-  const ParseResult result = parse_line(text, dialect);
+Command command_of(std::string_view text) {
+  const ParseResult result = parse_line(text);
   EXPECT_EQ(result.error, Error::none) << text;
   EXPECT_TRUE(result.line.command) << text;
   return result.line.command.value_or(Command{});
@@ -164,7 +164,7 @@ TEST(SlimParse, TextsKeepTheirCapitalsAndSigns) {
 TEST(SlimParse, EmptyLongAndForeignLines) {
   EXPECT_EQ(parse_line("").error, Error::none);
   EXPECT_EQ(parse_line(" \t ").line, ParsedLine{});
-  const std::string text = "OUT \"" + std::string(kLineLength - 6, 'x') + "\"";
+  const std::string text = "OUT \"" + std::string(121, 'x') + "\"";
   ASSERT_EQ(text.size(), 127u);
   EXPECT_EQ(parse_line(text).error, Error::none);
   EXPECT_EQ(parse_line(text + " ").error, Error::syntax);
@@ -174,14 +174,6 @@ TEST(SlimParse, EmptyLongAndForeignLines) {
     EXPECT_EQ(parse_line(wrong).error, Error::syntax) << wrong;
   }
   EXPECT_EQ(parse_line(std::string_view("MA\0 5", 5)).error, Error::syntax);
-}
-
-TEST(SlimParse, AModuleMovesFromAVariableWhereThatIsChosen) {
-  const Dialect dialect{.module_move_from_variable = Dialect::ModuleMoveFromVariable::accepted};
-  EXPECT_EQ(parse_line("T1MA R0").error, Error::syntax);
-  const Command command = command_of("T1MA R0", dialect);
-  EXPECT_EQ(command.operands[0].kind, Operand::Kind::real_variable);
-  EXPECT_EQ(parse_line("T1CS R0", dialect).error, Error::syntax);
 }
 
 struct PlaceCase {
@@ -226,13 +218,13 @@ TEST(SlimAvailability, ByPlace) {
     EXPECT_EQ(is_allowed(command, Place::immediate), each.immediate) << each.text;
     EXPECT_EQ(is_allowed(command, Place::external), each.external) << each.text;
   }
-  const Columns strict{.external = Columns::External::strict};
+  const Options strict{option("while_program_runs", "external_column_only")};
   EXPECT_TRUE(is_allowed(command_of("EXIT"), Place::external, strict));  // or nothing could end a program
   for (const std::string_view text : {"TAREDO", "?PE", "ISET P1"}) {
     EXPECT_FALSE(is_allowed(command_of(text), Place::external, strict)) << text;
   }
   EXPECT_TRUE(is_allowed(command_of("TAPZ"), Place::external, strict));
-  const Columns typed{.variable_forms = Columns::VariableForms::typed_too};
+  const Options typed{option("immediate_column", "taken")};
   EXPECT_TRUE(is_allowed(command_of("2MR R1,R2"), Place::immediate, typed));
   EXPECT_FALSE(is_allowed(command_of("XDN"), Place::immediate, typed));
 }

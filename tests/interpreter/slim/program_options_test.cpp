@@ -2,6 +2,9 @@
 // refused when a line is entered.
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "interpreter/slim/availability.h"
 #include "interpreter/slim/editor.h"
 #include "tests/interpreter/slim/scripted_machine.h"
 
@@ -15,7 +18,7 @@ Lines interrupted(const std::string& waiting) {
   return {"SET EV1 I,8", "ON EV1,$PPZ", waiting, "SET P1", "RET", "$PPZ ISET P4", "RET"};
 }
 
-Error edit(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options) {
+Error edit(Editor& editor, Program& program, std::string_view text, const Options& options) {
   if (is_editing(editor)) return enter_line(editor, program, text, options);
   const ParseResult result = parse_line(text);
   EXPECT_EQ(result.error, Error::none) << text;
@@ -23,14 +26,14 @@ Error edit(Editor& editor, Program& program, std::string_view text, const Progra
 }
 
 TEST(SlimProgramOptions, FourLinesATick) {
-  ProgramRun run({"$A SET P1", "JP $A"}, {.lines_per_tick = 4});
+  ProgramRun run({"$A SET P1", "JP $A"}, {option("lines_a_tick", "four_a_millisecond")});
   run.begin();
   run.until(2);
   EXPECT_EQ(run.machine.log, (Log{"1 SET P1", "1 SET P1", "2 SET P1", "2 SET P1"}));
 
   // A line that waits is the last of its tick, and so is one that fails.
   ProgramRun waits({"SET P1", "WI 1", "SET P2", "T3MA 5", "SET P3", "N0=GETI", "SET P4"},
-                   {.lines_per_tick = 4, .failed_line = FlowOptions::FailedLine::is_passed});
+                   {option("lines_a_tick", "four_a_millisecond"), option("failed_line", "is_passed_over")});
   waits.machine.refusals = {{"T3MA 5.0", Error::not_linked}};
   waits.begin();
   waits.until(9);
@@ -46,7 +49,7 @@ TEST(SlimProgramOptions, FourLinesATick) {
 
 /// Lines at 4, 8, 12 ...
 TEST(SlimProgramOptions, OneLineInFourTicks) {
-  const FlowOptions slow{.lines_every_ms = 4};
+  const Options slow{option("lines_a_tick", "one_in_4_milliseconds")};
   ProgramRun timed({"SET P1", "WT 5", "SET P2", "WT 4", "SET P3"}, slow);
   timed.begin();
   timed.until(30);
@@ -75,7 +78,7 @@ TEST(SlimProgramOptions, OneLineInFourTicks) {
 }
 
 TEST(SlimProgramOptions, SlowLinesMissNoEvent) {
-  ProgramRun run(interrupted("WT 1000"), {.lines_every_ms = 4});
+  ProgramRun run(interrupted("WT 1000"), {option("lines_a_tick", "one_in_4_milliseconds")});
   run.begin();
   run.until(48);
   run.machine.inputs = {8};  // seen only at 49
@@ -86,8 +89,9 @@ TEST(SlimProgramOptions, SlowLinesMissNoEvent) {
 }
 
 TEST(SlimProgramOptions, EventsLookedAtInEachFourthTick) {
-  for (const int every_ms : {1, 4}) {
-    ProgramRun run(interrupted("WT 1000"), {.events = {.check_interval_ms = every_ms}});
+  for (const auto& every_ms :
+       {option("event_check", "each_millisecond"), option("event_check", "each_4_milliseconds")}) {
+    ProgramRun run(interrupted("WT 1000"), {every_ms});
     run.begin();
     run.until(48);
     run.machine.inputs = {8};  // at 49, 50 and 51
@@ -96,14 +100,14 @@ TEST(SlimProgramOptions, EventsLookedAtInEachFourthTick) {
     run.until(60);
     run.machine.inputs = {8};  // from 61 on
     run.until(80);
-    EXPECT_EQ(run.machine.log, (every_ms == 1 ? Log{"49 ISET P4", "61 ISET P4"} : Log{"64 ISET P4"}));
+    EXPECT_EQ(run.machine.log, (every_ms.number == 0 ? Log{"49 ISET P4", "61 ISET P4"} : Log{"64 ISET P4"}));
   }
 }
 
 /// A line that checks its input itself still sees it in each tick.
 TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   ProgramRun run({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "WI 1", "SET P1", "RET", "$E SET P2", "RET"},
-                 {.events = {.check_interval_ms = 4}});
+                 {option("event_check", "each_4_milliseconds")});
   run.begin();
   run.until(20);
   run.machine.inputs = {1};
@@ -113,7 +117,8 @@ TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
   EXPECT_EQ(run.machine.log, (Log{"22 SET P1"}));
 
   // A condition that cannot be tested is detected at a check.
-  ProgramRun wrong({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "$E WT 1000"}, {.events = {.check_interval_ms = 4}});
+  ProgramRun wrong({"SET EV1 NZ,NS(N0)", "ON EV1,$E", "$E WT 1000"},
+                   {option("event_check", "each_4_milliseconds")});
   wrong.begin();
   wrong.until(20);
   wrong.machine.variables["N0"] = 2001;
@@ -125,12 +130,13 @@ TEST(SlimProgramOptions, RareLooksAreThoseOfEventsOnly) {
 
 TEST(SlimProgramOptions, TimedJumpsInFourMilliseconds) {
   // At 1: until 1 + 10 x 4 = 41. WT stays in milliseconds.
-  ProgramRun late({"JTI 2,10,$A", "SET P1", "WT 10", "SET P3", "RET", "$A SET P2"}, {.window_unit_ms = 4});
+  ProgramRun late({"JTI 2,10,$A", "SET P1", "WT 10", "SET P3", "RET", "$A SET P2"},
+                  {option("time_unit", "4_milliseconds")});
   late.begin();
   late.until(70);
   EXPECT_EQ(late.machine.log, (Log{"42 SET P1", "53 SET P3"}));
 
-  ProgramRun in_time({"JTI 2,10,$A", "SET P1", "RET", "$A SET P2"}, {.window_unit_ms = 4});
+  ProgramRun in_time({"JTI 2,10,$A", "SET P1", "RET", "$A SET P2"}, {option("time_unit", "4_milliseconds")});
   in_time.begin();
   in_time.until(40);
   in_time.machine.inputs = {2};
@@ -139,7 +145,7 @@ TEST(SlimProgramOptions, TimedJumpsInFourMilliseconds) {
 }
 
 TEST(SlimProgramOptions, FewerEvents) {
-  const Dialect four{.event_count = 4};
+  const Options four{option("events", "4_with_the_conditions_of_jumps")};
   for (const std::string_view line : {"SET EV5 I,1", "ON EV5,$A", "SET EV8 NZ,N0", "ON EV8,3"}) {
     EXPECT_EQ(parse_line(line).error, Error::none) << line;
     EXPECT_EQ(parse_line(line, four).error, Error::range) << line;
@@ -155,11 +161,11 @@ TEST(SlimProgramOptions, FewerEvents) {
   run.begin();
   run.until(2);
   EXPECT_TRUE(is_sound(run.execution, run.program, run.options));
-  EXPECT_FALSE(is_sound(run.execution, run.program, {.program = {.dialect = four}}));
+  EXPECT_FALSE(is_sound(run.execution, run.program, four));
 }
 
 TEST(SlimProgramOptions, LinesNumberedFromOne) {
-  const ProgramOptions options{.first_number = 1};
+  const Options options{option("addresses", "line_number_from_1")};
   Editor editor;
   Program program;
   const auto give = [&](std::string_view text) { return edit(editor, program, text, options); };
@@ -194,7 +200,7 @@ TEST(SlimProgramOptions, LinesNumberedFromOne) {
 }
 
 TEST(SlimProgramOptions, EveryAddressCountsFromOne) {
-  const FlowOptions options{.program = {.first_number = 1}};
+  const Options options{option("addresses", "line_number_from_1")};
   // Each goes to line 4, which is the last one.
   for (const std::string line : {"JP 4", "CALL 4", "JI 3,4", "JZ N0,4", "JTI 3,5,4", "JE 0,N0,4"}) {
     ProgramRun run({line, "SET P2", "RET", "SET P4"}, options);
@@ -220,7 +226,7 @@ TEST(SlimProgramOptions, EveryAddressCountsFromOne) {
 }
 
 TEST(SlimProgramOptions, LinesCheckedAsTheyRun) {
-  const FlowOptions late{.program = {.check = ProgramOptions::Check::as_run}};
+  const Options late{option("program_check", "when_it_runs")};
   const Lines lines{"SET P1", "NONSENSE", "SET P5", "?PE", "G", "SET P2"};
   ProgramRun ends(lines, late);
   EXPECT_EQ(ends.program.texts(), lines);
@@ -231,8 +237,7 @@ TEST(SlimProgramOptions, LinesCheckedAsTheyRun) {
   EXPECT_EQ(ends.execution.error, Error::syntax);
   EXPECT_EQ(ends.execution.line, 1);
 
-  FlowOptions passing = late;
-  passing.failed_line = FlowOptions::FailedLine::is_passed;
+  const Options passing{option("program_check", "when_it_runs"), option("failed_line", "is_passed_over")};
   ProgramRun passes(lines, passing);
   passes.begin();
   passes.until(10);
@@ -251,13 +256,13 @@ TEST(SlimProgramOptions, LinesCheckedAsTheyRun) {
 }
 
 TEST(SlimProgramOptions, WhatIsNoLineAtAllIsRefusedAsItIsEntered) {
-  const ProgramOptions options{.check = ProgramOptions::Check::as_run};
+  const Options options{option("program_check", "when_it_runs")};
   Editor editor;
   Program program;
   const auto give = [&](std::string_view text) { return edit(editor, program, text, options); };
   for (const std::string_view line : {"PG", "one", "two"}) EXPECT_EQ(give(line), Error::none);
   EXPECT_EQ(give("END"), Error::syntax);  // it would end a download
-  EXPECT_EQ(give(std::string(kLineLength + 1, 'x')), Error::syntax);
+  EXPECT_EQ(give(std::string(128, 'x')), Error::syntax);
   EXPECT_EQ(give(""), Error::none);
   EXPECT_FALSE(is_editing(editor));
   EXPECT_EQ(program.texts(), (Lines{"one", "two"}));
@@ -277,41 +282,41 @@ TEST(SlimProgramOptions, WhatIsNoLineAtAllIsRefusedAsItIsEntered) {
 
 // Whichever was entered first: a saved program is read from its first line to its last.
 TEST(SlimProgramOptions, OfLinesWithOneLabelTheFirstIsGood) {
-  const ProgramOptions options{.check = ProgramOptions::Check::as_run};
+  const Options options{option("program_check", "when_it_runs")};
   const struct {
     const char* what;
-    Error (*change)(Program& program, const ProgramOptions& options);
+    Error (*change)(Program& program, const Options& options);
     Lines lines;
     std::vector<Error> errors;
   } kCases[] = {
       {"entered behind another",
-       [](Program& program, const ProgramOptions& with) { return program.insert(1, "$A SET P2", with); },
+       [](Program& program, const Options& with) { return program.insert(1, "$A SET P2", with); },
        {"$A SET P1", "$A SET P2", "DN"},
        {Error::none, Error::address, Error::none}},
       {"entered before another",
-       [](Program& program, const ProgramOptions& with) { return program.insert(0, "$A SET P2", with); },
+       [](Program& program, const Options& with) { return program.insert(0, "$A SET P2", with); },
        {"$A SET P2", "$A SET P1", "DN"},
        {Error::none, Error::address, Error::none}},
       {"the first is deleted",
-       [](Program& program, const ProgramOptions& with) {
+       [](Program& program, const Options& with) {
          EXPECT_EQ(program.insert(1, "$A SET P2", with), Error::none);
          return program.remove(0, with);
        },
        {"$A SET P2", "DN"},
        {Error::none, Error::none}},
       {"the first is replaced",
-       [](Program& program, const ProgramOptions& with) {
+       [](Program& program, const Options& with) {
          EXPECT_EQ(program.insert(1, "$A SET P2", with), Error::none);
          return program.replace(0, "$B SET P3", with);
        },
        {"$B SET P3", "$A SET P2", "DN"},
        {Error::none, Error::none, Error::none}},
       {"the last gets a label that is taken",
-       [](Program& program, const ProgramOptions& with) { return program.replace(1, "$A NONSENSE", with); },
+       [](Program& program, const Options& with) { return program.replace(1, "$A NONSENSE", with); },
        {"$A SET P1", "$A NONSENSE"},
        {Error::none, Error::syntax}},
       {"nonsense is a place to jump to",
-       [](Program& program, const ProgramOptions& with) { return program.insert(0, "$A NONSENSE", with); },
+       [](Program& program, const Options& with) { return program.insert(0, "$A NONSENSE", with); },
        {"$A NONSENSE", "$A SET P1", "DN"},
        {Error::syntax, Error::address, Error::none}},
   };
@@ -330,7 +335,7 @@ TEST(SlimProgramOptions, OfLinesWithOneLabelTheFirstIsGood) {
 }
 
 TEST(SlimProgramOptions, EmptyLinesEndEditingOrAreIgnored) {
-  const ProgramOptions options{.empty_line = ProgramOptions::EmptyLine::is_ignored};
+  const Options options{option("edit_end", "exit_or_esc")};
   Editor editor;
   Program program;
   const auto give_all = [&](const Lines& lines) {
@@ -355,7 +360,7 @@ TEST(SlimProgramOptions, EmptyLinesEndEditingOrAreIgnored) {
 }
 
 TEST(SlimProgramOptions, ListsTheTextOnly) {
-  const ProgramOptions options{.listing = ProgramOptions::Listing::bare};
+  const Options options{option("listing", "text")};
   Program program;
   ASSERT_TRUE(program.set_texts({"SET P1", "$A RET"}));
   EXPECT_EQ(program.listing(options), (Lines{"SET P1", "$A RET"}));
@@ -363,8 +368,10 @@ TEST(SlimProgramOptions, ListsTheTextOnly) {
 }
 
 TEST(SlimProgramOptions, HoldsAsManyLinesAsChosen) {
-  for (const int capacity : {256, 4000}) {
-    const ProgramOptions options{.capacity = capacity};
+  for (const auto& [capacity, chosen] : {std::pair{256, option("program_size", "256_lines")},
+                                         {1000, option("program_size", "1000_lines")},
+                                         {4000, option("program_size", "4000_lines")}}) {
+    const Options options{chosen};
     Editor editor;
     Program program;
     ASSERT_TRUE(program.set_texts(Lines(static_cast<std::size_t>(capacity), "DN"), options));
@@ -377,16 +384,16 @@ TEST(SlimProgramOptions, HoldsAsManyLinesAsChosen) {
 }
 
 TEST(SlimProgramOptions, SavesInPrograms) {
-  const Columns columns{.saves = Columns::Saves::stored_too};
+  const Options options{option("first_list_columns", "saves_in_programs_too")};
   for (const std::string_view line : {"SAVE C", "SAVE D", "SAVE P", "DF"}) {
     const Command command = *parse_line(line).line.command;
     EXPECT_FALSE(is_allowed(command, Place::program)) << line;
-    EXPECT_TRUE(is_allowed(command, Place::program, columns)) << line;
-    EXPECT_TRUE(is_allowed(command, Place::immediate, columns)) << line;
-    EXPECT_FALSE(is_allowed(command, Place::external, columns)) << line;
+    EXPECT_TRUE(is_allowed(command, Place::program, options)) << line;
+    EXPECT_TRUE(is_allowed(command, Place::immediate, options)) << line;
+    EXPECT_FALSE(is_allowed(command, Place::external, options)) << line;
   }
   for (const std::string_view line : {"RESET H", "ULC", "PL", "G", "?PE", "PG"}) {
-    EXPECT_FALSE(is_allowed(*parse_line(line).line.command, Place::program, columns)) << line;
+    EXPECT_FALSE(is_allowed(*parse_line(line).line.command, Place::program, options)) << line;
   }
 }
 

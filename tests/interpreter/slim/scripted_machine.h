@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "interpreter/slim/flow.h"
+#include "interpreter/slim/parse.h"
 #include "interpreter/slim/text_of.h"
 
 namespace understudy::interpreter::slim {
@@ -66,9 +67,9 @@ using Log = std::vector<std::string>;
 
 /// A program with its machine, from `G` at time 0: the first line runs at 1 ms.
 struct ProgramRun {
-  explicit ProgramRun(const std::vector<std::string>& lines, FlowOptions flow = {}) : options(flow) {
+  explicit ProgramRun(const std::vector<std::string>& lines, const Options& chosen = {}) : options(chosen) {
     for (const std::string& line : lines) {
-      EXPECT_EQ(program.insert(program.size(), line, options.program), Error::none) << line;
+      EXPECT_EQ(program.insert(program.size(), line, options), Error::none) << line;
     }
   }
 
@@ -98,7 +99,7 @@ struct ProgramRun {
     }
   }
 
-  FlowOptions options;
+  Options options;
   Program program;
   Execution execution;
   ScriptedMachine machine;

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <iterator>
 
+#include "base/choices.h"
 #include "emulator/device/decisions.h"
+#include "emulator/models/slim/rules/choices.h"
 #include "emulator/models/slim/rules/options.h"
 
 namespace understudy::emulator::models::slim {

@@ -3,7 +3,11 @@
 // generated from these rows; a bench overrides one with `choices: { ID: OPTION }`.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "base/choices.h"
+#include "interpreter/slim/choices.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -11,7 +15,7 @@ inline constexpr Confidence kFollows = Confidence::follows;
 inline constexpr Confidence kLikely = Confidence::likely;
 inline constexpr Confidence kProposal = Confidence::proposal;
 
-inline constexpr ChoiceRow kChoices[] = {
+inline constexpr ChoiceRow kDialogueChoices[] = {
     // --- the dialogue ---
     {"line_format", "RS232", "What are the speed and format of the line?", "9600_8n1", kProposal,
      "The manual gives none. Use `baud` in the bench for another speed."},
@@ -19,9 +23,6 @@ inline constexpr ChoiceRow kChoices[] = {
      kProposal,
      "The list says to type ENTER or to send CHAR13. An LF after CR is ignored. With cr_alone, every LF is "
      "ignored."},
-    {"longest_line", "RS232", "What happens to a line that is too long?",
-     "127_characters_then_error_1|80_characters_then_error_1|255_characters_then_error_1", kProposal,
-     "The limit is longer than every form in the list, with room to spare."},
     {"echo", "RS232", "Are characters echoed as they are typed?", "off|on", kProposal,
      "A host program reads only replies. With on, the echo suits a terminal, and BS and DEL edit the line."},
     {"prompt", "RS232", "What is sent after each completed line?", "none|greater_than", kProposal,
@@ -51,16 +52,6 @@ inline constexpr ChoiceRow kChoices[] = {
     {"time_format", "?time", "How is ?time formatted?", "h_mm_ss|seconds", kProposal,
      "?TM gives the seconds."},
     // --- when a command may be given ---
-    {"while_program_runs", "立即/外部", "Which other commands are accepted while a program runs?",
-     "queries_and_what_steers_it|external_column_only|reset_too", kProposal,
-     "Read strictly, a host could not resume a program that it has paused, because TAREDO has no mark under "
-     "external. RESET would stop a motor and let DN continue with its next move."},
-    {"helix_variables", "SAA", "Which operands does the form of SAA with variables accept?",
-     "constants_for_angle_and_height_too|four_variables", kLikely,
-     "The manual prints Rx,Ry,fa,fz and explains Rx,Ry,Ra,Rz, so both are accepted."},
-    {"immediate_column", "立即",
-     "What happens if you type a form with variables that has no mark under immediate?", "error_3|taken",
-     kFollows, "The printed column decides."},
     {"ineffective_pause", "TAREDO", "What do TAREDO and TAUPZ do outside a pause?", "silent|error_3", kLikely,
      "The list says that they are valid only in a pause. It does not say that they are errors elsewhere."},
     {"lines_for_a_number", "GETI", "Which lines besides a number are accepted while a program waits for one?",
@@ -69,69 +60,20 @@ inline constexpr ChoiceRow kChoices[] = {
      "able to resume it."},
     {"get_number_exit", "GETI", "What ends a program that waits for a number?", "exit|nothing", kProposal,
      "The line is not parsed as a command during the wait, but a host that gives up needs a way out."},
-    {"first_list_columns", "程式/立即",
-     "Where are commands of the first list allowed? The list prints no columns.",
-     "flow_stored_queries_and_editing_typed_others_both|saves_in_programs_too", kLikely,
-     "Their kind suggests it. SAVE C, SAVE D, SAVE P and DF might be allowed in a program."},
     {"get_number_typed", "GETI", "What do GETI and GETR do in a typed line?", "error_3", kLikely,
      "Only a program waits for the number. For a typed line nothing waits."},
     {"busy", "緩衝區", "What happens to commands that arrive during a motion?", "wait_in_the_buffer|error_3",
      kFollows,
      "The list mentions a buffer, and commands that bypass it. With error_3, a program's command waits."},
     // --- programs ---
-    {"lines_a_tick", "G", "How fast does a program run?",
-     "one_a_millisecond|four_a_millisecond|one_in_4_milliseconds", kProposal, "The manual is silent."},
     {"print_ahead", "OUT", "How far can a program's output run ahead of the line?",
      "1024_characters_then_it_waits|128_characters_then_it_waits", kProposal,
      "Without a limit, a loop with OUT would fill any memory."},
-    {"time_unit", "JTI", "What is the unit of tm in JTI and JNTI?", "milliseconds|4_milliseconds", kLikely,
-     "WT uses this unit. PLS uses the other."},
-    {"events", "SET EV", "How many events exist, and which conditions do they take?",
-     "8_with_the_conditions_of_jumps|4_with_the_conditions_of_jumps", kProposal, "The manual shows only NZ."},
-    {"event_check", "ON EV", "How often are conditions checked?", "each_millisecond|each_4_milliseconds",
-     kProposal, "The manual is silent."},
-    {"program_size", "PG", "How long can a program be?", "1000_lines|256_lines|4000_lines", kProposal,
-     "The manual is silent."},
-    {"program_check", "PG", "When is a line of a program checked?", "when_it_is_entered|when_it_runs",
-     kProposal,
-     "Addresses and modules are checked when the line runs, because lines arrive one after the other and "
-     "PN50 may link a module later."},
-    {"functions", "JE", "Which functions can replace a number?", "ain_tm_geti_getr|what_queries_show_too",
-     kProposal,
-     "The list says \"constant, variable or function\" and names no function. It applies to assignments, "
-     "jumps and events."},
-    {"bare_number", "GETI", "Where does the number of GETI or GETR without an assignment go?",
-     "nowhere|into_n0_or_r0", kProposal, "N0=GETI says where. Without it, the line only waits for the host."},
-    {"events_without_program", "SET EV", "What happens to an event that is defined while no program runs?",
-     "waits_for_a_program|run_their_routine", kProposal,
-     "The event is armed, and checked from G on. Its routine is part of a program."},
-    {"same_label", "addr", "What does a second line with the same label do?",
-     "error_13_as_it_is_entered|the_first_counts", kProposal,
-     "No jump could reach it. Labels in lower case are the same as in upper case."},
-    {"edit_end", "PG", "What ends editing?", "empty_line_exit_or_esc|exit_or_esc", kProposal,
-     "EXIT also leaves a running program."},
-    {"refused_line", "PE", "What happens after a refused line while PE or PI wait for one?",
-     "is_asked_for_again|ends_editing", kProposal,
-     "PG behaves like this. With ends_editing, the next line is a command, and the chain would carry out a "
-     "move that was meant for the program."},
-    {"listing", "PL", "How does PL print a line?", "number_colon_text|text", kProposal,
-     "Addresses use the same numbers."},
     {"pause_in_program", "TAPZ", "What happens to a program that reaches a motion in a pause?",
      "waits|error_6", kProposal, "Otherwise a pause would end the program."},
-    {"call_depth", "CALL", "How deep can subroutines be nested?", "16|8|4", kProposal,
-     "The manual is silent."},
-    {"failed_line", "G", "What does a refused line do to its program?", "ends_it|is_passed_over", kProposal,
-     "A program that continued without one of its moves could cause a collision."},
-    {"event_at_arming", "ON EV",
-     "What happens to an event whose condition is already true at its definition?",
-     "fires|waits_for_a_change", kProposal, "The manual is silent."},
-    {"held_event", "ON EV",
-     "What happens to an event that occurs during another one's routine and is false again at its RET?",
-     "fires|is_dropped", kProposal, "The manual is silent."},
-    {"interrupted_wait", "ON EV", "What do WT and JTI do after an event interrupts them?",
-     "begin_again|have_gone_on", kProposal, "The program enters the line again."},
-    {"addresses", "addr", "What does a plain number mean as an address?",
-     "line_number_from_0|line_number_from_1", kLikely, "G without an address starts at address 0."},
+};
+
+inline constexpr ChoiceRow kChainChoices[] = {
     // --- motion ---
     {"thrust", "FT", "What does FT do to the position?", "stands|runs_at_vj", kProposal,
      "FT pushes against an object. The list gives no unit and no load."},
@@ -273,8 +215,6 @@ inline constexpr ChoiceRow kChoices[] = {
     {"coordinate_shown", "?PE", "How is a coordinate shown if a 32-bit real cannot hold it?",
      "every_pulse|as_32_bits_hold_it", kLikely,
      "The axis counts every pulse, although the manual says that parameters are 32-bit reals."},
-    {"integer_range", "N#", "What is the range of integer variables?", "16_bits|from_minus_32766", kLikely,
-     "The manual prints MAX N0=32766."},
     {"variables_kept", "N#, R#", "When are N# and R# saved?", "by_save_d|when_written", kLikely,
      "The manual says that both are in the flash. SAVE D would have no purpose if each write saved them."},
     {"array_types", "NS", "What does NS() hold?", "whole_numbers", kLikely,
@@ -303,5 +243,20 @@ inline constexpr ChoiceRow kChoices[] = {
     {"temperature", "?TEMP", "Which temperature is shown?", "25|40|60", kProposal,
      "The temperature is not modelled."},
 };
+
+inline constexpr auto kChoices = [] {
+  namespace language = interpreter::slim;
+  std::array<ChoiceRow,
+             std::size(kDialogueChoices) + std::size(language::kChoices) + std::size(kChainChoices)>
+      all{};
+  std::size_t next = 0;
+  for (const ChoiceRow& row : kDialogueChoices) all[next++] = row;
+  for (const ChoiceRow& row : language::kChoices) all[next++] = row;
+  for (const ChoiceRow& row : kChainChoices) all[next++] = row;
+  return all;
+}();
+
+/// The place of the language's rows in the table.
+inline constexpr std::size_t kFirstOfLanguage = std::size(kDialogueChoices);
 
 }  // namespace understudy::emulator::models::slim

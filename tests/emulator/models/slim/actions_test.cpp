@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "interpreter/slim/availability.h"
+#include "interpreter/slim/options.h"
 #include "interpreter/slim/verbs.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
@@ -11,13 +12,12 @@ namespace understudy::emulator::models::slim {
 
 namespace actions_test {
 
-using lang::Columns;
 using lang::Place;
 
 // All that any choice lets through.
-constexpr Columns kWidest{.external = Columns::External::with_reset,
-                          .variable_forms = Columns::VariableForms::typed_too,
-                          .saves = Columns::Saves::stored_too};
+constexpr lang::Options kWidest{lang::option("while_program_runs", "reset_too"),
+                                lang::option("immediate_column", "taken"),
+                                lang::option("first_list_columns", "saves_in_programs_too")};
 
 bool is_allowed_somewhere(lang::Verb verb, Place place) {
   for (std::size_t i = 0; i < lang::kCommands.size(); ++i) {

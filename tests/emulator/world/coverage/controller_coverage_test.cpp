@@ -290,6 +290,9 @@ TEST(ControllerCoverage, CountsChoicesThatTheDeviceHasAskedFor) {
 TEST(ControllerCoverage, SeesEachChoiceOfASlim) {
   const TouchedReport report = touched(of_model("slim", "", "  - send: { text: FOO }\n  - advance: 10ms\n"));
   EXPECT_EQ(counts(report, "choices", "error_codes"), "1");
+  // These belong to the language's own table.
+  EXPECT_EQ(counts(report, "choices", "longest_line"), "1");
+  EXPECT_EQ(counts(report, "choices", "call_depth"), "0");
 }
 
 TEST(ControllerCoverage, CountsCommandsOfTextAndOfWindows) {
