@@ -118,7 +118,7 @@ class Course final : public play::HostCommand {
     if (lint_) print_findings(lint_->findings());
     coverage_.write();
     end_.exit_code = child_->exit_code();
-    end_.was_reached = !host_time_ || host_time_->was_greeted();
+    end_.was_reached = !host_time_ || host_time_->was_reached();
     if (!side_scenario_) return std::move(end_);
     end_.was_given_up = side_scenario_->was_given_up();
     if (!end_.was_given_up) end_.results = side_scenario_->results();

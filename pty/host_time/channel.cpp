@@ -35,6 +35,7 @@ struct Connection {
 };
 __thread Connection connection __attribute__((tls_model("initial-exec"))) = {-1, 0, 0, nullptr};
 pthread_key_t at_end_of_thread;
+bool is_beginning = false;  // of this program, not of a thread or a child
 
 // Above the descriptors that programs usually have, so that a program's own descriptors get the same numbers
 // as without us.
@@ -124,6 +125,7 @@ int own_descriptor() {
   pthread_setspecific(at_end_of_thread, &connection);
   Message hello = message_of(MessageKind::hello);
   hello.sequence = kVersion;
+  hello.value = is_beginning ? 1 : 0;
   put(fresh, hello);
   return fresh;
 }
@@ -171,7 +173,9 @@ __attribute__((constructor)) void begin() {
   page = mapped;
   pthread_key_create(&at_end_of_thread, close_connection);
   pthread_atfork(nullptr, nullptr, begin_anew_in_child);
+  is_beginning = true;
   own_descriptor();
+  is_beginning = false;
 }
 
 Message receive_one(int descriptor) {
@@ -376,6 +380,18 @@ bool sleep_until(int64_t until_ns) {
 void begin_outside() { put(own_descriptor(), message_of(MessageKind::outside)); }
 void end_outside() { put(own_descriptor(), message_of(MessageKind::inside)); }
 
+void tell_leaving() {
+  const int error = errno;
+  put(own_descriptor(), message_of(MessageKind::leaves));
+  errno = error;
+}
+
+void tell_staying() {
+  const int error = errno;
+  put(own_descriptor(), message_of(MessageKind::stays));
+  errno = error;
+}
+
 void tell_timer(Message message, int descriptor) {
   const Message own = message_of(message.what);
   message.process = own.process;
@@ -389,10 +405,11 @@ void tell_timer(Message message, int descriptor) {
   errno = error;
 }
 
-void tell_child(int process) {
+void tell_child(int process, bool is_another_program) {
   const int error = errno;
   Message message = message_of(MessageKind::child);
   message.process = process;
+  message.value = is_another_program ? 1 : 0;
   put(own_descriptor(), message);
   errno = error;
 }

@@ -9,11 +9,10 @@
 
 namespace understudy::host_time {
 
-/// The library and the bench must have the same version: the library's greeting contains this number.
-inline constexpr uint32_t kVersion = 2;
-/// The library contains this text with its version, so that the bench can recognize it before a host loads
-/// it.
-#define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 2"
+/// The library and the bench must be of one version: the library's greeting has this number.
+inline constexpr uint32_t kVersion = 3;
+/// The library has this text, so that the bench recognizes it before a host loads it. It has the version.
+#define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 3"
 
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
@@ -58,8 +57,10 @@ struct Page {
 
 enum class MessageKind : uint32_t {
   // the host's thread
-  hello = 1,  // the first message; `sequence` is the version
-  child,      // `process` is a new child of this process
+  hello = 1,  // the first message; `sequence` is the version; `value` is 1 from a program that begins
+  child,      // `process` is a new child of this process; `value` is 1 if it is another program
+  leaves,     // the process becomes another program, which greets the bench if it has the library
+  stays,      // that has failed
   wait,       // until `until_ns`, or until something arrives on one of the lines
   cancel,     // the thread no longer waits: something else has woken it
   outside,    // the thread waits for something that is not simulated: time must stop; no answer

@@ -105,7 +105,10 @@ bool is_timer(int descriptor);
 /// Forgets the parent's timers: a child process does not inherit them.
 void forget_timers();
 
-/// Informs the bench of a new child process.
-void tell_child(int process);
+/// Informs the bench of a new child process. One that is another program greets the bench itself.
+void tell_child(int process, bool is_another_program);
+/// Informs the bench that this process is about to become another program, or that this has failed.
+void tell_leaving();
+void tell_staying();
 
 }  // namespace understudy::host_time

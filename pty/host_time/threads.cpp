@@ -289,5 +289,10 @@ UNDERSTUDY_EXPORT long syscall(long number, ...) noexcept {
       return wait_on_futex(reinterpret_cast<uint32_t*>(words[0]), operation, static_cast<uint32_t>(words[2]),
                            reinterpret_cast<const timespec*>(words[3]));
   }
-  return UNDERSTUDY_REAL(syscall)(number, words[0], words[1], words[2], words[3], words[4], words[5]);
+  const bool leaves = (number == SYS_execve || number == SYS_execveat) && is_active();
+  if (leaves) tell_leaving();
+  const long result =
+      UNDERSTUDY_REAL(syscall)(number, words[0], words[1], words[2], words[3], words[4], words[5]);
+  if (leaves) tell_staying();
+  return result;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/acceptance/at_terminal.h"
 #include "tests/acceptance/host_time_rig.h"
@@ -21,6 +22,44 @@ threading.Thread(target=lambda: (time.sleep(3), os._exit(7))).start()
 time.sleep(100)
 )");
   EXPECT_EQ(thread.exit_code, 7) << thread.errors;
+}
+
+// A host whose process becomes another program without the library ends soon, or sleeps.
+TEST_F(HostTime, TellsWhichHostsDroppedTheLibrary) {
+  const std::string spawns =
+      "import os, time\n"
+      "os.waitpid(os.posix_spawn('/bin/true', ['true'], {}), 0)\n";
+  const std::string part = "of the host did not load our library, so it ran in real time";
+  struct Case {
+    Words command;
+    int exit_code;
+    std::string message;
+  };
+  const std::vector<Case> cases{
+      {{"env", "-u", "LD_PRELOAD", "date"}, 125, "env: did not load our library"},
+      {{"env", "-i", "/bin/true"}, 125, "env: did not load our library"},
+      {{"env", "-i", "sleep", "0.1"}, 125, "env: did not load our library"},
+      {{"env", "-i", "/bin/false"}, 125, "env: did not load our library"},
+      {{"sh", "-c", "exec env -i true"}, 125, "sh: did not load our library"},
+      {{"sh", "-c", "env -i true; exit 0"}, 125, "sh: did not load our library"},
+      {{"sh", "-c", "env -i true; sleep 1; exit 0"}, 0, part},
+      {{"sh", "-c", "env -i true; sleep 1; exit 3"}, 3, part},
+      {{kPython, "-c", spawns}, 125, part},
+      {{kPython, "-c", spawns + "time.sleep(1)"}, 0, part},
+      {{"env", "true"}, 0, ""},
+      {{"sh", "-c", "exec true"}, 0, ""},
+      {{"sh", "-c", "/no/such/program; exec /no/such/program"}, 127, "/no/such/program: not found"},
+  };
+  for (int run = 0; run < 5; ++run) {
+    for (const Case& each : cases) {
+      const Finished host = exec(each.command);
+      const std::string what = testing::PrintToString(each.command) + host.errors;
+      EXPECT_EQ(host.exit_code, each.exit_code) << what;
+      EXPECT_NE(host.errors.find(each.message), std::string::npos) << what;
+      const bool is_told = host.errors.find("did not load") != std::string::npos;
+      EXPECT_EQ(is_told, each.message.find("did not load") != std::string::npos) << what;
+    }
+  }
 }
 
 // Its end is often noticed before its greeting.

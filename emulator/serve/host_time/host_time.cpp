@@ -103,7 +103,7 @@ HostTime::HostTime(Daemon& daemon, const std::string& place, std::function<void(
       tasks_(daemon.loop(),
              [this](int process) {
                must_poll_ = true;  // its end may have sent a signal
-               if (silent_.contains(process)) receive_all();
+               receive_all();      // it may have greeted, or become another program
                judge_end_of(process);
                waits_.process_ended(process);
                timers_.process_ended(process);
@@ -159,17 +159,11 @@ void HostTime::admit(Descriptor client) {
   waits_.add(number);
 }
 
-/// A process closes its connections when it becomes another program, which sends its greeting again if it has
-/// the library.
 void HostTime::drop(int number) {
-  const int process = waits_.threads().at(number).process;
   must_poll_ = true;
   waits_.remove(number);
   daemon_.loop().unwatch(number);
   connections_.erase(number);
-  const bool has_others =
-      std::ranges::any_of(waits_.threads(), [&](const auto& each) { return each.second.process == process; });
-  if (!has_others && tasks_.is_alive(process)) silent_.insert(process);
 }
 
 /// Reads all pending messages: the end of a short-lived program may be noticed before its greeting.
@@ -178,44 +172,55 @@ void HostTime::receive_all() {
   std::vector<int> numbers;
   for (const auto& [number, connection] : connections_) numbers.push_back(number);
   for (const int number : numbers) {
-    if (connections_.contains(number)) on_message(number);
+    while (connections_.contains(number) && on_message(number)) {
+    }
   }
 }
 
+/// Reports a process that had another program at its end, which did not load the library.
 void HostTime::judge_end_of(int process) {
-  if (silent_.erase(process) == 0 || is_host_to_end_) return;
-  if (process == first_process_) was_greeted_ = false;
-  if (process == first_process_ || std::exchange(has_reported_silence_, true)) return;
+  if (!greetings_.is_silent(process) || is_host_to_end_ || !greetings_.silent_one_ended(process)) return;
   report_("process " + std::to_string(process) +
           " of the host did not load our library, so it ran in real time; expected programs that keep "
           "LD_PRELOAD");
 }
 
-void HostTime::on_message(int number) {
+void HostTime::note_process(const host_time::Message& message) {
+  using host_time::MessageKind;
+  greetings_.on_message(message);
+  if (message.what == MessageKind::hello || message.what == MessageKind::child) tasks_.add(message.process);
+  const bool is_leaving = message.what == MessageKind::child || message.what == MessageKind::leaves;
+  if (!is_leaving || tasks_.knows(message.process) || !greetings_.is_silent(message.process)) return;
+  receive_all();  // it has ended already
+  judge_end_of(message.process);
+}
+
+/// Returns false if there was no message.
+bool HostTime::on_message(int number) {
   host_time::Message message{};
   Descriptor passed;
   const ssize_t size = receive_message(number, message, passed);
-  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
   using host_time::MessageKind;
   has_moved_ = true;
   const bool is_good = size == static_cast<ssize_t>(sizeof message) &&
                        (message.what != MessageKind::hello || message.sequence == host_time::kVersion);
   if (!is_good) {
     drop(number);
-    return consider();
+    consider();
+    return true;
   }
-  if (message.what == MessageKind::hello) {
-    if (!std::exchange(was_greeted_, true)) first_process_ = message.process;
-    silent_.erase(message.process);
-  }
-  if (message.what == MessageKind::hello || message.what == MessageKind::child) tasks_.add(message.process);
+  note_process(message);
   if (message.what == MessageKind::timer) timers_.set(message, std::move(passed));
   waits_.on_message(number, message);
-  if (!connections_.contains(number)) return;
-  if (waits_.threads().at(number).state == HostState::gone) return drop(number);
-  if (message.what == MessageKind::wait || message.what == MessageKind::inside ||
-      message.what == MessageKind::timer)
+  if (!connections_.contains(number)) return true;
+  if (waits_.threads().at(number).state == HostState::gone) {
+    drop(number);
+  } else if (message.what == MessageKind::wait || message.what == MessageKind::inside ||
+             message.what == MessageKind::timer) {
     consider();
+  }
+  return true;
 }
 
 void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thread) {
@@ -365,7 +370,8 @@ void HostTime::host_ended() {
   take_from_host();
   log_.finish(line_counts());
   is_host_over_ = true;
-  if (!was_greeted_) receive_all();  // the end of a short-lived host may be noticed before its greeting
+  receive_all();  // the end of a short-lived host may be noticed before its greeting
+  judge_end_of(greetings_.first_process());
   consider();
 }
 

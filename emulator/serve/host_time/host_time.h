@@ -20,6 +20,7 @@
 #include "base/simulated_time.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/host_time/host_doors.h"
+#include "emulator/serve/host_time/host_greetings.h"
 #include "emulator/serve/host_time/host_page.h"
 #include "emulator/serve/host_time/host_tasks.h"
 #include "emulator/serve/host_time/host_timers.h"
@@ -51,12 +52,13 @@ class HostTime {
   /// Must be called when the host has ended. Takes the bytes that it wrote last. From now on the task
   /// alone decides how far time advances.
   void host_ended();
-  /// Returns true if the host's first process has loaded the library, even if it is another program by now.
-  bool was_greeted() const { return was_greeted_; }
+  /// See HostGreetings::was_reached().
+  bool was_reached() const { return greetings_.was_reached(); }
 
  private:
   void admit(Descriptor client);
-  void on_message(int number);
+  bool on_message(int number);
+  void note_process(const host_time::Message& message);
   void drop(int number);
   void receive_all();
   void judge_end_of(int process);
@@ -91,6 +93,7 @@ class HostTime {
   HostDoors doors_;
   HostWaits waits_;
   HostTasks tasks_;
+  HostGreetings greetings_;
   HostTimers timers_;
   HostWaitLog log_;
   std::map<int, Descriptor> connections_;
@@ -100,12 +103,8 @@ class HostTime {
   Descriptor next_poll_;    // a timer
   Descriptor watch_;        // a timer
   WallTime patience_{0};    // before the next check of a host that is not asleep
-  bool must_poll_ = false;  // a signal may have woken a thread that the bench believes to be waiting
-  bool was_greeted_ = false;
-  int first_process_ = -1;
-  std::set<int> silent_;  // processes that have become other programs, and have not greeted since
-  bool has_reported_silence_ = false;
-  bool has_moved_ = true;  // since the last watch_over()
+  bool must_poll_ = false;  // a signal may have woken a thread that the bench takes for waiting
+  bool has_moved_ = true;    // since watch_over() looked last
   int idle_polls_ = 0;
   bool has_reported_spinning_ = false;
   bool has_reported_outside_ = false;

@@ -42,6 +42,8 @@ void HostWaits::on_message(int number, const host_time::Message& message) {
     case host_time::MessageKind::outside: thread.is_outside = true; return;
     case host_time::MessageKind::inside: thread.is_outside = false; return;
     case host_time::MessageKind::child:
+    case host_time::MessageKind::leaves:
+    case host_time::MessageKind::stays:
     case host_time::MessageKind::timer:
     case host_time::MessageKind::go:
     case host_time::MessageKind::cancelled: return;
