@@ -24,6 +24,67 @@ time.sleep(100)
   EXPECT_EQ(thread.exit_code, 7) << thread.errors;
 }
 
+TEST_F(HostTime, EndsWaitsThatSomethingElsewhereEnds) {
+  const std::string spin = "while :; do :; done";
+  const Process load({"sh", "-c", spin});
+  for (int run = 0; run < 3; ++run) {
+    const Finished host = exec({WOKEN_HOST}, {"--timeout", "60s"});
+    EXPECT_EQ(host.exit_code, 0) << host.errors;
+    EXPECT_EQ(host.output, "286 cells\n");
+  }
+}
+
+TEST_F(HostTime, EndsTheChildrenOfPythonWhenTheirTimeIsOver) {
+  const Finished host = python(R"(
+import multiprocessing, os, signal, subprocess, time
+began = time.monotonic()
+def tell(what):
+    global began
+    print(what, round(time.monotonic() - began, 1))
+    began = time.monotonic()
+try:
+    subprocess.run(["sleep", "40"], timeout=3)
+except subprocess.TimeoutExpired:
+    tell("run")
+for end in ("terminate", "kill"):
+    child = subprocess.Popen(["sleep", "40"])
+    time.sleep(3)
+    getattr(child, end)()
+    child.wait()
+    tell(end)
+child = multiprocessing.get_context("fork").Process(target=time.sleep, args=[40])
+child.start()
+time.sleep(3)
+child.terminate()
+child.join()
+tell("multiprocessing")
+)");
+  EXPECT_EQ(host.output, "run 3.0\nterminate 3.0\nkill 3.0\nmultiprocessing 3.0\n") << host.errors;
+}
+
+// Another thread waits while the command begins.
+TEST_F(HostTime, KnowsTheCommandsOfAHostBeforeTheyGreet) {
+  const Finished host = python(R"(
+import ctypes, os, threading, time
+libc = ctypes.CDLL(None)
+libc.popen.restype = ctypes.c_void_p
+libc.popen.argtypes = [ctypes.c_char_p, ctypes.c_char_p]
+libc.pclose.argtypes = [ctypes.c_void_p]
+threading.Thread(target=lambda: time.sleep(1000), daemon=True).start()
+def popen():
+    streams = [libc.popen(b"sleep 2; exit 5", b"r"), libc.popen(b"read line; sleep 1; exit 6", b"w")]
+    return [os.waitstatus_to_exitcode(libc.pclose(stream)) for stream in reversed(streams)]
+for run in range(10):
+    began = time.monotonic()
+    ends = [os.waitstatus_to_exitcode(os.system("sleep 3; exit 7")), *popen()]
+    print(ends, round(time.monotonic() - began, 1), os.system("kill -TERM $$"))
+os._exit(0)
+)");
+  std::string expected;
+  for (int run = 0; run < 10; ++run) expected += "[7, 6, 5] 5.0 15\n";
+  EXPECT_EQ(host.output, expected) << host.errors;
+}
+
 // A host whose process becomes another program without the library ends soon, or sleeps.
 TEST_F(HostTime, TellsWhichHostsDroppedTheLibrary) {
   const std::string spawns =

@@ -7,14 +7,14 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/files/descriptor.h"
 #include "base/text/one_line.h"
@@ -25,11 +25,18 @@ namespace {
 
 std::string folder_of(int process) { return "/proc/" + std::to_string(process) + "/task"; }
 
+// The files of so many threads stay open; a process may open about a thousand.
+constexpr std::size_t kMaxOpen = 128;
+
+using Buffer = std::array<char, 512>;
+
+Descriptor open_to_read(const std::string& path) {
+  return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
 /// Returns the beginning of a small file, or an empty text.
-std::string_view read_small(const std::string& path, std::array<char, 512>& buffer) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file) return {};
-  const ssize_t size = ::read(file.get(), buffer.data(), buffer.size() - 1);
+std::string_view read_small(const Descriptor& file, Buffer& buffer) {
+  const ssize_t size = ::pread(file.get(), buffer.data(), buffer.size() - 1, 0);
   return size > 0 ? std::string_view(buffer.data(), static_cast<std::size_t>(size)) : std::string_view();
 }
 
@@ -45,8 +52,9 @@ std::uint64_t runs_in(std::string_view schedstat) {
   return space == std::string_view::npos ? 0 : std::strtoull(schedstat.data() + space, nullptr, 10);
 }
 
-/// Returns true if a thread sleeps until another thread or something outside wakes it, or has ended.
-bool is_asleep(char state) { return state == 'S' || state == 'Z' || state == 'X'; }
+/// Returns true if a thread sleeps until another thread or something outside wakes it, is stopped by a
+/// signal, or has ended.
+bool is_asleep(char state) { return state == 'S' || state == 'T' || state == 'Z' || state == 'X'; }
 
 template <class Act>
 void for_each_task(int process, Act act) {
@@ -78,23 +86,6 @@ void HostTasks::add(int process) {
   processes_.emplace(process, std::move(descriptor));
 }
 
-bool HostTasks::is_alive(int process) const {
-  std::array<char, 512> buffer{};
-  const std::string_view stat = read_small("/proc/" + std::to_string(process) + "/stat", buffer);
-  const std::size_t end = stat.rfind(')');
-  if (!knows(process) || end == std::string_view::npos) return false;
-  // After the name: the state, five numbers, and the flags.
-  std::istringstream fields{std::string(stat.substr(end + 1))};
-  char state = 'X';
-  std::int64_t ignored = 0;
-  std::uint64_t flags = 0;
-  fields >> state;
-  for (int i = 0; i < 5; ++i) fields >> ignored;
-  fields >> flags;
-  constexpr std::uint64_t kExiting = 0x4;  // PF_EXITING
-  return state != 'Z' && state != 'X' && (flags & kExiting) == 0;
-}
-
 /// The folder of threads has two links, and one more for each thread.
 bool HostTasks::is_one_thread() const {
   if (processes_.size() != 1) return false;
@@ -102,44 +93,66 @@ bool HostTasks::is_one_thread() const {
   return ::stat(folder_of(processes_.begin()->first).c_str(), &status) == 0 && status.st_nlink == 3;
 }
 
-/// Returns false if any thread is awake.
-bool HostTasks::read_tasks(Tasks& tasks, const std::set<int>& waiting) const {
+HostTasks::Task HostTasks::look_at(int process, int task) {
+  Buffer buffer{};
+  Files& files = files_[task];
+  std::string_view stat = files.stat ? read_small(files.stat, buffer) : "";
+  if (stat.empty()) {  // it is new, or the number was that of a thread that has ended
+    const std::string folder = folder_of(process) + "/" + std::to_string(task);
+    files = {open_to_read(folder + "/stat"), open_to_read(folder + "/schedstat")};
+    stat = read_small(files.stat, buffer);
+  }
+  const char state = state_in(stat);
+  const std::uint64_t runs = runs_in(read_small(files.schedstat, buffer));
+  if (files_.size() > kMaxOpen) files_.erase(task);
+  return {state, runs};
+}
+
+/// Returns false if a thread, other than the one to be left out, does not sleep.
+bool HostTasks::read_tasks(Tasks& tasks, std::optional<int> except) {
   bool are_asleep = true;
-  std::array<char, 512> buffer{};
   for (const auto& known : processes_) {
     const int process = known.first;
     for_each_task(process, [&](int task) {
-      if (!are_asleep || waiting.contains(task)) return;
-      const std::string folder = folder_of(process) + "/" + std::to_string(task);
-      Task seen;
-      seen.state = state_in(read_small(folder + "/stat", buffer));
-      are_asleep = is_asleep(seen.state);
-      if (are_asleep) seen.runs = runs_in(read_small(folder + "/schedstat", buffer));
-      tasks[task] = seen;
+      if (!are_asleep || task == except) return;
+      tasks[task] = look_at(process, task);
+      are_asleep = is_asleep(tasks[task].state);
     });
   }
   return are_asleep;
 }
 
-/// Checks twice. A thread that slept both times and has not run in between slept the whole time, so there was
-/// a moment at which all threads slept.
-bool HostTasks::are_all_asleep(const std::set<int>& waiting) const {
+/// A thread that sleeps, and has not run since it slept before, has slept all the time. If that is true of
+/// all but the speaker, nobody can have woken anybody. Otherwise this looks at all of them twice: there was a
+/// moment between the two looks at which all slept.
+bool HostTasks::are_all_asleep(std::optional<int> speaker) {
   Tasks before;
+  if (!read_tasks(before, speaker)) return false;
+  if (speaker) asleep_.erase(*speaker);
+  const bool have_slept = before == asleep_;
+  if (speaker) before[*speaker] = look_at(*speaker, *speaker);
+  if (have_slept) {
+    // If something wakes the speaker later, it will have run more often than now.
+    if (speaker) asleep_[*speaker] = {'S', before[*speaker].runs};
+    return true;
+  }
   Tasks after;
-  return read_tasks(before, waiting) && read_tasks(after, waiting) && before == after;
+  if (!read_tasks(after, std::nullopt) || before != after) return false;
+  std::erase_if(files_, [&](const auto& files) { return !after.contains(files.first); });
+  asleep_ = std::move(after);
+  return true;
 }
 
-std::optional<std::string> HostTasks::running_one() const {
-  std::array<char, 512> buffer{};
+std::optional<std::string> HostTasks::running_one() {
+  Buffer buffer{};
   std::optional<std::string> found;
   for (const auto& known : processes_) {
     const int process = known.first;
     int number = 0;
     for_each_task(process, [&](int task) {
       ++number;
-      const std::string folder = folder_of(process) + "/" + std::to_string(task);
-      if (found || state_in(read_small(folder + "/stat", buffer)) != 'R') return;
-      std::string_view name = read_small("/proc/" + std::to_string(process) + "/comm", buffer);
+      if (found || look_at(process, task).state != 'R') return;
+      std::string_view name = read_small(open_to_read("/proc/" + std::to_string(process) + "/comm"), buffer);
       name = name.substr(0, name.find('\n'));
       found = "thread " + std::to_string(number) + " of " + one_line(std::string(name)) + " (process " +
               std::to_string(process) + ")";

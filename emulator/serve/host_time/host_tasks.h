@@ -1,13 +1,13 @@
 // The processes of a host, and whether the kernel runs any of their threads. A thread may wait for another
 // one (a lock, a pipe, a child) without notifying the bench: the kernel knows that it sleeps. The kernel
 // wakes such a thread before the one that wakes it continues, so a host whose threads all sleep stays asleep.
+// A thread that has told the bench of its wait is no exception: a signal can end its wait, or its process.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "base/files/descriptor.h"
@@ -26,17 +26,19 @@ class HostTasks {
 
   void add(int process);
   bool knows(int process) const { return processes_.contains(process); }
-  /// Returns true if the process exists and is not about to end.
-  bool is_alive(int process) const;
-
   /// Returns true if the host has a single thread.
   bool is_one_thread() const;
-  /// Returns true if no thread of any process can continue on its own. `waiting` has the threads that are
-  /// known to wait.
-  bool are_all_asleep(const std::set<int>& waiting) const;
+  /// Returns true if no thread of any process can continue on its own. `speaker` is the only thread that has
+  /// sent messages since the host was asleep, if the last of them tells that it waits: it may still be on its
+  /// way to sleep.
+  bool are_all_asleep(std::optional<int> speaker);
+  /// Must be called when a thread has been told to continue.
+  void continues(int thread) { asleep_.erase(thread); }
+  /// Must be called when signals may have been sent.
+  void any_may_continue() { asleep_.clear(); }
 
   /// Describes a thread that the kernel runs: "thread 2 of my_host (1234)".
-  std::optional<std::string> running_one() const;
+  std::optional<std::string> running_one();
 
  private:
   struct Task {
@@ -46,11 +48,20 @@ class HostTasks {
   };
   using Tasks = std::map<int, Task>;
 
-  bool read_tasks(Tasks& tasks, const std::set<int>& waiting) const;
+  /// The kernel's files about a thread. Open ones are read in a fraction of the time.
+  struct Files {
+    Descriptor stat;
+    Descriptor schedstat;
+  };
+
+  Task look_at(int process, int task);
+  bool read_tasks(Tasks& tasks, std::optional<int> except);
 
   EventLoop& loop_;
   std::function<void(int)> ended_;
   std::map<int, Descriptor> processes_;  // each with a descriptor that reports its end
+  std::map<int, Files> files_;           // of threads
+  Tasks asleep_;                         // threads that have not been told to continue since all slept
 };
 
 }  // namespace understudy::emulator::serve

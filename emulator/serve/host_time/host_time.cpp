@@ -203,6 +203,9 @@ bool HostTime::on_message(int number) {
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return false;
   using host_time::MessageKind;
   has_moved_ = true;
+  if (std::exchange(was_asleep_, false)) speakers_.clear();
+  speakers_.insert(number);
+  is_last_message_wait_ = message.what == MessageKind::wait;
   const bool is_good = size == static_cast<ssize_t>(sizeof message) &&
                        (message.what != MessageKind::hello || message.sequence == host_time::kVersion);
   if (!is_good) {
@@ -230,6 +233,7 @@ void HostTime::answer(int number, HostAnswer what, const HostWaits::Thread& thre
   // This cannot block, because a thread has at most a few unread answers.
   [[maybe_unused]] const ssize_t sent = send(number, &message, sizeof message, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (thread.wait.is_on_word != 0 && what == HostAnswer::go) page_.wake(thread.thread);
+  tasks_.continues(thread.thread);
 }
 
 // --- time ----------------------------------------------------------------------------------------
@@ -240,21 +244,28 @@ void HostTime::poll_again() {
   set_timer(next_poll_, patience_);
 }
 
+/// Returns the kernel's number of the only thread that has sent messages since the host was asleep, if it
+/// waits for nothing but the bench and signals, and no signal can have come.
+std::optional<int> HostTime::lone_speaker() const {
+  if (speakers_.size() != 1 || !is_last_message_wait_ || must_poll_) return std::nullopt;
+  const auto found = waits_.threads().find(*speakers_.begin());
+  if (found == waits_.threads().end()) return std::nullopt;
+  const HostWaits::Thread& thread = found->second;
+  if (thread.state != HostState::waiting || thread.wait.has_others != 0) return std::nullopt;
+  return thread.thread;
+}
+
 bool HostTime::is_host_asleep() {
   if (is_host_over_) return true;
-  std::set<int> resting;
-  std::size_t waiting = 0;
-  for (const auto& [number, thread] : waits_.threads()) {
-    if (thread.state != HostState::waiting) continue;
-    ++waiting;
-    if (thread.wait.has_others == 0 && !must_poll_) resting.insert(thread.thread);
-  }
-  // A thread that has just ended may have woken one that is also waiting for others. The end must be read
-  // first, because the threads that exist when time advances are numbered.
-  if (waiting == 1 && resting.size() == 1 && tasks_.is_one_thread() && !has_unread_messages()) return true;
-  // A thread that has sent a message also sleeps until it is answered, so this comes last.
-  if (!tasks_.are_all_asleep(resting) || has_unread_messages()) return false;
+  if (must_poll_) tasks_.any_may_continue();
+  const std::optional<int> speaker = lone_speaker();
+  // A thread that has just ended may have woken one that waits for others too. Its end is read first: threads
+  // that exist when time advances are numbered. A thread that has sent a message also sleeps until it is
+  // answered, so unread messages come last.
+  const bool is_alone = speaker && tasks_.is_one_thread();
+  if ((!is_alone && !tasks_.are_all_asleep(speaker)) || has_unread_messages()) return false;
   must_poll_ = false;
+  was_asleep_ = true;
   return true;
 }
 

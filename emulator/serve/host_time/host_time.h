@@ -65,6 +65,7 @@ class HostTime {
   void answer(int number, HostAnswer answer, const HostWaits::Thread& thread);
   void consider();
   bool may_time_go() const;
+  std::optional<int> lone_speaker() const;
   bool is_host_asleep();
   bool has_unread_messages() const;
   void poll_again();
@@ -104,6 +105,9 @@ class HostTime {
   Descriptor watch_;        // a timer
   WallTime patience_{0};    // before the next check of a host that is not asleep
   bool must_poll_ = false;  // a signal may have woken a thread that the bench takes for waiting
+  std::set<int> speakers_;  // connections that have sent messages since the host was asleep last
+  bool is_last_message_wait_ = false;
+  bool was_asleep_ = false;  // and no message has arrived since
   bool has_moved_ = true;    // since watch_over() looked last
   int idle_polls_ = 0;
   bool has_reported_spinning_ = false;
