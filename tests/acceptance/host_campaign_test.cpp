@@ -204,6 +204,72 @@ TEST_F(HostCampaign, JudgesTheEndOfTheCommand) {
   }
 }
 
+// Nothing waits for the end of the command, but the case has not ended before that.
+TEST_F(HostCampaign, ChecksConditionsUntilTheCommandHasEnded) {
+  struct Row {
+    const char* steps;
+    const char* parameters;
+    const char* message;  // empty: it passes
+    double simulated_s;
+  };
+  const std::string sleeps = "sleep ${seconds}";
+  const std::vector<Row> rows{
+      {"- never: time > 2s\n  - advance: 1s", "5", "never 'time > 2s'", 2.001},
+      {"- always: time < 2s\n  - say: nothing", "5", "always 'time < 2s'", 2.0},
+      {"- never: time > 6s\n  - advance: 1s", "5.0005", "", 5.0005},
+      {"- never: time > 6s\n  - advance: 7s", "5", "never 'time > 6s'", 6.001},
+      {"- { never: time > 2s, name: early }\n  - advance: 1s\n  - end: early", "5", "", 5.0},
+      {"- say: nothing", "3.25", "", 3.25},
+      {"- never: time > 2s\n  - host: { within: 10s }", "5", "never 'time > 2s'", 2.001},
+      {"- never: time > 2s\n  - host: stop", "5", "", 0.0},
+      {"- host: { within: 10s }\n  - never: time > 6s\n  - advance: 2s", "5", "never 'time > 6s'", 6.001},
+  };
+  for (const Row& row : rows) {
+    std::filesystem::remove(folder() / "rows.jsonl");
+    const Finished finished =
+        exec("vary: { seconds: [ " + std::string(row.parameters) + " ] }\nsteps:\n  " + row.steps + "\n",
+             {"sh", "-c", sleeps}, {"--host-time", "--results", folder() / "rows.jsonl"});
+    EXPECT_EQ(finished.exit_code, *row.message == '\0' ? 0 : 1)
+        << row.steps << finished.output << finished.errors;
+    EXPECT_TRUE(has(finished.output, row.message)) << row.steps << finished.output;
+    const std::string text = text_of("rows.jsonl");
+    const std::string key = "\"simulated_s\":";
+    ASSERT_TRUE(has(text, key)) << text;
+    EXPECT_NEAR(std::stod(text.substr(text.find(key) + key.size())), row.simulated_s, 1e-6)
+        << row.steps << text;
+  }
+}
+
+// The condition is also that of a scenario beside a host.
+TEST_F(HostCampaign, ChecksConditionsBesideAHostUntilItHasEnded) {
+  const std::string bench = folder().write(
+      "bench.yaml",
+      "understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n");
+  const std::string beside = folder().write(
+      "beside.yaml", "understudy: 1\nname: beside\nbench: bench.yaml\nsteps: [ { never: time > 2s } ]\n");
+  for (const char* const seconds : {"1", "3"}) {
+    const Finished finished =
+        understudy({"exec", bench, "--host-time", "--with", beside, "--", "sleep", seconds});
+    const bool is_broken = std::string(seconds) == "3";
+    EXPECT_EQ(finished.exit_code, is_broken ? 1 : 0) << finished.errors;
+    EXPECT_EQ(has(finished.errors, "never 'time > 2s'"), is_broken) << finished.errors;
+  }
+}
+
+TEST_F(HostCampaign, HuntsForWhatHappensAfterTheLastStep) {
+  const std::string hunted =
+      folder().write("hunted.yaml", std::string(kHead) +
+                                        "steps: [ advance: 1ms ]\n"
+                                        "hunt:\n"
+                                        "  may: [ inject: { slow: feeder, by: { between: [ 1ms, 5ms ] } } ]\n"
+                                        "  never: feeder.A.pulses > 50\n");
+  const Words host = this->host("careful", "3200");
+  const Finished finished = understudy({"hunt", hunted, "--courses", "3", "--found", folder() / "found", "--",
+                                        host[0], host[1], host[2], host[3]});
+  EXPECT_EQ(finished.exit_code, 1) << finished.output << finished.errors;
+  EXPECT_TRUE(has(finished.output, "never 'feeder.A.pulses > 50'")) << finished.output;
+}
+
 TEST_F(HostCampaign, RunsInRealTimeToo) {
   const Finished finished =
       exec("vary: { seconds: [ 0.1, 0.2 ] }\nsteps:\n  - advance: 50ms\n  - host: { within: 30s }\n",

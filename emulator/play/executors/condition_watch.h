@@ -16,9 +16,10 @@ class ConditionWatch final : public world::TickWatcher {
   ConditionWatch& operator=(const ConditionWatch&) = delete;
 
   void on_tick(Tick) override {
-    is_met_ = is_met_ || awaited_.is_met(world_);
+    look();
     if (is_met_) world_.stop_here();
   }
+  void look() { is_met_ = is_met_ || awaited_.is_met(world_); }
   Tick next_poll(Tick done) const override {
     return awaited_.next_poll ? awaited_.next_poll(done) : done + 1;
   }

@@ -83,9 +83,9 @@ class Executor {
   // --- the world -------------------------------------------------------------------------------------
   /// Acts on the world between two ticks, or reads it. Exceptions of `act` are passed on.
   virtual void with_world(const std::function<void(world::World&)>& act) = 0;
-  /// Lets time pass until the condition is true at the end of a tick (or now), but not beyond `deadline`.
-  /// Returns true if the condition became true. `is_met` is called at every tick that may make a difference,
-  /// on the thread that runs the world.
+  /// Lets time pass until the condition is true at the end of a tick (or now), but not beyond `deadline`,
+  /// which may be kForever. Returns true if it is. `is_met` is called at every tick that may make a
+  /// difference, on the thread that runs the world.
   virtual bool run_until(const Awaited& awaited, SimTime deadline) = 0;
   virtual void advance(SimTime by) = 0;
   virtual SimTime now() = 0;

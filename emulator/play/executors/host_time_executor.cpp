@@ -36,7 +36,7 @@ HostTimeExecutor::~HostTimeExecutor() = default;
 
 bool HostTimeExecutor::run_until(const Awaited& awaited, SimTime deadline) {
   if (awaited.is_met(world_)) return true;
-  const ConditionWatch watch(world_, awaited);
+  ConditionWatch watch(world_, awaited);
   turns_.wait_until(deadline, &watch);
   if (turns_.is_given_up()) throw ExecutionAborted();
   return watch.is_met();

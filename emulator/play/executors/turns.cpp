@@ -11,6 +11,7 @@ namespace understudy::emulator::play {
 void Turns::act(SimTime now) {
   std::unique_lock lock(mutex_);
   if (!end_) return;
+  if (*end_ == kForever && watch_ != nullptr) watch_->look();
   const bool is_found = watch_ != nullptr && watch_->is_met();
   if (now < *end_ && !is_found && !is_given_up_) return;
   turn_ = Whose::scenario;
@@ -20,7 +21,7 @@ void Turns::act(SimTime now) {
 
 std::optional<SimTime> Turns::next_act() const {
   const std::lock_guard lock(mutex_);
-  return end_;
+  return end_ == kForever ? std::nullopt : end_;
 }
 
 void Turns::give_up() {
@@ -49,7 +50,7 @@ void Turns::begin() {
   wait_for_turn(lock);
 }
 
-void Turns::wait_until(SimTime end, const ConditionWatch* watch) {
+void Turns::wait_until(SimTime end, ConditionWatch* watch) {
   std::unique_lock lock(mutex_);
   end_ = end;
   watch_ = watch;

@@ -28,7 +28,7 @@ class Turns final : public serve::SimulatedTask {
   void begin();
   /// Gives the turn away until simulated time reaches `end`, the watch finds its condition, or the scenario
   /// is given up.
-  void wait_until(SimTime end, const ConditionWatch* watch = nullptr);
+  void wait_until(SimTime end, ConditionWatch* watch = nullptr);
   /// Called when the scenario no longer acts.
   void finish();
 
@@ -42,8 +42,9 @@ class Turns final : public serve::SimulatedTask {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Whose turn_ = Whose::world;
-  std::optional<SimTime> end_ = SimTime{0};  // when the scenario's wait ends; no value after finish()
-  const ConditionWatch* watch_ = nullptr;
+  /// When the scenario's wait ends; nothing after finish(). kForever: it waits for the host's end.
+  std::optional<SimTime> end_ = SimTime{0};
+  ConditionWatch* watch_ = nullptr;
   bool is_given_up_ = false;
   bool is_left_ = false;
 };

@@ -61,6 +61,9 @@ class Performance {
   /// Executes the first of `steps`, which must not be a snapshot, a restore or a fork. The steps after it
   /// show what will be waited for.
   std::optional<Failure> play(std::span<const Step> steps);
+  /// Goes on after the last step until the command that runs with the scenario has ended. Conditions that
+  /// always or never hold are checked until then.
+  std::optional<Failure> finish_with_command();
   /// Returns true if the controllers are real. Then steps may be skipped.
   bool is_on_box() const { return on_box_ != nullptr; }
   /// Returns why the last step was not executed, or an empty text.
@@ -126,6 +129,7 @@ class Performance {
   void perform(const EndSpanStep& step);
   void perform(const ResetPeaksStep& step);
   void perform(const SayStep&) {}
+  bool wait_for_command(SimTime deadline);
   Tick wait_for(const WaitStep& step);
   Tick poll_for(const WaitStep& step);
   /// Runs to that time, or to the tick at which a span is violated.

@@ -11,6 +11,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/play/executors/real_executor.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/performing/watches.h"
 #include "emulator/play/scenario/requests.h"
@@ -219,18 +220,37 @@ void Performance::perform(const ResetPeaksStep&) {
   executor_->with_world([&](world::World&) { world_observers_->peaks.reset(); });
 }
 
+/// Waits for the end of the command. Returns false if it has not ended by then.
+bool Performance::wait_for_command(SimTime deadline) {
+  const auto is_over = [&](world::World&) {
+    return world_observers_->spans.violation() || command_->exit_code();
+  };
+  // A command in simulated time ends between two ticks.
+  const auto next_poll = [&](Tick done) {
+    return command_->exit_code() ? done + 1 : world_observers_->spans.next_poll(done);
+  };
+  const bool has_ended = executor_->run_until({.is_met = is_over, .next_poll = next_poll}, deadline);
+  throw_if_broken();
+  return has_ended;
+}
+
+std::optional<Failure> Performance::finish_with_command() {
+  try {
+    wait_for_command(kForever);
+  } catch (const StepError& error) {
+    return explain_failure(error);
+  } catch (const ExecutionAborted&) {  // the clock stands, or the command was stopped: all steps are over
+  }
+  return std::nullopt;
+}
+
 void Performance::perform(const CommandEndStep& step) {
   if (command_ == nullptr) {
     throw StepError("no command runs beside this scenario; expected `understudy exec " + step_->file +
                     " -- COMMAND`");
   }
   if (step.stops) executor_->with_world([&](world::World&) { command_->stop(); });
-  const SimTime deadline = moment_in(step.within);
-  const auto is_over = [&](world::World&) {
-    return world_observers_->spans.violation() || command_->exit_code();
-  };
-  const bool has_ended = executor_->run_until({.is_met = is_over}, deadline);
-  throw_if_broken();
+  const bool has_ended = wait_for_command(moment_in(step.within));
   const std::string expected = "exit code " + std::to_string(step.exits);
   if (!has_ended) {
     throw StepError("the command did not end within " + format_duration(step.within),

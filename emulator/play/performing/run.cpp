@@ -1,5 +1,6 @@
 #include "emulator/play/performing/run.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/executors/executor.h"
 #include "emulator/play/executors/free_executor.h"
 #include "emulator/play/performing/observer.h"
@@ -134,6 +136,7 @@ class Run {
       const bool is_kept = !begin && i + 1 == options_.keep_after && known.empty() && forks.empty();
       if (is_kept && !result.failure) options_.keep({.state = save(), .played = result});
     }
+    finish_with_command(performance, steps, result);
     const bool has_more = options_.more && performance.is_on_box() && !begin && !result.failure;
     if (has_more) options_.more(performance);
     if (performance.is_on_box() && !has_judged(steps, result))
@@ -175,6 +178,16 @@ class Run {
     performance.restore(*options_.begin->state);
     observers.world_restored(result.steps.size());
     return result.steps.size();
+  }
+
+  /// The scenario lasts until the command has ended, unless a step is about that.
+  void finish_with_command(Performance& performance, const Steps& steps, ScenarioResult& result) const {
+    const bool has_end = std::ranges::any_of(
+        steps, [](const Step& step) { return std::holds_alternative<CommandEndStep>(step.what); });
+    if (options_.command == nullptr || has_end || result.failure) return;
+    const SimTime begin = performance.now();
+    result.failure = performance.finish_with_command();
+    result.simulated += performance.now() - begin;
   }
 
   static void end_step(Performance& performance, StepResult& played, ScenarioResult& result) {

@@ -383,6 +383,7 @@ void HostTime::host_ended() {
   is_host_over_ = true;
   receive_all();  // the end of a short-lived host may be noticed before its greeting
   judge_end_of(greetings_.first_process());
+  if (task_ != nullptr && !task_->next_act()) task_->act(daemon_.world().now());  // it may wait for this
   consider();
 }
 
