@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "emulator/hunt/course.h"
@@ -151,9 +153,30 @@ void Shrinker::round_moment(std::size_t number) {
   }
 }
 
+/// Returns how the course ends without any disturbance, and without each of them.
+std::vector<std::string> Shrinker::ends_without(const Course& course) {
+  std::vector<std::string> ends;
+  const auto add = [&](const Course& other) {
+    ++best_.plays;
+    const Outcome outcome = course_player_.play(other);
+    ends.push_back(outcome.is_cut_short ? "cut short" : outcome.kind);
+  };
+  Course other = course;
+  other.disturbances.clear();
+  add(other);
+  for (std::size_t i = 0; course.disturbances.size() > 1 && i < course.disturbances.size(); ++i) {
+    other = course;
+    other.disturbances.erase(other.disturbances.begin() + static_cast<std::ptrdiff_t>(i));
+    add(other);
+  }
+  return ends;
+}
+
 /// Leaves out steps of the scenario, the last one first, if the course then still fails because of its
-/// disturbances, and the scenario without them does not.
+/// disturbances: without any, and without each of them, it must end as it did with all steps. A step that
+/// others need would make it fail in another way.
 void Shrinker::leave_out_steps() {
+  const std::vector<std::string> ends = ends_without(best_.course);
   const auto& steps = course_player_.scenario().steps;
   const std::size_t last = std::min(best_.course.end, steps.size());
   for (std::size_t i = last; i-- > 0;) {
@@ -164,10 +187,7 @@ void Shrinker::leave_out_steps() {
     for (std::size_t j = i + 1; j < steps.size() && course_player_.plan().steps()[j].continues; ++j)
       shorter.left_out.insert(j);
     if (shorter.left_out.contains(best_.outcome.failed_step)) continue;
-    Course undisturbed = shorter;
-    undisturbed.disturbances.clear();
-    if (best_.plays >= kMaxPlays || fails(undisturbed)) continue;
-    try_course(std::move(shorter));
+    if (best_.plays < kMaxPlays && ends_without(shorter) == ends) try_course(std::move(shorter));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "emulator/hunt/course.h"
@@ -39,6 +40,7 @@ class Shrinker {
   void lower(std::size_t number, std::uint64_t low, std::uint64_t high,
              const std::function<void(play::Disturbance&, std::uint64_t)>& set);
   void round_moment(std::size_t number);
+  std::vector<std::string> ends_without(const Course& course);
   void leave_out_steps();
   bool is_minimal();
 
