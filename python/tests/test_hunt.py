@@ -111,8 +111,13 @@ def test_the_host_of_the_page(tmp_path):
     said = subprocess.run(["bash", "-ec", snippets("hunt.md", "sh")[2]], cwd=tmp_path, capture_output=True, text=True,
                           env=dict(os.environ, PATH=path), check=False)
     assert said.returncode == 0, said.stdout + said.stderr
-    assert "feeder.A.pulses == 800" in said.stdout, said.stdout
+    printed = [text for text in snippets("hunt.md", "text") if "one_move" in text]
+    assert len(printed) == 1 and printed[0] in said.stdout, said.stdout
     assert "--host-time -- sh one_move.sh" in said.stdout, said.stdout
+    found = list((tmp_path / "found").glob("*.yaml"))
+    assert len(found) == 1 and found[0].read_text() in said.stdout, said.stdout
+    assert "  - inject: { drop: feeder, of: reply, nth: 3 }  # disturbance 1 of 1\n" in found[0].read_text()
+    assert "(feeder.A.pulses is 1600)" in said.stdout, said.stdout
 
 
 @pytest.mark.parametrize("words, message", [
