@@ -218,10 +218,9 @@ TEST_F(HostCampaign, ChecksConditionsUntilTheCommandHasEnded) {
       {"- always: time < 2s\n  - say: nothing", "5", "always 'time < 2s'", 2.0},
       {"- never: time > 6s\n  - advance: 1s", "5.0005", "", 5.0005},
       {"- never: time > 6s\n  - advance: 7s", "5", "never 'time > 6s'", 6.001},
-      {"- { never: time > 2s, name: early }\n  - advance: 1s\n  - end: early", "5", "", 5.0},
+      {"- never: { what: time > 2s, name: early }\n  - advance: 1s\n  - end: early", "5", "", 5.0},
       {"- say: nothing", "3.25", "", 3.25},
       {"- never: time > 2s\n  - host: { within: 10s }", "5", "never 'time > 2s'", 2.001},
-      {"- never: time > 2s\n  - host: stop", "5", "", 0.0},
       {"- host: { within: 10s }\n  - never: time > 6s\n  - advance: 2s", "5", "never 'time > 6s'", 6.001},
   };
   for (const Row& row : rows) {
