@@ -237,16 +237,19 @@ HostReply RealExecutor::with_bytes(std::size_t line, HostReply reply) {
 }
 
 HostReply RealExecutor::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+  if (are_ascii_[line]) return ask_ascii(line, read_request(station, table, first, count));
   return with_bytes(line, host(line).read(station, table, first, count));
 }
 
 HostReply RealExecutor::write(std::size_t line, int station, Table table, std::uint16_t first,
                               std::span<const std::uint16_t> words) {
+  if (are_ascii_[line]) return ask_ascii(line, write_request(station, table, first, words));
   return with_bytes(line, host(line).write(station, table, first, words));
 }
 
 HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16_t first,
                                       std::span<const std::uint16_t> words) {
+  if (are_ascii_[line]) return ask_ascii(line, message_request(station, first, words));
   return with_bytes(line, host(line).write_message(station, first, words));
 }
 

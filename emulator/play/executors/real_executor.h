@@ -68,6 +68,7 @@ class RealExecutor final : public Executor {
   LibmodbusHost& host(std::size_t line);
   /// Adds the bytes of a reply that libmodbus has refused: it hands on none.
   HostReply with_bytes(std::size_t line, HostReply reply);
+  HostReply ask_ascii(std::size_t line, const std::vector<std::uint8_t>& request);
   SimTime time_to_send(std::size_t line, const std::string& text) const;
   void throw_if_given_up() const;
   /// Returns how long simulated time needs to reach `time`, by the wall clock, or nothing while the clock is
