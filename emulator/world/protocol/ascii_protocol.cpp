@@ -64,19 +64,24 @@ class AsciiLineProtocol final : public LineProtocol {
                                               pty::CaptureFrames::Sink sink) const override {
     return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink), pty::Packets::ascii_frames);
   }
-  std::string request_text(const LineStations& stations, Bytes request) const override {
+  std::vector<std::size_t> addressed(const LineStations& stations, Bytes request) const override {
     const auto frame = pty::rtu_of_ascii(request);
-    return frame ? modbus_protocol().request_text(stations, *frame) : hex_text(request);
+    return frame ? modbus_protocol().addressed(stations, *frame) : std::vector<std::size_t>();
   }
-  std::string command_text(const LineStations& stations, Bytes request) const override {
+  std::string request_text(const LineStations& stations, const Device* to, Bytes request) const override {
     const auto frame = pty::rtu_of_ascii(request);
-    return frame ? modbus_protocol().command_text(stations, *frame) : std::string();
+    return frame ? modbus_protocol().request_text(stations, to, *frame) : hex_text(request);
   }
-  std::string reply_text(const LineStations& stations, Bytes request, Bytes reply) const override {
+  std::string command_text(const Device* to, Bytes request) const override {
+    const auto frame = pty::rtu_of_ascii(request);
+    return frame ? modbus_protocol().command_text(to, *frame) : std::string();
+  }
+  std::string reply_text(const LineStations& stations, const Device* to, Bytes request,
+                         Bytes reply) const override {
     const auto frame = pty::rtu_of_ascii(reply);
     if (!frame) return hex_text(reply);
     const auto asked = pty::rtu_of_ascii(request);
-    return modbus_protocol().reply_text(stations, asked ? Bytes(*asked) : Bytes(), *frame);
+    return modbus_protocol().reply_text(stations, to, asked ? Bytes(*asked) : Bytes(), *frame);
   }
 
   FrameFacts facts_of(const ReceivedFrame& frame) const override {
