@@ -103,9 +103,10 @@ model_file::RegisterList read_list(const std::string& text, const std::string& p
                                    const model_file::ListReading& reading) {
   try {
     return model_file::read_list_file(text, path, reading);
-  } catch (const FileError&) {
+  } catch (const FileError& error) {
+    const bool has_headings = std::string_view(error.what()).find(": columns: ") == std::string_view::npos;
     const std::string why = why_no_capture_is_expected(text, ContentKind::registers);
-    if (why.empty()) throw;
+    if (has_headings || why.empty()) throw;
     throw FileError({path, 1, 1}, "registers: " + why);
   }
 }

@@ -242,7 +242,7 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
   }
   if (on.plan) return kExitWell;
   const box::EvidenceFile evidence = evidence_of(model, arguments, proofs);
-  std::fputs(box::evidence_table(evidence, "the model's default is another").c_str(), stdout);
+  std::fputs(box::evidence_table(evidence, "the model's default is different").c_str(), stdout);
   if (output.is_wanted()) {
     output.write(box::evidence_text(evidence));
     std::printf("wrote %s\n", arguments.output.c_str());

@@ -152,7 +152,7 @@ TEST(ImportedAscii, IsDrivenByPymodbus) {
   EXPECT_EQ(host.exit_code, 0) << host.output << host.errors;
   EXPECT_EQ(daemon->errors(), "");
   const std::string frames = daemon->ctl({"frames", "--once"}).output;
-  EXPECT_NE(frames.find("write 0x0001 it.B = 42"), std::string::npos) << frames;
+  EXPECT_NE(frames.find("write 0x0000 it.A = 101"), std::string::npos) << frames;
   EXPECT_NE(frames.find("exception 3"), std::string::npos) << frames;
 }
 
@@ -260,14 +260,14 @@ TEST(ImportCommand, UsesTheGivenSettings) {
 TEST(ImportCommand, TakesListsWhoseRowsLookLikeThoseOfCaptures) {
   for (const char* const text :
        {"address,name,default\n0,SPEED,50\n1,RAMP,200\n", "address,name,width\n0,SPEED,16\n1,RAMP,32\n",
-        "Register,Parameter,Default\n101,P0.02,50\n", "address,name,min\n0,F,0\n1,AB,10\n"}) {
+        "Register,Parameter,Default\n101,P0.02,50\n", "address,name,min,max\n0,F,0,10\n1,AB,0,10\n"}) {
     const PrivateFolder folder;
     const Finished imported = understudy({"import", folder.write("p.csv", text)});
     EXPECT_EQ(imported.exit_code, 0) << text << imported.errors;
   }
   const PrivateFolder folder;
   const Finished refused =
-      understudy({"import", folder.write("p.csv", "Time [s],Value\n0.001,01\n0.002,03\n")});
+      understudy({"import", folder.write("p.csv", "Time [s],Value,Error\n0.001,01,\n0.002,03,\n")});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.errors.find("is a table of Saleae Logic, for `understudy compare`"), std::string::npos)
       << refused.errors;

@@ -334,12 +334,13 @@ TEST_F(Mistakes, OfAScopeAreReportedInWords) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   EXPECT_EQ(daemon.ctl({"scope"}).output, "no scope is armed; ctl scope NAME... when=CONDITION arms one\n");
   EXPECT_EQ(daemon.ctl({"scope", "A.pulses", "Cord_A", "when=Cord_A > 5", "before=2ms", "after=2ms"}).output,
-            "armed: A.pulses, Cord_A; waits for Cord_A > 5; 0 ticks kept\n");
+            "armed: A.pulses, Cord_A; waits for Cord_A > 5; 0 ticks recorded\n");
   EXPECT_EQ(daemon.ctl({"set", "Aaxis_SVON=1", "Aaxis_Speed=200", "Aaxis_Pulse=3200"}).exit_code, 0);
   EXPECT_EQ(daemon.ctl({"set", "Aaxis_Move_INC=1"}).exit_code, 0);
   EXPECT_EQ(daemon.ctl({"advance", "1s"}).exit_code, 0);
   const Finished reported = daemon.ctl({"scope"});
-  EXPECT_TRUE(reported.output.starts_with("done: A.pulses, Cord_A; 5 ticks kept, from ")) << reported.output;
+  EXPECT_TRUE(reported.output.starts_with("done: A.pulses, Cord_A; 5 ticks recorded, from "))
+      << reported.output;
   const Finished written = daemon.ctl({"scope", "--trace", at("shot.csv")});
   EXPECT_EQ(written.output, at("shot.csv") + ": 5 ticks\n") << written.errors;
   std::ifstream shot(at("shot.csv"));

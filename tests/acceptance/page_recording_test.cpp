@@ -295,7 +295,7 @@ TEST_F(PageOfAFailure, IsReachedByNoHostUnlessAltered) {
     return ask({{"do", "get"}, {"names", {name}}})["values"][name].get<std::int64_t>();
   };
   const std::string port = ask({{"do", "identify"}})["daemon"]["lines"][0]["pty"];
-  ASSERT_EQ(ask({{"do", "seek"}, {"to_ns", 0}})["ok"], true);
+  ASSERT_EQ(ask({{"do", "seek"}, {"to_ns", 1'000'000'000}})["ok"], true);
   const std::int64_t recorded = get("feeder.Aaxis_Speed");
   ASSERT_NE(recorded, 200);
   {
@@ -306,7 +306,7 @@ TEST_F(PageOfAFailure, IsReachedByNoHostUnlessAltered) {
     ASSERT_EQ(ask({{"do", "step"}, {"ticks", 50}})["ok"], true);
     EXPECT_TRUE(is_silent(host)) << "the recorded replies are not for this host";
     EXPECT_NE(get("feeder.Aaxis_Speed"), 200);
-    EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 0}})["ok"], true);
+    EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 1'000'000'000}})["ok"], true);
     ASSERT_EQ(ask({{"do", "what-if"}})["altered"], true);
     host.write(kSetSpeed200);
     ASSERT_TRUE(eventually([&] {

@@ -41,9 +41,10 @@ void take_values(ModbusRequest& request, Bytes pdu, std::size_t at) {
 
 void take_single(ModbusRequest& request, Bytes pdu) {
   constexpr std::uint16_t kOn = 0xFF00;
+  if (pdu.size() != kAddressed) return;
   const bool is_bit = is_table_of_bits(request.writes->table);
   const std::uint16_t word = word_at(pdu, 3);
-  request.is_well_formed = pdu.size() == kAddressed && (!is_bit || word == kOn || word == 0);
+  request.is_well_formed = !is_bit || word == kOn || word == 0;
   if (!request.is_well_formed) return;
   request.words.push_back(is_bit ? static_cast<std::uint16_t>(word == kOn ? 1 : 0) : word);
 }
@@ -67,11 +68,19 @@ void take_read_and_write(ModbusRequest& request, Bytes pdu) {
 
 ModbusRequest parse_request(Bytes pdu) {
   ModbusRequest request{.function = pdu.empty() ? std::uint8_t{0} : pdu[0]};
-  if (pdu.size() < kAddressed) return request;
+  constexpr std::size_t kNamed = 3;  // the size of a function code and an address
+  if (pdu.size() < kNamed) return request;
   if (request.function == static_cast<std::uint8_t>(OtherFunction::mask_write)) {
     take_mask(request, pdu);
     return request;
   }
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.code != request.function || row.kind != FunctionRow::Kind::write_one) continue;
+    request.writes = {.table = row.table, .first = word_at(pdu, 1), .count = 1};
+    take_single(request, pdu);
+    return request;
+  }
+  if (pdu.size() < kAddressed) return request;
   if (request.function == static_cast<std::uint8_t>(OtherFunction::read_and_write)) {
     take_read_and_write(request, pdu);
     return request;
@@ -84,10 +93,7 @@ ModbusRequest parse_request(Bytes pdu) {
         request.reads = span;
         request.is_well_formed = pdu.size() == kAddressed;
         break;
-      case FunctionRow::Kind::write_one:
-        request.writes = {.table = row.table, .first = span.first, .count = 1};
-        take_single(request, pdu);
-        break;
+      case FunctionRow::Kind::write_one: break;  // above
       case FunctionRow::Kind::write_several:
         request.writes = span;
         take_values(request, pdu, kAddressed);

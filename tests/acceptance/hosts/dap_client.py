@@ -445,7 +445,7 @@ def case_launch():
         assert stopped["reason"] == "data breakpoint" and "the device changes it to 43" in stopped["text"], stopped
         adapter.ask("setDataBreakpoints", breakpoints=[])
         adapter.ask("continue", threadId=thread)
-        assert adapter.refused("next", threadId=thread).startswith("next: the bench runs"), "or it has stopped"
+        assert adapter.refused("next", threadId=thread).startswith("next: the bench is running"), "or it has stopped"
         adapter.ask("pause", threadId=thread)
         assert adapter.event("stopped")["reason"] == "pause"
         adapter.ask("restart")

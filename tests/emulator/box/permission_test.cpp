@@ -70,7 +70,10 @@ TEST(Permission, RefusesFramesThatTheEnvelopeCannotJudge) {
       {frame({1, 6, 0x70, 0x00, 0, 1}), "it writes to an address that no table names"},
       {frame({1, 0x17, 0x10, 0x02, 0, 1}), "it is not a write of a known form"},
       {joined({{0xFF}, kMove}), "it is not a frame with a right checksum"},
-      {joined({kMove, {0}}), "it is not a frame with a right checksum"},
+      // Its checksum is right: a byte 0 after a frame makes the high byte of the checksum, and 0, one as
+      // well.
+      {joined({kMove, {0}}), "it is not a write of a known form"},
+      {joined({kMove, {1}}), "it is not a frame with a right checksum"},
       {joined({kRead, kMove}), "it is not a frame with a right checksum"},
       {frame(joined({kRead, kMove})), "it is not a write of a known form"},
       {{1, 6, 0x10}, "it is not a frame with a right checksum"},
@@ -118,7 +121,7 @@ TEST(Permission, JudgesLinesOfTextAsTheControllerReadsThem) {
       {"MA 1e3", "MA = 1000 is beyond"},
       {"$LOOP ma 200", "MA = 200 is beyond"},
       {"t1ma 200", "T1MA = 200 is beyond"},
-      {"T0MA 200", "T0MA = 200 is beyond"},
+      {"T0MA 200", "MA = 200 is beyond"},
       {"2MA 50,200", "2MA = 200 is beyond"},
       {"XMA 200", "XMA = 200 is beyond"},
       {"MA R0", "MA takes a number that only the controller knows, and limits.yaml:3 limits it"},

@@ -46,7 +46,7 @@ TEST(HuntPlanErrors, EachIsOneLineWithItsPlace) {
        "s.yaml:20:61: hunt.to: leaves no step between `from` and `to`; expected `from` before `to`"},
       {" { may: [ inject: { drop: feeder, name: d } ] }\n",
        "s.yaml:20:46: hunt.may[0].inject.name: cannot be used, because the fault may occur several times; "
-       "expected none"},
+       "expected no name"},
       {" { may: [ advance: 1ms ], never: feeder.Cuonter1_Value == 4 }\n",
        "s.yaml:20:39: hunt.never: column 1 of 'feeder.Cuonter1_Value == 4': feeder: no register is called "
        "'Cuonter1_Value'; the nearest is 'Counter1_Value'"},

@@ -183,25 +183,25 @@ TEST(Thing, MayBeWrittenByOthers) {
 
 TEST(Thing, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(line_of(with_form("\"modv:entity\": \"Coils\", \"modv:address\": 1")),
-            "t.json:1:51: properties.P.forms[0].modv:entity: 'Coils' is not an entity; expected Coil, "
+            "t.json:1:49: properties.P.forms[0].modv:entity: 'Coils' is not an entity; expected Coil, "
             "DiscreteInput, "
             "HoldingRegister or InputRegister");
   EXPECT_EQ(
       line_of(with_form("\"modv:function\": \"readAll\", \"modv:address\": 1")),
-      "t.json:1:53: properties.P.forms[0].modv:function: 'readAll' is not a function of registers; expected "
+      "t.json:1:51: properties.P.forms[0].modv:function: 'readAll' is not a function of registers; expected "
       "one such as readHoldingRegisters");
   EXPECT_EQ(line_of(with_form("\"modv:entity\": \"Coil\"")),
-            "t.json:1:35: properties.P.forms[0]: has no address; expected modv:address, or one in href: "
+            "t.json:1:33: properties.P.forms[0]: has no address; expected modv:address, or one in href: "
             "/UNIT/ADDRESS");
   EXPECT_EQ(line_of(with_form("\"modv:entity\": \"Coil\", \"modv:address\": 0")),
-            "t.json:1:23: properties.P: has the address 0, but its form counts from 1; expected "
+            "t.json:1:22: properties.P: has the address 0, but its form counts from 1; expected "
             "`modv:zeroBasedAddressing: true`, or --addresses wire");
   EXPECT_EQ(line_of("\"type\": \"integer\""),
             "t.json:1:16: properties: has none with a Modbus form; expected one for each register");
   EXPECT_EQ(
       line_of(with_form("\"modv:entity\": \"HoldingRegister\", \"modv:address\": 1",
                         "\"type\": \"integer\", \"minimum\": 5, \"maximum\": 1")),
-      "t.json:1:23: properties.P: max: '1' is below 5; expected a maximum that is not below the minimum");
+      "t.json:1:22: properties.P: max: '1' is below 5; expected a maximum that is not below the minimum");
   EXPECT_EQ(
       line_of("\"forms\": [{\"modv:function\": 1, \"modv:address\": 1}, {\"modv:function\": 5, "
               "\"modv:address\": 2}]"),
@@ -219,9 +219,9 @@ TEST(Thing, SaysWhatItPassesOver) {
   for (const FileError::Diagnostic& remark : thing.list.remarks.all()) text += remark.text + "\n";
   EXPECT_EQ(
       text,
-      "t.json:1:21: properties.A: its address 3 counts from 1: it is 2 on the wire (--addresses wire takes "
+      "t.json:1:22: properties.A: its address 3 counts from 1: it is 2 on the wire (--addresses wire takes "
       "addresses unchanged)\n"
-      "t.json:1:89: properties.B: has no Modbus form; ignored\n"
+      "t.json:1:84: properties.B: has no Modbus form; ignored\n"
       "t.json:2:13: actions: ignored; only properties become registers\n");
 }
 

@@ -121,16 +121,19 @@ TEST(EepromTime, WritesWhileBusyShowAtOnceAndWaitTheirTurn) {
 }
 
 TEST(EepromTime, RepeatedWritesOfAValueAreMergedWhileOneIsBusy) {
-  // A host that writes a register every millisecond: the job that waits takes the latest value.
+  // A host writes a register every millisecond: each job stores the latest value at its beginning.
   Writer feeder;
   for (Tick tick = 0; tick < 18; ++tick) {
     feeder.run_to(tick);
     feeder.set("Parms_Speed1", 100 + tick);
   }
-  // Written at 0, job 1 to 6 with what was written until tick 5; the next is written at 6: 7 to 12; at 12.
-  EXPECT_EQ(feeder.device().memory()->memory_revision(), 2u);
-  EXPECT_EQ(feeder.kept("Parms_Speed1"), 111);
-  feeder.run_to(18);
+  // Jobs: 1 to 6 with the value of tick 0, 6 to 11 with that of tick 5, 11 to 16 with that of tick 10.
+  EXPECT_EQ(feeder.device().memory()->memory_revision(), 3u);
+  EXPECT_EQ(feeder.kept("Parms_Speed1"), 110);
+  feeder.run_to(21);
+  EXPECT_EQ(feeder.kept("Parms_Speed1"), 115);
+  EXPECT_TRUE(feeder.writing());
+  feeder.run_to(26);
   EXPECT_EQ(feeder.kept("Parms_Speed1"), 117);
   EXPECT_FALSE(feeder.writing());
 }
@@ -143,16 +146,16 @@ TEST(EepromTime, OfAProgramThatCountsInMemoryIsCoalesced) {
   ASSERT_FALSE(feeder.writing());
   const std::uint64_t before = feeder.device().memory()->memory_revision();
   feeder.set("PROG_MAIN_RunTime_START", 0);
-  // Counts in ticks 102, 106, ... A line that runs in tick k begins to be written in it: 102 to 112 keeps
-  // what was counted until then, 102, 106 and 110. The next count, in 114, begins the next job: 114 to 124,
-  // and so on every 12 ms, three counts each.
+  // Counts in ticks 102, 106, ... A line that runs in tick k begins to be written in it: 102 to 112 stores
+  // the first count. Meanwhile the next one waits, so a job follows every 10 ms, with the count at its
+  // beginning.
   for (Tick tick = 101; tick <= 1000; ++tick) {
     feeder.run_to(tick);
     const Value counted = tick < 102 ? 0 : (tick - 102) / 4 + 1;
-    const Tick jobs = tick < 112 ? 0 : (tick - 112) / 12 + 1;
+    const Tick jobs = tick < 112 ? 0 : (tick - 112) / 10 + 1;
     ASSERT_EQ(feeder.get("PROG_MEM0"), counted) << tick;
-    ASSERT_EQ(feeder.kept("PROG_MEM0"), 3 * jobs) << tick;
-    ASSERT_EQ(feeder.writing(), tick >= 102 && (tick - 102) % 12 < 10) << tick;
+    ASSERT_EQ(feeder.kept("PROG_MEM0"), jobs == 0 ? 0 : 10 * (jobs - 1) / 4 + 1) << tick;
+    ASSERT_EQ(feeder.writing(), tick >= 102) << tick;
     ASSERT_EQ(feeder.device().memory()->memory_revision(), before + static_cast<std::uint64_t>(jobs)) << tick;
   }
 }

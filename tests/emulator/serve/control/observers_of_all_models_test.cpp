@@ -368,7 +368,7 @@ TEST(RegistersMessage, FindsByMeaningAndByTheManualsWords) {
   for (const Case& c :
        {Case{"super-40nc", "position in work", "D8117"}, Case{"super-40nc", "原點低速", "D9180"},
         Case{"super-40nc", "座標", "M8107"}, Case{"simple2-r3", "acceleration", "Aaxis_AccTime"},
-        Case{"simple2-r3", "座標", "Cord_A"}, Case{"rs-m8194h", "axes that drive", "DRIVING_AXIS"}}) {
+        Case{"simple2-r3", "座標", "Cord_A"}, Case{"rs-m8194h", "axes that are driving", "DRIVING_AXIS"}}) {
     OneDevice one(c.model);
     const Json found = one.ask({{"do", "registers"}, {"device", "d"}, {"find", c.find}})["registers"];
     const auto is_it = [&](const Json& row) { return row["name"] == c.name; };
