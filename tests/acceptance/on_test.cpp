@@ -290,7 +290,7 @@ TEST(RunOn, AsksForTheOrderOfWords) {
   const std::string text = scenario(
       "  - expect: { box.VAR0: 70000 }\n"
       "  - command: { box: RSM_FIXED_MOVE X 900 }\n"
-      "  - wait: { until: \"box['Logic Position X'] == 900\", within: 10s }\n",
+      "  - wait: { until: \"box['input.Logic Position X'] == 900\", within: 10s }\n",
       "rs-m8194h");
   const Finished on = run_on(folder, text, served->port(), {"--allow-motion"});
   EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;

@@ -172,8 +172,10 @@ TEST(Comparison, NamesTheChoicesThatWereAskedBeforeADifference) {
   for (const auto& [hidden, option] : kHidden) {
     const Capture capture = FakeBox::captured(bench_of("simple2-r3", {{hidden, option}}), requests());
     const Comparison comparison = compare(plain, capture, {.from_power_up = true}, Extent::whole);
-    EXPECT_EQ(comparison.first_difference.has_value(), hidden != "password_read_back")
-        << hidden << ": no reply shows it";
+    // No reply of these requests shows a password.
+    EXPECT_EQ(comparison.first_difference.has_value(),
+              std::string(hidden).find("password") == std::string::npos)
+        << hidden;
     if (!comparison.first_difference) continue;
     std::set<std::string> asked;
     std::set<std::string> at_start;
