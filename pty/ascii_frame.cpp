@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kEnd = 2;       // CR, LF
 constexpr std::size_t kMinBytes = 3;  // address, function, LRC
-constexpr std::string_view kDigits = "0123456789ABCDEF";
+constexpr std::string_view kHexadecimal = "0123456789ABCDEF";
 
 std::optional<int> digit(std::uint8_t character) {
   if (character >= '0' && character <= '9') return character - '0';
@@ -54,8 +54,8 @@ std::vector<std::uint8_t> ascii_of_rtu(std::span<const std::uint8_t> frame) {
   const auto content = frame.first(frame.size() < kCrc ? 0 : frame.size() - kCrc);
   std::vector<std::uint8_t> made{':'};
   const auto put = [&](std::uint8_t byte) {
-    made.push_back(static_cast<std::uint8_t>(kDigits[byte >> 4]));
-    made.push_back(static_cast<std::uint8_t>(kDigits[byte & 0x0F]));
+    made.push_back(static_cast<std::uint8_t>(kHexadecimal[byte >> 4]));
+    made.push_back(static_cast<std::uint8_t>(kHexadecimal[byte & 0x0F]));
   };
   for (const std::uint8_t byte : content) put(byte);
   put(lrc(content));

@@ -289,8 +289,11 @@ TEST(RunOn, AsksForTheOrderOfWords) {
       "      - { name: hidden, model: rs-m8194h, set: { WORD_ORDER: 1, VAR0: 70000 } }\n");
   const std::string text = scenario(
       "  - expect: { box.VAR0: 70000 }\n"
+      "  - command: { box: RSM_SERVO_ON X }\n"
+      "  - command: { box: RSM_SET_SV X 1000 }\n"
+      "  - command: { box: RSM_SET_V X 1000 }\n"
       "  - command: { box: RSM_FIXED_MOVE X 900 }\n"
-      "  - wait: { until: \"box['input.Logic Position X'] == 900\", within: 10s }\n",
+      "  - wait: { until: box.LP_X == 900, within: 10s }\n",
       "rs-m8194h");
   const Finished on = run_on(folder, text, served->port(), {"--allow-motion"});
   EXPECT_EQ(on.exit_code, 0) << on.output << on.errors;

@@ -173,10 +173,10 @@ std::string BoxExecutor::send_stop(std::size_t number, std::size_t line, const S
   }
   play::HostReply reply;
   for (const Bytes& one : requests) reply = ask(one);
-  using Kind = play::HostReply::Kind;
-  return what + (reply.kind == Kind::good        ? ": done"
-                 : reply.kind == Kind::exception ? ": REFUSED"
-                                                 : ": NOT ANSWERED");
+  using play::HostReply;
+  return what + (reply.kind == HostReply::Kind::good        ? ": done"
+                 : reply.kind == HostReply::Kind::exception ? ": REFUSED"
+                                                            : ": NOT ANSWERED");
 }
 
 }  // namespace understudy::emulator::box

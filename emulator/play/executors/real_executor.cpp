@@ -256,8 +256,8 @@ HostReply RealExecutor::write_message(std::size_t line, int station, std::uint16
 /// Exchanges frames of Modbus ASCII, which libmodbus does not know. `request` is that of RTU.
 HostReply RealExecutor::ask_ascii(std::size_t line, const std::vector<std::uint8_t>& request) {
   const std::vector<std::uint8_t> frame = pty::ascii_of_rtu(request);
-  constexpr std::size_t kException = 11;
-  std::vector<std::uint8_t> reply = exchange(line, frame, kException, options_.timeout);
+  constexpr std::size_t kShortestReply = 11;
+  std::vector<std::uint8_t> reply = exchange(line, frame, kShortestReply, options_.timeout);
   // The rest arrives without a request; whatever the reply is, it ends with LF.
   while (!reply.empty() && reply.back() != '\n') {
     const std::vector<std::uint8_t> more = host(line).receive(options_.timeout);
