@@ -13,7 +13,7 @@ namespace understudy::emulator::serve {
 
 /// The version of the messages and replies, MAJOR.MINOR. A change that breaks no client raises MINOR, any
 /// other change raises MAJOR. docs/control.md lists the changes.
-inline constexpr std::string_view kControlProtocol = "1.2";
+inline constexpr std::string_view kControlProtocol = "1.3";
 
 /// Replies with the result of `make`, or with the reason why there is none. A null result means that the
 /// reply comes later.
