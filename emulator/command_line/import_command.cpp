@@ -104,7 +104,9 @@ model_file::RegisterList read_list(const std::string& text, const std::string& p
   try {
     return model_file::read_list_file(text, path, reading);
   } catch (const FileError& error) {
-    const bool has_headings = std::string_view(error.what()).find(": columns: ") == std::string_view::npos;
+    const std::string_view what = error.what();
+    const bool has_headings =
+        what.find(": columns: ") == what.npos && what.find(": registers: ") == what.npos;
     const std::string why = why_no_capture_is_expected(text, ContentKind::registers);
     if (has_headings || why.empty()) throw;
     throw FileError({path, 1, 1}, "registers: " + why);
