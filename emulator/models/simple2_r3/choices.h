@@ -134,9 +134,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "They are one job that replaces the pending writes, and shorter than a write of each word."},
     {"write_while_saving", "狀態相關",
      "What happens to a write to a persistent register while EEPROM_Writing is 1?", "queued|not_saved",
-     kProposal,
-     "The write waits for its turn. With not_saved, power-off loses the value unless the memory is writing "
-     "that register at that moment."},
+     kProposal, "The write waits for its turn. With not_saved, power-off loses the value."},
     {"power_cut", "狀態相關", "Which value survives a power cut during its write?", "old_value|new_value",
      kProposal,
      "The value is complete in either case, because both halves of a 32-bit register are written as one. "

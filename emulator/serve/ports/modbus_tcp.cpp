@@ -89,14 +89,17 @@ ModbusTcp::Bytes ModbusTcp::take_for_line(std::size_t room) {
     const std::uint16_t transaction = word_at(received_, 0);
     received_.erase(received_.begin(), end);
     if (!is_modbus) continue;  // another protocol is ignored, as the standard says
+    // A frame of Modbus ASCII has two digits for each byte, one checksum byte less, and three marks.
+    const auto on_line = [this](std::size_t bytes) { return rules_.is_ascii ? 2 * (bytes - 1) + 3 : bytes; };
     const std::uint8_t unit = frame[0];
     if (rules_.station_of) frame[0] = rules_.station_of(unit, frame[1]);
     pty::append_rtu_crc(frame);
-    on_line_ = Request{.transaction = transaction,
-                       .unit = unit,
-                       .station = frame[0],
-                       .function = frame[1],
-                       .exchange_bytes = frame.size() + reply_size(world::parse_request_frame(frame))};
+    on_line_ = Request{
+        .transaction = transaction,
+        .unit = unit,
+        .station = frame[0],
+        .function = frame[1],
+        .exchange_bytes = on_line(frame.size()) + on_line(reply_size(world::parse_request_frame(frame)))};
     reply_.clear();
     return rules_.is_ascii ? pty::ascii_of_rtu(frame) : frame;
   }

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <random>
+#include <string_view>
 
+#include "pty/ascii_frame.h"
 #include "pty/rtu_crc.h"
 #include "tests/pty/pty_host.h"
 
@@ -60,6 +62,15 @@ TEST(ModbusTcp, KnowsTheSizeOfARequestAndItsReply) {
     gateway.take_for_line(kRoom);
     EXPECT_EQ(gateway.exchange_bytes(), c.bytes) << c.request;
   }
+}
+
+TEST(ModbusTcp, KnowsThatAsciiFramesAreLonger) {
+  const Bytes message = hex("12 34 00 00 00 06 01 03 00 01 00 01");
+  ModbusTcp gateway({.is_ascii = true});
+  ASSERT_TRUE(gateway.receive_from_client(message));
+  const std::size_t request = gateway.take_for_line(pty::kAsciiMaxFrame).size();
+  EXPECT_EQ(request, std::string_view(":010300010001FA\r\n").size());
+  EXPECT_EQ(gateway.exchange_bytes(), request + std::string_view(":0103020000FA\r\n").size());
 }
 
 TEST(ModbusTcp, TakesBothInPiecesOfAnySize) {
