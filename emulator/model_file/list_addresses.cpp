@@ -168,25 +168,26 @@ std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressRe
   return WireAddress{.address = static_cast<std::uint16_t>(number), .table = table};
 }
 
-void AddressEvidence::add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words) {
+bool AddressEvidence::add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words) {
   lowest = std::min(lowest, printed.number);
-  if (printed.counts_from_one) return;  // the form of the address determines the table
+  if (printed.counts_from_one) return true;  // the form of the address determines the table
   if (printed.is_hexadecimal) {
     all_are_modicon = false;
-    return;
+    return false;
   }
   const auto block = block_of(printed.number);
   const bool suits =
       block && (!table || block->table == *table) && (!holds_words || !is_table_of_bits(block->table));
   if (!suits) {
     all_are_modicon = false;
-    return;
+    return false;
   }
-  if (block->table == Table::coil) return;
+  if (block->table == Table::coil) return true;
   any_has_a_block = true;
   if (printed.number > UINT16_MAX) beyond_the_wire = true;
   constexpr std::int64_t kFirstOnes = 10;
   if (block->offset < kFirstOnes) begins_a_block = true;
+  return true;
 }
 
 std::optional<AddressReading> AddressEvidence::certain() const {

@@ -41,7 +41,8 @@ std::optional<WireAddress> wire_address(const PrintedAddress& printed, AddressRe
 struct AddressEvidence {
   /// `table` is the table in the row's own cell, if it has one. `holds_words` is true if the row's type is
   /// not a bit.
-  void add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);
+  /// Returns false if the address cannot be a Modicon number.
+  bool add(const PrintedAddress& printed, std::optional<Table> table, bool holds_words);
 
   /// Returns the only possible reading, if there is one.
   std::optional<AddressReading> certain() const;

@@ -115,7 +115,9 @@ std::optional<Step> step_of_scale(std::string_view scale) {
     return divides ? std::nullopt : std::optional(Step{.step = *number, .text = std::string(scale)});
   int places = 0;
   while (places < kMaxPlaces && power_of_ten(places) < number->digits) ++places;
-  if (power_of_ten(places) != number->digits) return std::nullopt;
+  if (power_of_ten(places) != number->digits)
+    return divides ? std::nullopt
+                   : std::optional(Step{.step = *number, .offset = {}, .text = std::string(scale)});
   return Step{.step = {1, places}, .offset = {}, .text = std::string(scale)};
 }
 

@@ -132,7 +132,9 @@ class ListReader {
       const auto table = table_in_cells(row);
       const auto& type = row.type();
       const bool holds_words = type && !(type->kind == TypeMeaning::Kind::number && type->type == Type::bit);
-      evidence_.add(*printed_.back(), table ? table : printed_.back()->table, holds_words);
+      const bool can_be_modicon =
+          evidence_.add(*printed_.back(), table ? table : printed_.back()->table, holds_words);
+      if (!can_be_modicon && not_modicon_ == nullptr) not_modicon_ = &row;
     }
     if (is_hexadecimal && !read_rows_.empty()) {
       read_rows_.front().remark("hexadecimal", Column::address,
@@ -171,6 +173,11 @@ class ListReader {
       row.remark("addresses", Column::address,
                  "read as addresses on the wire, although all may be Modicon numbers (`list: { addresses: "
                  "modicon }`)");
+    } else if (evidence_.begins_a_block && not_modicon_ != nullptr && reading_.guesses_addresses) {
+      not_modicon_->remark("addresses", Column::address,
+                           "read as addresses on the wire, like all others of the list: " +
+                               quoted(not_modicon_->text(Column::address)) +
+                               " is not a Modicon number, although others can be (--addresses modicon)");
     } else if (evidence_.lowest == 1 && reading_.guesses_addresses) {
       row.remark(
           "addresses", Column::address,
@@ -239,6 +246,7 @@ class ListReader {
   std::vector<ListRow> read_rows_;    // the same rows after reading
   std::vector<std::optional<PrintedAddress>> printed_;
   AddressEvidence evidence_;
+  const ListRow* not_modicon_ = nullptr;  // the first row whose address cannot be a Modicon number
   TakenPlaces taken_;
 };
 

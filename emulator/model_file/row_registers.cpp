@@ -188,6 +188,7 @@ class RowReader {
     listed.type = shape.type;
     if (shape.holds_only_words()) listed.type = Type::u16;
     if (!shape.holds_only_words()) listed.order = shape.order;
+    check_step(row_);
     listed.unit = unit_of(row_);
     attempt([&] {
       if (!row_.has(Column::bits)) return;

@@ -35,14 +35,20 @@ using TypeKind = TypeMeaning::Kind;
 
 bool is_before(Value a, Value b, Type type) { return type == Type::f32 ? real_of(a) < real_of(b) : a < b; }
 
+/// Returns the number of decimals that the row's own column gives.
+std::optional<int> decimals_of(const ListRow& row) {
+  const auto places = parse_integer(row.text(Column::decimals));
+  if (!places || *places < 0 || *places > 9) return std::nullopt;
+  return static_cast<int>(*places);
+}
+
 /// Returns the step of a row's counts: that of its scale, of its decimals, or of its unit.
 std::optional<Step> step_of(const ListRow& row) {
   std::optional<Step> step;
   if (row.has(Column::scale)) step = step_of_scale(row.text(Column::scale));
   if (!step && row.has(Column::decimals)) {
-    const auto places = parse_integer(row.text(Column::decimals));
-    if (places && *places >= 0 && *places <= 9)
-      step = Step{.step = {1, static_cast<int>(*places)}, .text = row.text(Column::decimals) + " decimals"};
+    if (const auto places = decimals_of(row))
+      step = Step{.step = {1, *places}, .text = row.text(Column::decimals) + " decimals"};
   }
   const auto of_unit = step_of_unit(row.text(Column::unit));
   if (of_unit && (!step || (step->step.digits == 1 && step->step.places == 0))) step = of_unit;
@@ -75,6 +81,9 @@ class RowNumbers {
     }
     return *coded;
   }
+
+  /// False also for real numbers, which have no counts.
+  bool are_counts() const { return !in_units_ && shape_.type != Type::f32; }
 
  private:
   Value real(Column column, std::string word) const {
@@ -149,6 +158,12 @@ void take_range(const ListRow& row, const RowShape& shape, const Ends& ends, Lis
   listed.min = min;
   listed.max = max;
   listed.ranged = true;
+  const auto step = numbers.are_counts() ? step_of(row) : std::nullopt;
+  if (step && (step->step.digits != 1 || step->step.places != 0)) {
+    row.remark("counts", ends.last,
+               quoted(ends.max) + " is read as counts of " + quoted(step->text) +
+                   "; with a decimal point it would be in the unit");
+  }
 }
 
 void take_enumeration(const std::vector<NamedValue>& all, const RowShape& shape, ListedRegister& listed) {
@@ -225,6 +240,17 @@ void read_factory(const ListRow& row, const RowShape& shape, ListedRegister& lis
   if (row.has(Column::min) || row.has(Column::range)) ends = written_ends(row);
   listed.factory =
       RowNumbers(row, shape, ends.min, ends.max).value(Column::factory, row.text(Column::factory));
+}
+
+void check_step(const ListRow& row) {
+  if (row.has(Column::scale) && !step_of_scale(row.text(Column::scale))) {
+    row.remark("scale", Column::scale,
+               quoted(row.text(Column::scale)) + " is not a step; it is ignored. Expected 0.1, /10 or 10");
+  }
+  if (row.has(Column::decimals) && !decimals_of(row)) {
+    row.remark("decimals", Column::decimals,
+               quoted(row.text(Column::decimals)) + " is not a number from 0 to 9; it is ignored");
+  }
 }
 
 std::string unit_of(const ListRow& row) {

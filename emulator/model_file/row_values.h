@@ -11,6 +11,8 @@ namespace understudy::emulator::model_file {
 void read_range(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);
 /// The range must be known.
 void read_factory(const ListRow& row, const RowShape& shape, models::imported::ListedRegister& listed);
+/// Adds a remark for a scale or a number of decimals that cannot be read, and is ignored.
+void check_step(const ListRow& row);
 /// Returns the unit, with the step of a scale in front: "0.1V".
 std::string unit_of(const ListRow& row);
 

@@ -268,6 +268,10 @@ TEST(ForeignList, SaysHowItsAddressesAreRead) {
             "l.csv:2:1: address: read as Modicon numbers: '40001' is 0 on the wire (--addresses wire leaves "
             "them unchanged)\n");
   EXPECT_EQ(
+      remark("40001,B\n50001"),
+      "l.csv:3:1: address: read as addresses on the wire, like all others of the list: '50001' is not a "
+      "Modicon number, although others can be (--addresses modicon)\n");
+  EXPECT_EQ(
       lines_in("address,name\n40069,A\n"),
       "l.csv:2:1: address: the addresses can be Modicon numbers or addresses on the wire: '40069' is holding "
       "register 68, or register 40069; expected --addresses modicon, or --addresses wire");
@@ -303,6 +307,23 @@ TEST(ForeignList, HasNumbersInTheUnit) {
   }
   EXPECT_EQ(lines_in("address,name,min,max,unit,scale,offset\n0,T,-40.0,60.0,C,0.1,-40\n"),
             "0 T s16 0..1000 0.1C\n");
+}
+
+TEST(ForeignList, SaysWhichNumbersAreCounts) {
+  const auto remark = [](const std::string& row) {
+    return remarks_on("address,name,min,max,unit,scale,decimals\n0,X," + row + "\n");
+  };
+  const std::string counts = " is read as counts of '0.1'; with a decimal point it would be in the unit\n";
+  EXPECT_EQ(remark("0,400,Hz,0.1,"), "l.csv:2:7: max: '400'" + counts);
+  EXPECT_EQ(remark("0,40.0,Hz,0.1,"), "");
+  EXPECT_EQ(remark("0,400,Hz,1,"), "");
+  EXPECT_EQ(remark("0,400,Hz,,"), "");
+  EXPECT_EQ(remark("0,400,Hz,a tenth,"),
+            "l.csv:2:14: scale: 'a tenth' is not a step; it is ignored. Expected 0.1, /10 or 10\n");
+  EXPECT_EQ(remark("0,400,Hz,/3,"),
+            "l.csv:2:14: scale: '/3' is not a step; it is ignored. Expected 0.1, /10 or 10\n");
+  EXPECT_EQ(remark("0,400,Hz,,12"),
+            "l.csv:2:15: decimals: '12' is not a number from 0 to 9; it is ignored\n");
 }
 
 TEST(ForeignList, HasValuesWithNames) {
