@@ -14,12 +14,15 @@
 #include "emulator/models/slim/rules/errors.h"
 #include "emulator/models/slim/setup.h"
 #include "emulator/models/slim/state.h"
+#include "emulator/models/slim/transition_tables.h"
 
 namespace understudy::emulator::models::slim {
 
 void note_error(State& state, const Setup& setup, int module, Error error) {
   Errors& errors = state.errors[static_cast<std::size_t>(module)];
   errors.present = error;
+  if (error != Error::none)
+    state.chain.options().noted.meet(kErrorTable, static_cast<std::size_t>(error) - 1, 0);
   if (setup.history_is_kept()) ++state.memory_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > setup.history_length()) errors.history.pop_back();

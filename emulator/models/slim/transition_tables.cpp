@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "emulator/device/transition_table.h"
@@ -11,6 +12,7 @@
 #include "emulator/models/slim/rules/pauses.h"
 #include "emulator/models/slim/rules/transitions.h"
 #include "emulator/models/slim/state.h"
+#include "interpreter/slim/error.h"
 #include "interpreter/slim/flow.h"
 
 namespace understudy::emulator::models::slim {
@@ -47,6 +49,14 @@ ActiveTask task_of(const lang::Execution& execution) {
   return ActiveTask::program_runs;
 }
 
+/// Returns the names of the errors, in the order of their numbers, from 1.
+std::vector<std::string> error_names() {
+  std::vector<std::string> names =
+      words_of<lang::Error, static_cast<std::size_t>(lang::Error::address) + 1>();
+  names.erase(names.begin());  // none
+  return names;
+}
+
 }  // namespace
 
 void note_tasks(const State& state, Event event) {
@@ -68,7 +78,8 @@ std::span<const TransitionTable> transition_tables() {
       {.name = "pauses",
        .states = {"no pause", "PZ", "TAPZ", "both pauses"},
        .events = {"PZ", "REDO", "CLR BUF", "TAPZ", "TAREDO", "TAUPZ", "TASTOP", "RESET", "a motion",
-                  "a jog"}}};
+                  "a jog"}},
+      {.name = "errors", .states = error_names(), .events = {"occurred"}}};
   return tables;
 }
 

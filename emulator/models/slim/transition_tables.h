@@ -1,6 +1,7 @@
 // The outline of rules/transitions.h and rules/pauses.h for coverage.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "emulator/device/transition_table.h"
@@ -8,6 +9,9 @@
 #include "emulator/models/slim/state.h"
 
 namespace understudy::emulator::models::slim {
+
+/// The number of the table that counts the errors.
+inline constexpr std::size_t kErrorTable = 2;
 
 std::span<const TransitionTable> transition_tables();
 

@@ -35,6 +35,9 @@ enum class ErrorBit : std::uint8_t {
   soft_stop,
   soft_emergency,
 };
+inline constexpr std::size_t kErrors = 10;
+/// The number of the transition table that counts the errors.
+inline constexpr std::size_t kErrorTable = 3;
 constexpr std::uint16_t bit_of(ErrorBit bit) {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(bit));
 }

@@ -44,6 +44,13 @@ bool Chip::is_active(std::size_t axis, motion::Signal signal) const {
           motion::bit(signal)) != 0;
 }
 
+void Chip::add_errors(std::size_t axis, std::uint16_t bits) {
+  for (std::size_t bit = 0; bit < kErrors; ++bit) {
+    if ((bits >> bit & 1) != 0) decisions().meet(kErrorTable, bit, 0);
+  }
+  state_.units[axis].error_code |= bits;
+}
+
 std::uint16_t Chip::error_code(std::size_t axis) const {
   std::uint16_t code = state_.units[axis].error_code;
   if (!chose(option("error_bits", "also_by_active_inputs"))) return code;

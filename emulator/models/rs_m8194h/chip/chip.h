@@ -77,6 +77,8 @@ class Chip final : public Part {
   /// Returns the law of a drive of single axes.
   motion::SpeedLaw law_of(std::size_t axis) const;
   bool is_active(std::size_t axis, motion::Signal signal) const;
+  /// Adds causes of a stop to ERROR_CODE.
+  void add_errors(std::size_t axis, std::uint16_t bits);
   /// Returns ERROR_CODE as hosts read it.
   std::uint16_t error_code(std::size_t axis) const;
 

@@ -146,7 +146,8 @@ void Drives::start(std::size_t axis, const Drive& what, bool without_ramps) {
   }
   if (refused != motion::Cause::none) {
     // Homing fails at once if its index is on already.
-    unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
+    chip_.add_errors(axis,
+                     refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused));
     return;
   }
   forget_errors(axis);
@@ -229,7 +230,7 @@ void Drives::check_paused(std::size_t axis) {
       is_endless ? unit.paused_drive.value : unit.paused_to_pulses - motor.travel_pulses;
   const motion::Cause why = rest == 0 ? motor.forbidden_anywhere() : motor.forbidden(rest < 0 ? -1 : +1);
   if (why == motion::Cause::none) return;
-  unit.error_code |= error_of(why);
+  chip_.add_errors(axis, error_of(why));
   take_off(axis, DiscardEvent::cause);
 }
 

@@ -69,7 +69,7 @@ std::uint16_t error_of(motion::Cause cause) {
 void Edges::on_homed(std::size_t axis) {
   AxisUnit& unit = chip_.unit(axis);
   interrupts_.note_factor(axis, Factor::homed);
-  if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
+  if (chose(option("home_error_bit", "also_at_home"))) chip_.add_errors(axis, bit_of(ErrorBit::home));
   if (chose(option("home_clears_counters", "zero"))) {
     set_logic_position(unit, chip_.motor(axis), 0, true);
     set_encoder_position(unit, chip_.motor(axis), 0, true);
@@ -91,8 +91,8 @@ void Edges::note_end_of_path(std::size_t axis) {
   motion::Axis& motor = chip_.motor(axis);
   const std::uint16_t met = std::exchange(unit.met, std::uint16_t{0});
   if (!is_no_cause(motor.cause, streams_.is_complete())) {
-    if (is_its_own(motor, motor.cause)) unit.error_code |= error_of(motor.cause);
-    unit.error_code |= met;
+    if (is_its_own(motor, motor.cause)) chip_.add_errors(axis, error_of(motor.cause));
+    chip_.add_errors(axis, met);
   }
   // The error is recorded only once: a host may have cleared it before D-END.
   if (motor.cause != motion::Cause::arrived && motor.task == motion::Task::none)
@@ -125,12 +125,12 @@ motion::Events Edges::on_axis_end(std::size_t axis, motion::Events events) {
     const auto row = static_cast<std::size_t>(motor.homing.ended_in);
     const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
                           motor.homing.program.phases[row].code == kIndexPhase;
-    if (by_index) unit.error_code |= bit_of(ErrorBit::home);
+    if (by_index) chip_.add_errors(axis, bit_of(ErrorBit::home));
   }
   if (chip_.paths().runs != Paths::Runs::nothing && has(chip_.paths().axes, axis)) {
     note_end_of_path(axis);
   } else if (!is_no_cause(cause, is_complete(unit, motor))) {
-    unit.error_code |= error_of(cause);
+    chip_.add_errors(axis, error_of(cause));
   }
   return events;
 }

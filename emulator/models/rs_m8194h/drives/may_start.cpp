@@ -69,8 +69,7 @@ void Drives::note_obstacles(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     for (const ObstacleRow& row : kObstacleRows) {
-      if (row.sets_error && is_obstructed(a, row.obstacle, false))
-        chip_.unit(a).error_code |= bit_of(row.error);
+      if (row.sets_error && is_obstructed(a, row.obstacle, false)) chip_.add_errors(a, bit_of(row.error));
     }
   }
 }

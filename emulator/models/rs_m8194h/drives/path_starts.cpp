@@ -210,7 +210,7 @@ bool PathStarts::is_kept_off(const std::array<std::uint8_t, 3>& codes, const mot
     const auto axis = static_cast<std::size_t>(a);
     const motion::Cause why = chip_.motor(axis).forbidden(along < 0 ? -1 : +1);
     if (why == motion::Cause::none) continue;
-    chip_.unit(axis).error_code |= error_of(why);
+    chip_.add_errors(axis, error_of(why));
     is_kept = true;
   }
   return is_kept;

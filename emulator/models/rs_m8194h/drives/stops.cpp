@@ -29,7 +29,7 @@ void Stops::leave_path(std::size_t axis, Halt halt) {
   }
   chip_.paths().axes &= static_cast<AxisMask>(~mask_of(axis));
   AxisUnit& unit = chip_.unit(axis);
-  unit.error_code |= std::exchange(unit.met, std::uint16_t{0});
+  chip_.add_errors(axis, std::exchange(unit.met, std::uint16_t{0}));
   motion::Axis& motor = chip_.motor(axis);
   const auto drive_pps = static_cast<std::uint32_t>(std::ceil(std::abs(speed_pps)));
   const motion::SpeedLaw law = law_at(chip_.unit(axis), drive_pps, machine_options().speed);
@@ -88,13 +88,13 @@ void Stops::halt(AxisMask axes, const StopRow& row) {
       if (has(streams_.axes_of_held(), a)) streams_.drop_held();
     }
     if (row.drops_hold && !keeps_held) unit.held = false;
-    unit.error_code |= bit_of(row.error);
+    chip_.add_errors(a, bit_of(row.error));
   }
   if (keeps_held) drives_.state().trigger_holds = trigger_holds;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(locked_with_it, a)) continue;
     chip_.unit(a).locked = true;
-    chip_.unit(a).error_code |= bit_of(row.error);
+    chip_.add_errors(a, bit_of(row.error));
   }
 }
 

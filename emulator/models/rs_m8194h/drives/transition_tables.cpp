@@ -42,7 +42,13 @@ std::span<const TransitionTable> transition_tables() {
                   "EMERGENCY_STOP 1"}},
       {.name = "what is left of motions",
        .states = words_of<Mark, kMarks>(),
-       .events = words_of<DiscardEvent, kDiscardEvents>()}};
+       .events = words_of<DiscardEvent, kDiscardEvents>()},
+      {.name = "errors",
+       .states = words_of<ErrorBit, kErrors>(),
+       .events = {"occurred"},
+       .can_occur = [](std::size_t bit, std::size_t /*event*/) {
+         return static_cast<ErrorBit>(bit) != ErrorBit::reserved;
+       }}};
   return tables;
 }
 

@@ -29,6 +29,7 @@ Code code_of(motion::Cause why) {
 
 void Ground::report(const ErrorReport& error) {
   if (error.code == Code::none || (state_.error.code != Code::none && state_.error.tick == now())) return;
+  decisions().meet(kErrorTable, static_cast<std::size_t>(error.code) - 1, error.area == Area::plc ? 0 : 1);
   state_.error = error;
   state_.error.tick = now();
 }

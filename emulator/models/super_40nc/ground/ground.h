@@ -30,6 +30,9 @@ using interpreter::super_40nc::Code;
 /// Who moves an axis: a step program or the PLC, in the order of their areas, or an operator by hand.
 enum class Mover : std::uint8_t { c, x, y, z, u, plc, hand };
 
+/// The number of the transition table that counts the errors.
+inline constexpr std::size_t kErrorTable = 1;
+
 /// The error that D8094 to D8096 show.
 struct ErrorReport {
   Code code = Code::none;

@@ -231,6 +231,12 @@ TEST(ControllerCoverage, CountsTheCellsOfASuper40nc) {
   EXPECT_EQ(count_in(report, table, "vdrv", "vdrv 0"), "1");
   EXPECT_EQ(count_in(report, table, "vdrv", "stop"), "0");
   EXPECT_NE(count_in(report, table, "nobody", "vdrv"), "0");
+  EXPECT_EQ(count_in(report, "errors", "division by zero", "in a step program"), "0");
+  const TouchedReport failed =
+      touched(of_model("super-40nc", "AREA U\\nDIV K1 K0 D100\\nEND\\nAREA PLC\\nEND\\n",
+                       "  - write: { m.M8400: 1 }\n  - advance: 2s\n"));
+  EXPECT_EQ(count_in(failed, "errors", "division by zero", "in a step program"), "1");
+  EXPECT_EQ(count_in(failed, "errors", "division by zero", "outside step programs"), "0");
 }
 
 TEST(ControllerCoverage, CountsTheCellsOfAnRsM8194h) {
@@ -248,6 +254,9 @@ TEST(ControllerCoverage, CountsTheCellsOfAnRsM8194h) {
   EXPECT_EQ(count_in(report, "stops of axes", "single", "STOP_SLOWLY"), "1");
   EXPECT_EQ(count_in(report, "stops of axes", "idle", "STOP_SLOWLY"), "1");
   EXPECT_EQ(count_in(report, "stops of axes", "single", "STOP_SUDDENLY"), "0");
+  EXPECT_EQ(count_in(report, "errors", "soft stop", "occurred"), "2");
+  EXPECT_EQ(count_in(report, "errors", "alarm", "occurred"), "0");
+  EXPECT_EQ(count_in(report, "errors", "reserved", "occurred"), "none");
 }
 
 TEST(ControllerCoverage, CountsTheCellsOfASlim) {
@@ -268,6 +277,10 @@ TEST(ControllerCoverage, CountsTheCellsOfASlim) {
   EXPECT_EQ(count_in(report, "pauses", "no pause", "REDO"), "1");
   EXPECT_EQ(count_in(report, "pauses", "no pause", "TAPZ"), "1");
   EXPECT_EQ(count_in(report, "pauses", "TAPZ", "TAREDO"), "1");
+  EXPECT_EQ(count_in(report, "errors", "not allowed", "occurred"), "0");
+  EXPECT_EQ(count_in(touched(of_model("slim", "", "  - send: { text: XYZ }\n  - advance: 100ms\n")), "errors",
+                     "syntax", "occurred"),
+            "1");
 }
 
 TEST(ControllerCoverage, CountsChoicesThatTheDeviceHasAskedFor) {
