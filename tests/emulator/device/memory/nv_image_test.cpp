@@ -12,6 +12,7 @@
 #include "emulator/device/memory/persistent_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/models/simple2_r3/model.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator {
 namespace nv_image_test {
@@ -232,14 +233,15 @@ TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
 }
 
 TEST(NvImage, IsNotBroughtDownByItsSize) {
-  constexpr std::size_t kDeep = 300'000;
+  const auto deep = fewer_if_sanitized<std::size_t>(300'000, 10);
   std::string nest;
-  for (std::size_t i = 0; i < kDeep; ++i) nest += "{\"a\":";
-  nest += "1" + std::string(kDeep, '}');
+  for (std::size_t i = 0; i < deep; ++i) nest += "{\"a\":";
+  nest += "1" + std::string(deep, '}');
   EXPECT_EQ(diagnostic(nest), "understudy: is missing; expected an NV image");
-  EXPECT_EQ(diagnostic(with_registers(std::string(kDeep, '[') + std::string(kDeep, ']'))),
+  EXPECT_EQ(diagnostic(with_registers(std::string(deep, '[') + std::string(deep, ']'))),
             "registers: is not an object; expected names and values");
-  EXPECT_EQ(diagnostic(std::string(5'000'000, '[')), "line 1: is damaged or not JSON; expected an NV image");
+  EXPECT_EQ(diagnostic(std::string(fewer_if_sanitized<std::size_t>(5'000'000, 10), '[')),
+            "line 1: is damaged or not JSON; expected an NV image");
   EXPECT_EQ(diagnostic(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
             "a number is too large; expected one that fits in 64 bits");
   const std::string long_name(2'000'000, 'n');

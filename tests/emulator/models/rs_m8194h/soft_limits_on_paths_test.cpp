@@ -192,8 +192,10 @@ void check_all(const LimitKind& limit, const PathKind& path, int direction) {
 }
 
 TEST(RsM8194hSoftLimitsOnPaths, AreHeededByEveryKindOfPath) {
+  int number = 0;
   for (const LimitKind& limit : kLimits) {
     for (const PathKind& path : kPaths) {
+      if (is_sanitized() && ++number % 4 != 0) continue;
       check_all(limit, path, +1);
       if (!is_sanitized()) check_all(limit, path, -1);
     }

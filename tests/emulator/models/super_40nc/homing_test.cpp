@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::models::super_40nc {
 namespace homing_test {
@@ -115,11 +116,13 @@ Found by_hand(const Search& search) {
 }
 
 TEST(Super40ncHoming, EndsAlikeFromEverywhere) {
+  int number = 0;
   for (int mode = 0; mode <= 12; ++mode) {
     const bool is_by_ramp = mode == 0 || mode == 3 || mode == 5 || mode == 8;
     for (const int from : {-99'000, 0, 49'990, 50'000, 61'234, 69'990, 75'000, 99'000}) {
       for (const int count : {1, 3}) {
         for (const double rpm : {300.0, 3000.0}) {
+          if (is_sanitized() && ++number % 3 != 0) continue;
           const int direction = (from / 10 + mode + count) % 2 == 0 ? +1 : -1;
           const Found expected = by_hand({mode, from, count, rpm});
           OneSuper40nc one(machine(direction, direction * from));

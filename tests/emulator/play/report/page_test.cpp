@@ -10,6 +10,7 @@
 
 #include "emulator/play/report/run_logger.h"
 #include "tests/emulator/play/performing/played.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::play {
 namespace page_test {
@@ -244,8 +245,10 @@ TEST(ReportPage, HasEveryStepWithItsFrames) {
 }
 
 TEST(ReportPage, OfAnHourIsStillSmall) {
+  const std::string times = std::to_string(fewer_if_sanitized(100, 10));
   const std::string steps =
-      "  - repeat:\n      times: 100\n      steps:\n        - write: { feeder.Aaxis_Pulse: 320000, "
+      "  - repeat:\n      times: " + times +
+      "\n      steps:\n        - write: { feeder.Aaxis_Pulse: 320000, "
       "feeder.Aaxis_Speed: "
       "600, feeder.Aaxis_AccTime: 50, feeder.Aaxis_DecTime: 50, feeder.Aaxis_Move_INC: 1 }\n"
       "        - advance: 36s\n";
