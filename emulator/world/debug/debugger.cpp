@@ -110,7 +110,8 @@ void Debugger::remove_all() {
   settle();
 }
 
-std::vector<Breakpoint> Debugger::breakpoints() const {
+std::vector<Breakpoint> Debugger::breakpoints() {
+  for (auto& [number, watch] : watches_) watch->check_program();
   std::vector<Breakpoint> all;
   for (const auto& point : points_) all.push_back(point->breakpoint);
   return all;

@@ -42,7 +42,8 @@ class Debugger final : private TickWatcher {
   bool remove(int number);
   void remove_all();
   /// Returns the breakpoints in the order of their numbers.
-  std::vector<Breakpoint> breakpoints() const;
+  /// Finds the lines again first, if a device has another program.
+  std::vector<Breakpoint> breakpoints();
 
   /// Begins a step of the device's program (if `program` is empty: the part that has stopped, or any part).
   /// Throws BreakpointError.

@@ -179,6 +179,7 @@ TEST(Debugger, FindsItsLinesInEachProgramAnew) {
   EXPECT_NE(counting.run(100), "");
   const WorldState before = save(counting.world);
   counting.world.load_program(0, "        NOP\n        END\n");
+  EXPECT_EQ(counting.debugger.breakpoints()[0].line, 0) << "before time moves";
   set(counting.world, "PROG_MAIN_RunTime_START", 0);
   EXPECT_EQ(counting.run(100), "") << "it has no line 3";
   EXPECT_EQ(counting.debugger.breakpoints()[0].line, 0);
