@@ -224,7 +224,7 @@ int calibrate_bench(ModelList models, const CalibrateArguments& arguments) {
   const box::EvidenceFile evidence = evidence_of(box, captures, arguments, found);
   // An interruption must not replace what an earlier search has measured by nothing.
   const bool is_written = output.is_wanted() && (!found.is_interrupted || !found.findings.empty());
-  if (is_written) output.write(box::evidence_text(evidence));
+  if (is_written) output.replace(box::evidence_text(evidence));
   if (found.is_interrupted) {
     print_interruption(box, captures, found, arguments.choices ? stderr : stdout);
   } else if (!found.explains) {

@@ -67,8 +67,8 @@ int make_certificate(ModelList models, const CertificateArguments& arguments) {
   ResultFile page_output("--output", require_output(claims, "--output", page_path), ContentKind::page);
   const std::string name = fs::path(arguments.output).filename().string();
   const std::string page = box::certificate_page(certificate, name, arguments.version);
-  page_output.write(page);
-  output.write(
+  page_output.replace(page);
+  output.replace(
       box::certificate_text(certificate, fs::path(page_path).filename().string(), page, arguments.version));
   std::printf("%s and %s: %s\n", arguments.output.c_str(), page_path.c_str(), certificate.summary().c_str());
   std::printf("sign:    ssh-keygen -Y sign -f KEY -n %s %s\n", std::string(box::kSignatureNamespace).c_str(),

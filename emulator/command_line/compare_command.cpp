@@ -194,7 +194,7 @@ int compare_captures(ModelList models, const CompareArguments& arguments) {
     for (const CaptureComparison& one : all) findings.push_back(one.findings());
     std::fputs(findings_as(*format, findings).c_str(), stdout);
   }
-  if (page.is_wanted()) page.write(compare_page(all, arguments.bench, arguments.version));
+  if (page.is_wanted()) page.replace(compare_page(all, arguments.bench, arguments.version));
   return is_different ? kExitFailed : kExitWell;
 }
 

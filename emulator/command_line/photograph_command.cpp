@@ -135,8 +135,8 @@ int take_photograph(ModelList models, const PhotographArguments& arguments) {
   require_writable(claims, photo_path, ContentKind::photograph);
   try {
     const box::Photograph photo = photograph_with_progress(model, port, settings);
-    ResultFile("--output", arguments.output, ContentKind::nv_image).write(to_json(photo.image));
-    ResultFile("--output", photo_path, ContentKind::photograph).write(box::photo_json(photo));
+    ResultFile("--output", arguments.output, ContentKind::nv_image).replace(to_json(photo.image));
+    ResultFile("--output", photo_path, ContentKind::photograph).replace(box::photo_json(photo));
     summarize(photo, arguments.output, photo_path);
   } catch (const box::BoxError& error) {
     std::fprintf(stderr, "understudy: photograph: %s\n", error.what());

@@ -244,7 +244,7 @@ int probe_box(ModelList models, const ProbeArguments& arguments) {
   const box::EvidenceFile evidence = evidence_of(model, arguments, proofs);
   std::fputs(box::evidence_table(evidence, "the model's default is different").c_str(), stdout);
   if (output.is_wanted()) {
-    output.write(box::evidence_text(evidence));
+    output.replace(box::evidence_text(evidence));
     std::printf("wrote %s\n", arguments.output.c_str());
   }
   return is_aborted ? kExitFailed : kExitWell;

@@ -176,7 +176,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (report.is_wanted()) {
     const play::ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));
-    report.write(play::report_page({&shown, 1}, arguments.version));
+    report.replace(play::report_page({&shown, 1}, arguments.version));
   }
   if (replayed.header.version != arguments.version) {
     log_line("the recording is from version " + replayed.header.version + ", this is " + arguments.version);

@@ -82,6 +82,9 @@ void require_story_flags(const ReplayArguments& arguments) {
     throw UsageError("replay: --at: expected --export or --picture as well");
   if (!arguments.panel.empty() && arguments.picture.empty())
     throw UsageError("replay: --panel: expected --picture as well");
+  if (is_svg(arguments.story) || arguments.story.ends_with(".png"))
+    throw UsageError("replay: --export: " + arguments.story +
+                     ": is the name of a picture; expected FILE.html, or --picture");
   if (!arguments.picture.empty() && !is_svg(arguments.picture) && !arguments.picture.ends_with(".png"))
     throw UsageError("replay: --picture: " + arguments.picture +
                      ": has an unknown format; expected FILE.svg or FILE.png");
@@ -100,12 +103,12 @@ void print_story(const ReplayArguments& arguments, serve::TimelineSetup setup) {
   RecordingDaemon daemon(std::move(setup));
   const auto ask = [&](const std::string& message) { return daemon.ask(message); };
   const std::string name = std::filesystem::path(arguments.recording).filename().string();
-  if (story.is_wanted()) story.write(page::story_file(ask, name, arguments.version));
+  if (story.is_wanted()) story.replace(page::story_file(ask, name, arguments.version));
   if (!picture.is_wanted()) return;
   const std::string_view panel = arguments.panel.empty() ? page::kPicturePanels.front() : arguments.panel;
   try {
     const page::Drawing drawing = page::story_picture(ask, name, panel);
-    picture.write(is_svg(arguments.picture) ? page::svg_of(drawing, page::picture_words(ask, name, panel))
+    picture.replace(is_svg(arguments.picture) ? page::svg_of(drawing, page::picture_words(ask, name, panel))
                                             : page::png_of(drawing));
   } catch (const page::RefusedError& error) {
     throw UsageError("replay: --picture: " + std::string(error.what()));

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "base/files/descriptor.h"
 #include "base/files/growing_file.h"
 #include "base/files/output_file.h"
+#include "base/files/text_file.h"
 
 namespace understudy::emulator::command_line {
 
@@ -26,7 +28,8 @@ inline constexpr std::string_view kStandardOutput = "-";
 class ResultFile {
  public:
   /// An empty path means that nothing is written.
-  ResultFile(const char* flag, const std::string& path, ContentKind kind) : flag_(flag), path_(path) {
+  ResultFile(const char* flag, const std::string& path, ContentKind kind)
+      : flag_(flag), path_(path), kind_(kind) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {
       stream_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
@@ -35,6 +38,7 @@ class ResultFile {
     }
     try {
       if (!is_stream(path_)) {
+        is_new_ = !std::filesystem::exists(path_);
         file_.emplace(path_, kind);
         return;
       }
@@ -45,10 +49,22 @@ class ResultFile {
     if (!stream_) refuse(errno == ENXIO ? "no program reads the pipe" : std::strerror(errno));
     ::fcntl(stream_.get(), F_SETFL, 0);  // from here on, writes may block
   }
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
+  /// A command that fails before it has a result leaves no empty file behind.
+  ~ResultFile() {
+    if (file_ && is_new_ && !has_begun_) ::unlink(file_->target().c_str());
+  }
   bool is_wanted() const { return !path_.empty(); }
   /// Empties the file, so that its old content is not mistaken for the result of a run that breaks off.
   void empty() {
     if (file_) begin();
+  }
+  /// Writes the whole result. If that fails, the old file stays as it was.
+  void replace(const std::string& text) {
+    if (!file_ || !may_create_beside()) return write(text);
+    if (const std::string why = replace_text_file(path_, text, kind_); !why.empty()) refuse(why);
+    has_begun_ = true;
   }
   /// Appends text.
   void write(std::string_view text) {
@@ -69,6 +85,9 @@ class ResultFile {
     struct stat status = {};
     return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
   }
+  bool may_create_beside() const {
+    return ::access(std::filesystem::path(file_->target()).parent_path().c_str(), W_OK | X_OK) == 0;
+  }
   void begin() {
     has_begun_ = true;
     try {
@@ -83,7 +102,9 @@ class ResultFile {
   }
   std::string flag_;
   std::string path_;
+  ContentKind kind_;
   std::optional<OutputFile> file_;
+  bool is_new_ = false;  // opening the file has created it
   bool has_begun_ = false;
   Descriptor stream_;
 };

@@ -431,7 +431,7 @@ int run_scenarios(ModelList models, const RunArguments& arguments) {
     results->write([&](std::string_view piece) { junit.write(piece); });
   }
   const bool is_enough = coverage.write(arguments.junit == kStandardOutput ? stderr : stdout);
-  if (report.is_wanted()) report.write(account.report(coverage.section()));
+  if (report.is_wanted()) report.replace(account.report(coverage.section()));
   return exit_code_of(account, was_interrupted, is_enough);
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "tests/acceptance/running_understudy.h"
 
@@ -227,6 +228,32 @@ std::string spool_of(const Process& process) {
     if (path.ends_with("/spool")) return path;
   }
   return "";
+}
+
+TEST_F(OutputPaths, KeepTheEarlierFileIfTheDiskIsFull) {
+  ASSERT_EQ(understudy({"run", at("play.yaml"), "--record", at("recordings")}).exit_code, 0);
+  std::string recording;
+  for (const auto& entry : fs::recursive_directory_iterator(at("recordings")))
+    if (entry.is_regular_file()) recording = entry.path();
+  const std::string old_page = "<!DOCTYPE html>an old page", old_picture = "<svg>an old picture</svg>";
+  for (const auto& [flag, name, old] : {std::tuple{"--export", "old.html", old_page},
+                                        {"--report", "old.html", old_page},
+                                        {"--picture", "old.svg", old_picture}}) {
+    // No file may grow beyond 1 KiB.
+    const Words words{
+        "bash", "-c",    "ulimit -f 1; exec \"$@\"", "bash", UNDERSTUDY_BINARY, "replay", recording,
+        flag,   at(name)};
+    std::ofstream(at(name)) << old;
+    const Finished full = run(words);
+    EXPECT_EQ(full.exit_code, 3) << flag << full.errors;
+    EXPECT_NE(full.errors.find("File too large"), std::string::npos) << full.errors;
+    std::ostringstream kept;
+    kept << std::ifstream(at(name)).rdbuf();
+    EXPECT_EQ(kept.str(), old) << flag;
+    fs::remove(at(name));
+    EXPECT_EQ(run(words).exit_code, 3) << flag;
+    EXPECT_FALSE(fs::exists(at(name))) << "an empty file would look like a result";
+  }
 }
 
 TEST_F(OutputPaths, AStandardOutputThatCannotBeWrittenIsReported) {

@@ -472,7 +472,7 @@ TEST_F(PageOfAFailure, RefusesWhatDoesNotFitWithOneFile) {
         Words{"--picture", folder_ / "picture.svg", "--panel", "nonsense"}, Words{"--at", "1s"},
         Words{"--export", file, "--page"}, Words{"--export", file, "--report", folder_ / "other.html"},
         Words{"--export", recording_}, Words{"--export", file, "--at", "soon"},
-        Words{"--export", file, "--at", "9000s"}}) {
+        Words{"--export", file, "--at", "9000s"}, Words{"--export", folder_ / "story.svg"}}) {
     Words all{"replay", recording_};
     all.insert(all.end(), words.begin(), words.end());
     const Finished run = understudy(all);
