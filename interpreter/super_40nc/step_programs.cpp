@@ -77,7 +77,10 @@ void StepPrograms::start(Area area) {
 void StepPrograms::begin(Area area, Reaction how) {
   StepState& program = state(area);
   if (machine_.is_held_in_reset(area)) return set_contact(area, false);
-  if (code(area).is_empty()) {
+  const bool has_motion = program.resumes == Phase::moving || program.resumes == Phase::homing;
+  // A motion that was paused is completed, even if its program's file has since become empty.
+  const bool completes = has_motion || program.machine_holds;
+  if (code(area).is_empty() && !completes) {
     if (options_.chose(option("empty_program", "is_an_error"))) report(area, Code::no_end);
     return set_contact(area, false);
   }
@@ -87,7 +90,6 @@ void StepPrograms::begin(Area area, Reaction how) {
   const bool is_new = program.step == 0 && how != Reaction::resume && program.resumes == Phase::executing;
   const bool loads = is_new || !program.has_modes || options_.chose(option("fresh_start", "every_start"));
   if (loads) load_modes(area);
-  const bool has_motion = program.resumes == Phase::moving || program.resumes == Phase::homing;
   if (is_inhibited() && (has_motion || program.machine_holds)) {
     program.phase = Phase::waiting;
     program.waits_to_resume = true;

@@ -54,6 +54,27 @@ TEST(Super40ncCorners, AFileHasTheRoomOfD9042) {
   EXPECT_NE(text().find("AREA C"), std::string::npos);
 }
 
+/// 5.1: a start first completes what a pause holds, whatever program the file now has.
+TEST(Super40ncCorners, APausedLineIsCompletedWhenItsFileHasBecomeEmpty) {
+  for (const auto& [file, code] : {std::pair{0, 0}, {1, 1}, {2, 1}}) {
+    OneSuper40nc one(
+        {.set = {{"D9003", 2}}, .program = "AREA C\nF K20000\nLIN K20000 K10000\nEND\nFILE 2\nEND\n"});
+    one.set("M8000", 1);
+    one.run(400);
+    one.press("M8006");
+    one.run(300);
+    ASSERT_LT(one.get("D8117"), 20000);
+    one.set("D9001", file);
+    one.set("M8000", 1);
+    one.run(3000);
+    EXPECT_EQ(one.get("D8117"), 20000) << file;
+    EXPECT_EQ(one.get("D8217"), 10000) << file;
+    EXPECT_FALSE(one.on("M8120")) << file;
+    EXPECT_EQ(one.get("D8094"), code) << file;
+    EXPECT_FALSE(one.on("M8000")) << file;
+  }
+}
+
 /// A listing is checked by a controller without power.
 TEST(Super40ncCorners, AListingIsCheckedAgainstTheFactorysRoom) {
   std::string text = "AREA C\n";
