@@ -1,5 +1,6 @@
 #include "emulator/command_line/run_account.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,7 @@ namespace understudy::emulator::command_line {
 namespace {
 
 constexpr std::size_t kMaxShown = 1000;         // cases on a page, besides the first failures of each kind
+constexpr std::size_t kMaxSkipped = 100;        // lines
 constexpr std::size_t kMaxLintFindings = 1000;  // lines
 
 using RunVerdict = play::ScenarioResult::Verdict;
@@ -133,7 +135,22 @@ bool RunAccount::add_one(play::ScenarioResult& result, RunFiles& files, Progress
   tally_.add(result);
   if (junit_) junit_->add(result);
   note_lint_findings(result);
+  if (is_one_of_many) note_skipped(result);
   return is_new;
+}
+
+/// Counts the skipped steps of cases that have no line of their own. The first case's reason stands for all.
+void RunAccount::note_skipped(const play::ScenarioResult& result) {
+  for (const play::StepResult& step : result.steps) {
+    if (step.skipped.empty()) continue;
+    const std::string place = step.file + ":" + std::to_string(step.line);
+    const auto known = std::ranges::find(skipped_, place, &SkippedStep::place);
+    if (known != skipped_.end()) {
+      ++known->count;
+    } else if (skipped_.size() < kMaxSkipped) {
+      skipped_.push_back({.place = place, .why = step.skipped});
+    }
+  }
 }
 
 void RunAccount::note_lint_findings(const play::ScenarioResult& result) {
@@ -155,6 +172,10 @@ void RunAccount::finish() {
   if (kinds_.others() > 0) {
     std::fprintf(out_, "%" PRIu64 " more failed in other ways than the first %zu kinds\n", kinds_.others(),
                  play::FailureKinds::kMax);
+  }
+  for (const SkippedStep& step : skipped_) {
+    std::fprintf(out_, "skipped in %" PRIu64 " of the cases: %s\n", step.count,
+                 one_line(step.place + ": " + step.why).c_str());
   }
   if (left_out_ > 0) {
     std::fprintf(out_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,

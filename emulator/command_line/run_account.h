@@ -50,6 +50,7 @@ class RunAccount {
   /// Returns true if the result is the first failure of its kind.
   bool add_one(play::ScenarioResult& result, RunFiles& files, ProgressLine& progress,
                const std::function<std::vector<play::ScenarioResult>()>& again);
+  void note_skipped(const play::ScenarioResult& result);
   void note_lint_findings(const play::ScenarioResult& result);
 
   ModelList models_;
@@ -61,8 +62,14 @@ class RunAccount {
   play::Tally tally_;
   play::FailureKinds kinds_;
   std::optional<play::Junit> junit_;
-  std::vector<play::ScenarioResult> shown_;    // the results on the page
-  std::vector<std::string> lint_findings_;     // lines
+  std::vector<play::ScenarioResult> shown_;  // the results on the page
+  std::vector<std::string> lint_findings_;   // lines
+  struct SkippedStep {
+    std::string place;  // "grid.yaml:17"
+    std::string why;
+    std::uint64_t count = 1;
+  };
+  std::vector<SkippedStep> skipped_;           // steps of cases that `vary` made
   std::set<std::string> known_lint_findings_;  // lint findings of cases that `vary` made
 };
 

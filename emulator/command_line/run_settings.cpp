@@ -1,6 +1,7 @@
 #include "emulator/command_line/run_settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/coverage_file.h"
 #include "emulator/command_line/host_case.h"
+#include "emulator/command_line/on_box.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/play/performing/case_list.h"
 #include "emulator/serve/host_time/host_program.h"
@@ -25,6 +27,21 @@ namespace {
 
 // In real time a scenario mostly waits, so more of them run at once.
 constexpr int kRealTimeJobs = 8;
+
+/// Returns all that decides what a real controller is asked, and what it may do.
+std::string words_of_box(const OnArguments& on) {
+  std::string words;
+  for (const std::string& line : on.on) words += " --on " + line;
+  const std::array<std::pair<bool, const char*>, 5> allowed{{{on.allow_writes, " --allow-writes"},
+                                                             {on.allow_memory, " --allow-memory"},
+                                                             {on.allow_outputs, " --allow-outputs"},
+                                                             {on.allow_motion, " --allow-motion"},
+                                                             {on.ask, " --ask"}}};
+  for (const auto& [is_given, flag] : allowed) words += is_given ? flag : "";
+  // A file that cannot be read is reported when it is needed.
+  if (const auto limits = read_text_file(on.envelope); limits) words += " --envelope " + *limits;
+  return words + " --rig " + on.rig + " --timeout " + on.timeout;
+}
 
 }  // namespace
 
@@ -74,6 +91,8 @@ std::string maker_of(const RunArguments& arguments) {
     if (text) maker += ' ' + std::to_string(hash_of(std::as_bytes(std::span(*text))));
   }
   if (arguments.host.host_time) maker += " --host-time";
+  if (arguments.real_time) maker += " --real-time";
+  if (is_on_box(arguments)) maker += words_of_box(arguments.on);
   return maker;
 }
 

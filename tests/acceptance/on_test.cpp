@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -308,6 +310,47 @@ TEST(RunOn, HasNoHashInItsResults) {
   const std::string rows = run({"cat", folder / "results.jsonl"}).output;
   EXPECT_TRUE(has(rows, "\"verdict\"")) << rows;
   EXPECT_FALSE(has(rows, "0000000000000000")) << rows;
+}
+
+TEST(RunOn, ReportsTheSkippedStepsOfVariedCases) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string steps =
+      scenario("  - expect: { box.HW_Code: 0 }\n  - write: { box.Aaxis_Pulse: \"${n}\" }\n");
+  const std::string text = "understudy: 1\nvary: { n: [ 1, 2, 3 ] }\n" + steps.substr(steps.find("bench:"));
+  const std::string junit = folder / "results.xml";
+  const Finished on = run_on(folder, text, box.path(), {"--junit", junit});
+  EXPECT_EQ(on.exit_code, 0) << on.errors;
+  EXPECT_TRUE(has(on.output, "skipped in 3 of the cases: ")) << on.output;
+  EXPECT_TRUE(has(on.output, "only with --allow-writes")) << on.output;
+  std::ifstream file(junit);
+  const std::string results{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(has(results, "<system-out>skipped: ")) << results;
+}
+
+TEST(RunOn, ReusesOnlyRowsOfTheSameControllerAndPermissions) {
+  const PrivateFolder folder;
+  const CountingBox box;
+  const std::string text = scenario("  - write: { box.Aaxis_Pulse: 100 }\n");
+  const std::string rows = folder / "rows.jsonl";
+  const std::string file = folder.write("box.yaml", text);
+  const auto reuses = [&](const Words& flags) {
+    Words words{"run", file, "--results", rows, "--resume"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    const Finished finished = understudy(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+    return has(finished.output, "1 skipped, since they ran before");
+  };
+  const Words on{"--on", "line=" + box.path()};
+  const Words may_write{"--on", "line=" + box.path(), "--allow-writes"};
+  EXPECT_FALSE(reuses({}));
+  EXPECT_TRUE(reuses({}));
+  EXPECT_FALSE(reuses({"--real-time"}));
+  EXPECT_FALSE(reuses(on));
+  EXPECT_TRUE(reuses(on));
+  EXPECT_FALSE(reuses(may_write));
+  EXPECT_TRUE(reuses(may_write));
+  EXPECT_EQ(box.writes_to(0x1000), 1);
 }
 
 TEST(RunOn, RefusesFlagsThatNeedTruths) {

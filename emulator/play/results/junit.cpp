@@ -71,7 +71,7 @@ std::string case_text(const ScenarioResult& result) {
             xml_escaped(is_one_of_many ? "" : lines_text(failure_lines(result))) + "</" +
             tag.substr(0, tag.find(' ')) + ">\n";
   }
-  std::string output = is_one_of_many ? "" : lines_text(step_lines(result));
+  std::string output = lines_text(is_one_of_many ? skipped_lines(result) : step_lines(result));
   for (const std::string& finding : result.lint_findings) output += "lint: " + finding + "\n";
   if (!output.empty()) text += "      <system-out>" + xml_escaped(output) + "</system-out>\n";
   return text + "    </testcase>\n";
