@@ -191,6 +191,7 @@ void PageBench::take_look(const std::string& reply, const std::shared_ptr<NameLi
     const std::string time =
         "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
         ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing")) +
+        ",\"restores\":" + std::to_string(look.value("restores", std::uint64_t{0})) +
         (look.contains("altered_at_ns") ? ",\"altered_at_ns\":" + text_of(look["altered_at_ns"]) : "");
     const std::uint64_t who = look.at("pid").get<std::uint64_t>();
     if (who != who_) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 
 #include "emulator/serve/control/server.h"
@@ -440,6 +441,18 @@ TEST_F(PageOfAFailure, IsOneFileThatAnswersAsItsServer) {
   }
   const TestJson spans{{"do", "spans"}, {"from_ns", 0}, {"to_ns", 3'000'000'000}, {"dots", 4000}};
   EXPECT_EQ(reply_of_file(folder_, data, moment, spans)["spans"].size(), ask(spans)["spans"].size());
+}
+
+TEST_F(PageOfAFailure, StepsFromEventToEvent) {
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  position_at(end);
+  std::set<std::int64_t> times;
+  const TestJson events = ask({{"do", "events"}})["events"];
+  for (const TestJson& event : events) times.insert(event["time_ns"].get<std::int64_t>());
+  ASSERT_GE(times.size(), 2U);
+  position_at(*times.begin() - 1);
+  for (const std::int64_t time : times)
+    EXPECT_EQ(ask({{"do", "seek"}, {"by", "event"}, {"steps", 1}})["simulated_time_ns"], time);
 }
 
 TEST_F(PageOfAFailure, IsAPictureWithoutABrowser) {

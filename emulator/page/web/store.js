@@ -101,11 +101,10 @@ const wire = new (isTold ? Told : Wire)({
 function take(look) {
   if (look.bench !== store.number) return;
   const now = performance.now();
-  // Time went back to a snapshot, so what came after it has not happened; or a recording moved, and the server sends
-  // its past again.
-  const moved = store.look ? look.time_ns - store.look.time_ns : 0;
-  const isTravel = store.timeline && look.altered_at_ns === undefined && moved !== 0;
-  if (moved < 0 || isTravel) Object.assign(store, { frames: [], events: [], changes: {}, writers: {}, heard: new Heard() });
+  // Time went back to a snapshot, so what came after it has not happened; or a recording went to a moment, perhaps the
+  // same one, and the server sends its past again.
+  const isRestored = store.look && (look.restores !== store.look.restores || look.time_ns < store.look.time_ns);
+  if (isRestored) Object.assign(store, { frames: [], events: [], changes: {}, writers: {}, heard: new Heard() });
   store.look = look;
   for (const [name, value] of Object.entries(look.values ?? {})) {
     if (!watched.has(name)) continue;

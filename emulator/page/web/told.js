@@ -28,6 +28,7 @@ export class Told {
     this.at = this.data.timeline.at_ns;
     this.names = [];
     this.isMoved = true;
+    this.moves = 0;
     setTimeout(() => this.hears.hello({ read_only: false, version: this.data.version, benches: [{ socket: this.data.name, state: 'there', epoch: 1 }] }));
   }
 
@@ -44,7 +45,7 @@ export class Told {
       const past = this.isMoved ? { frames: before(this.data.frames), events: before(this.data.events), status: this.statusNow() } : {};
       this.isMoved = false;
       const values = Object.fromEntries(this.names.map((name) => [name, this.valueOf(name)]));
-      this.hears.look({ bench: 0, time_ns: this.at, paused: true, speed: 'manual', advancing: false, values, ...past });
+      this.hears.look({ bench: 0, time_ns: this.at, paused: true, speed: 'manual', advancing: false, restores: this.moves, values, ...past });
     });
   }
 
@@ -112,6 +113,7 @@ export class Told {
         const to = message.by ? this.stepped(message.by, message.steps ?? 1) : message.to_ns;
         this.at = Math.min(Math.max(to, begin_ns), end_ns);
         this.isMoved = true;
+        ++this.moves;
         this.tell();
         return { simulated_time_ns: this.at };
       }

@@ -171,7 +171,7 @@ class Travel {
     if (by == "frame") {
       moments = moments_;
     } else if (by == "event") {
-      for (const world::RecordedEvent& event : timeline_.events()) moments.push_back(event.at);
+      moments = event_moments_;
     } else {
       throw MessageError("by: expected tick, frame or event");
     }
@@ -184,8 +184,8 @@ class Travel {
     return moments[static_cast<std::size_t>(place)];
   }
 
-  /// Collects, at each keyframe of the first pass, the times at which frames began, the events for the bar,
-  /// and the last frames and events.
+  /// Collects, at each keyframe of the first pass, the times of the frames and events, the events for the
+  /// bar, and the last frames and events.
   void collect() {
     history_.collect(daemon_.world(), daemon_.frames(), daemon_.observers().events);
     Stretch stretch{.frames = daemon_.frames().kept_since(next_frame_, kMaxBefore), .events = {}};
@@ -196,7 +196,11 @@ class Travel {
     for (const auto& event : daemon_.observers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
       // The first restore is not part of the recording.
-      if (event.what != "restored") stretch.events.push_back(event);
+      if (event.what != "restored") {
+        stretch.events.push_back(event);
+        if (event_moments_.empty() || event_moments_.back() < event.time)
+          event_moments_.push_back(event.time);
+      }
       if (!is_mark(event.what)) continue;
       if (marks_.size() == kMaxMarks) {
         ++marks_left_out_;
@@ -257,7 +261,8 @@ class Travel {
   std::vector<Stretch> stretches_;  // one before each keyframe but the first, and one before the end
   std::uint64_t next_frame_ = 1;
   std::uint64_t next_event_ = 1;
-  std::vector<SimTime> moments_;
+  std::vector<SimTime> moments_;        // of frames
+  std::vector<SimTime> event_moments_;  // each time once
   std::vector<Json> marks_;
   std::uint64_t marks_left_out_ = 0;
   world::Timeline timeline_;  // must follow the members that collect() uses: its constructor calls it
