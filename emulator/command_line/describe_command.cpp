@@ -86,7 +86,7 @@ void add_evidence(Sheet& sheet, const Model& model, const std::vector<box::Evide
   }
 }
 
-std::vector<box::EvidenceFile> read_evidence(const DescribeArguments& arguments) {
+std::vector<box::EvidenceFile> read_evidence(const Model& model, const DescribeArguments& arguments) {
   if (!arguments.evidence.empty() && arguments.what != "choices")
     throw UsageError("--evidence: " + quoted(arguments.what) + " are not measured; expected choices");
   std::vector<box::EvidenceFile> files;
@@ -95,6 +95,11 @@ std::vector<box::EvidenceFile> read_evidence(const DescribeArguments& arguments)
     if (!text)
       throw FileError(path + ": evidence: " + text.why + "; expected a file of `understudy calibrate -o`");
     files.push_back(box::parse_evidence(*text, path));
+    const auto is_of_model = [&](const auto& device) { return device.model == model.name; };
+    if (std::ranges::none_of(files.back().devices, is_of_model)) {
+      std::fprintf(stderr, "understudy: describe: %s: has no evidence about %s\n", one_line(path).c_str(),
+                   arguments.model.c_str());
+    }
   }
   return files;
 }
@@ -117,7 +122,7 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
     throw UsageError("--format: " + quoted(arguments.format) +
                      " is unknown; expected table, csv, json or markdown");
   if (arguments.what == "thing") return print_thing(model, arguments);
-  const std::vector<box::EvidenceFile> evidence = read_evidence(arguments);
+  const std::vector<box::EvidenceFile> evidence = read_evidence(model, arguments);
   auto sheet = describe(model, arguments.what, *format);
   if (!sheet) {
     throw UsageError(quoted(arguments.what) +

@@ -127,6 +127,8 @@ TEST_F(Compare, ShowsWhatIsMeasuredAmongTheChoices) {
     EXPECT_EQ(row["evidence"], "number 3 (1.52), " + capture + ":3");
   }
   EXPECT_LT(measured, 10U);
+  const Finished foreign = understudy({"describe", "slim", "choices", "--evidence", evidence});
+  EXPECT_EQ(foreign.errors, "understudy: describe: " + evidence + ": has no evidence about slim\n");
   const Finished wrong = understudy({"describe", "simple2-r3", "choices", "--evidence", plain_});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.errors.find("evidence: is none; expected a file of `understudy calibrate -o`"),

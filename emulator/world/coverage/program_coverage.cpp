@@ -161,6 +161,7 @@ class ProgramCoverage::DeviceCounts final : public ProgramWatch {
            const std::string& text) const {
     bool has_file = false;
     for (const auto& [path, source_parts] : known) {
+      if (has_file) break;  // another device may have a file with the same instructions
       for (const ProgramPart& source : source_parts) {
         if (source.number != part.number || source.lines != part.lines) continue;
         add_part(report.files[path_for_people(path)].lines, source, counts);

@@ -91,6 +91,9 @@ TEST(ProgramCoverage, CountsForTheFileWithTheSameInstructions) {
   EXPECT_EQ(report.files.begin()->second.lines,
             (CoveredLines{{2, {.runs = 1}}, {4, {.runs = 1, .decides = true, .no = 1}}, {5, {.runs = 1}}}));
 
+  const ProgramSource twin{"cell/twin.lst", same.text};
+  EXPECT_EQ(coverage.report({same, twin}).files.size(), 1U) << "the device has run only one of them";
+
   const CoverageReport alone = coverage.report();
   ASSERT_EQ(alone.files.size(), 1U);
   EXPECT_TRUE(alone.files.begin()->first.starts_with("simple2-r3-"));
