@@ -71,7 +71,9 @@ void Axis::see(Signals now_on, Instant at) {
     react(settings.at_limit_plus, Cause::limit_plus, at);
   if (drive.direction < 0 && obeys_limits && is_on(Signal::limit_minus))
     react(settings.at_limit_minus, Cause::limit_minus, at);
-  if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
+  // A wait whose input is switched off meanwhile is over, too.
+  const bool is_in_position = (now_on & bit(Signal::in_position)) != 0 || !settings.waits_for_in_position;
+  if (settling && is_in_position) end(Cause::arrived, at);
 }
 
 /// Calculates how far the axis can move before update_signals() has anything to do.

@@ -36,7 +36,10 @@ inline constexpr auto kChoices = std::to_array<ChoiceRow>({
      "each_instruction|the_bit_so_the_first_takes_the_edge", Confidence::proposal,
      "The manual is silent. The FX stores it for each instruction."},
     {"timer_unit", "LD , LDI , OUT , OUTtc 指令", "What is the unit of timers?", "1ms|10ms|1s",
-     Confidence::follows, "K1000 is one second in the examples."},
+     Confidence::likely,
+     "The printed base unit is 1000 ms, and the example of TMR calls K1000 one second in the same words: "
+     "1000 "
+     "counts are one second."},
     {"timer_first_scan", "LD , LDI , OUT , OUTtc 指令", "Does the scan that turns a timer ON count?",
      "begins_with_0|counts", Confidence::proposal,
      "The manual is silent. K1000 therefore closes 1000 ms later."},

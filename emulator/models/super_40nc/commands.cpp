@@ -85,12 +85,14 @@ void Commands::apply_emergency() {
   }
 }
 
+void Commands::forget_errors_of_a_scan() {
+  if (!has_errors_for_a_scan()) return;
+  for (AxisState& each : axes_.axes) each.has_error = false;
+}
+
 void Commands::apply_stops() {
   using language::Area;
   using language::Event;
-  if (has_errors_for_a_scan()) {
-    for (AxisState& each : axes_.axes) each.has_error = false;  // the scan has seen it
-  }
   if (keys_.is_stopped_by_emergency()) apply_emergency();
   state_.emergency_obeyed = ground_.state().emergency;
   for (int number = 0; number < kAxisCount; ++number) {

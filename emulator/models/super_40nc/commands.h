@@ -41,6 +41,8 @@ class Commands : protected Chips {
   void check_contacts();
   /// Returns true if axes have errors that, if so chosen, the next scan clears.
   bool has_errors_for_a_scan() const;
+  /// Called after the PLC, which has seen them.
+  void forget_errors_of_a_scan();
 
  private:
   void apply_contacts();

@@ -74,6 +74,7 @@ void Super40nc::run_interpreters(Tick tick) {
   const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
   if (contacts_first) parts_.commands.check_contacts();
   programs.run_plc();
+  parts_.commands.forget_errors_of_a_scan();
   if (!contacts_first) parts_.commands.check_contacts();
   programs.run_steps();
   programs.leave_table();

@@ -19,7 +19,10 @@ Error refusal_of_motion(const ChainState& chain, int module, InPause what) {
   if (const Error why = refusal(chain, module); why != Error::none) return why;
   const PauseResult result = pause_result(chain.options, chain.pauses_of(module), what);
   if (result.outcome == PauseOutcome::is_refused) return Error::paused;
-  const bool servo = chain.modules[at(module)].servo_expected(chain.axes[at(module)]);
+  // A jog is not queued, so HON and HOFF that wait in the queue do not concern it.
+  const motion::Axis& axis = chain.axes[at(module)];
+  const bool servo =
+      what == InPause::jog ? axis.servo_on : chain.modules[at(module)].servo_expected(axis);
   return servo ? Error::none : Error::servo_off;
 }
 

@@ -92,6 +92,7 @@ std::int32_t Chips::operation_of(int axis_number) const {
   const AxisState& state = axis(axis_number);
   const motion::Axis& motor = chip(axis_number);
   if (!motor.moving() || !state.moves()) return kStopped;
+  if (motor.settling) return kAtInp;
   if (motor.task == motion::Task::following) return kByWheel;
   if (motor.in_backlash || state.path_backlash != 0) return kBacklash;
   const motion::Sample sample = is_on_path(axis_number) ? axes_.path.run.sample(now()) : motor.sample(now());

@@ -112,6 +112,7 @@ enum Operation : std::int32_t {
   kSpeedingUp = 11,
   kAtFh = 12,
   kSlowingDown = 13,
+  kAtInp = 14,  // all pulses are sent; the axis waits for INP
 };
 
 /// Wraps a sum to 32 bits, as the chip does.

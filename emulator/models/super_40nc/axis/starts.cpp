@@ -83,7 +83,8 @@ void Starts::prepare(int axis_number, bool homes) {
 
 void Starts::begun(int axis_number, motion::Cause why_not, Activity holder) {
   AxisState& state = axis(axis_number);
-  if (why_not == motion::Cause::none && holder != Activity::home) {
+  const bool looks_for_switch = holder == Activity::home || state.rest.kind == RestKind::mark;  // MRK
+  if (why_not == motion::Cause::none && !looks_for_switch) {
     why_not = blocked_both_ways(axis_number);
     if (why_not != motion::Cause::none) {
       chip(axis_number).stop(why_not);

@@ -33,7 +33,10 @@ inline constexpr ChoiceRow kProgramChoices[] = {
      "What happens to programs X, Y, Z and U at M8002 and CEMG?", "reset_as_c|they_pause_at_their_line",
      kProposal, "The text of M8002 says this of C. The text of M8000 says that E-STOP resets M8x00."},
     {"stp_stops", "STP 指令", "How do STP, a STOP key and M8x02 stop a motor?", "at_once|by_its_ramp",
-     kProposal, "The manual prints only \"stopped\"."},
+     kProposal,
+     "For STP the manual prints \"at once\"; for the keys and M8x02 it prints only \"stopped\". One rule for "
+     "all is "
+     "assumed."},
     {"fsh_without_motion", "Motion指令一覽表",
      "Do Y0 to Y3 and Y8 go ON for a motion line whose axes are already at the target?", "come|do_not_come",
      kProposal, "The manual is silent."},

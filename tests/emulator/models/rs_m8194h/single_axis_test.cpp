@@ -415,5 +415,20 @@ TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
   EXPECT_EQ(rsm.get("STOP_X"), 1);
 }
 
+/// 3.13: 0 switches the input off, also for an axis that is already waiting for it.
+TEST(RsM8194hAxis, StopsWaitingForAnInputThatIsSwitchedOff) {
+  for (const char* const drive : {"RSM_FIXED_MOVE X 10", "RSM_LINE_2D 10 10"}) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_MAX_V XY 1000", "RSM_SET_V XY 1000", "RSM_SET_SV XY 1000", "RSM_SET_VSV 1000",
+              "RSM_SET_VV 1000", "RSM_AXIS_ASSIGN X Y 0", "RSM_SET_INPOS XY 1 0", drive});
+    rsm.run(200);
+    EXPECT_EQ(rsm.get("LP_X"), 10) << drive;
+    EXPECT_NE(rsm.get("DRIVING_AXIS"), 0) << drive;
+    rsm.send("RSM_SET_INPOS XY 0 0");
+    rsm.run(3);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0) << drive;
+  }
+}
+
 }  // namespace single_axis_test
 }  // namespace understudy::emulator::models::rs_m8194h

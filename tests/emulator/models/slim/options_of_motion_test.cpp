@@ -187,7 +187,8 @@ TEST(SlimMotionOptions, WhatPzHolds) {
 TEST(SlimMotionOptions, AJogWhileAMoveRuns) {
   const std::string moves = "> MR 1000\n> MR 5\n@ 501\n";
   play_all("jog_while_moving",
-           {{"error_3", moves + "> JGF\n< ERR 3\n> FT 5\n< ERR 3\n@ 900\n> ?PE\n< 1005\n"}});
+           {{"error_3", moves + "> JGF\n< ERR 3\n> FT 5\n< ERR 3\n@ 900\n> ?PE\n< 1005\n"},
+            {"error_3", moves + "> HOFF\n> JGF\n< ERR 3\n"}});  // HOFF waits, and the servo is still on
   // It stops at 500 within 100 ms. After 200 ms of the jog another 150 are done, plus 50 to stop.
   play_all(
       "jog_while_moving",
@@ -198,6 +199,7 @@ TEST(SlimMotionOptions, AJogWhileAMoveRuns) {
        {"ends_the_move", moves + "> JGF\n@ 50\n> JG0\n@ 300\n> ?PE\n< 500\n> ?ST\n< 1\n"},
        {"ends_the_move", moves + "> JGF\n@ 50\n> PZ\n@ 300\n> ?PE\n< 500\n> REDO\n@ 300\n> ?PE\n< 749\n"},
        {"ends_the_move", moves + "> JGF\n@ 50\n> TASTOP\n@ 300\n> ?MD\n< 0\n"},
+       {"ends_the_move", moves + "> HOFF\n> JGF\n@ 300\n> ?PE\n< 650\n"},
        {"ends_the_move", moves + "> FT 5\n@ 200\n> ?PE\n< 500\n> ?MD\n< 3\n"},
        {"ends_the_move", moves + "> TAPZ\n> JGF\n< ERR 6\n> TAREDO\n@ 900\n> ?PE\n< 1005\n"},
        // Homing at -1000: from -50 to -100, and 150 back.

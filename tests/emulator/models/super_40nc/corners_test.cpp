@@ -75,6 +75,45 @@ TEST(Super40ncCorners, APausedLineIsCompletedWhenItsFileHasBecomeEmpty) {
   }
 }
 
+/// Table D8x: 14 is "waiting for INP".
+TEST(Super40ncCorners, AnAxisThatWaitsForInpSaysSo) {
+  OneSuper40nc one({.program = "AREA X\nDRV K1000\nEND\n", .choices = {{"inp_wait", "single_axes_wait"}}});
+  one.set("M8100", 1);
+  one.run(3000);
+  EXPECT_EQ(one.get("D8117"), 1000);
+  EXPECT_TRUE(one.on("M8120"));
+  EXPECT_EQ(one.get("D8164"), 14);
+}
+
+/// The mark of MRK is no limit while MRK looks for it, whatever X33 and X34 say.
+TEST(Super40ncCorners, MrkBeginsOnItsMark) {
+  for (const int is_limit : {0, 1}) {
+    OneSuper40nc one({.set = {{"D9163", is_limit}, {"D9190", 500}},
+                      .program = "AREA X\nMRK K1000\nEND\n",
+                      .choices = {{"limits_blocking", "both_ways_blocked"}}});
+    one.input("X1", 1);
+    one.set("M8100", 1);
+    one.run(5000);
+    EXPECT_EQ(one.get("D8117"), 1000) << is_limit;
+    EXPECT_EQ(one.get("D8094"), 0) << is_limit;
+  }
+}
+
+/// M8x24 lasts one scan of the PLC, in whatever order a scan works.
+TEST(Super40ncCorners, ThePlcSeesAnErrorOfOneScan) {
+  for (const char* const order :
+       {"wire_plc_keys_contacts_programs_motion_status", "contacts_before_the_plc"}) {
+    OneSuper40nc one({.set = {{"D9185", 3000}},
+                      .program = "AREA X\nDRV K5000\nEND\nAREA PLC\nLD M8124\nSET M50\nEND\n",
+                      .choices = {{"serr_clears", "one_scan"}, {"scan_order", order}}});
+    one.set("M8100", 1);
+    one.run(3000);
+    EXPECT_EQ(one.get("D8094"), 13) << order;
+    EXPECT_TRUE(one.on("M50")) << order;
+    EXPECT_FALSE(one.on("M8124")) << order;
+  }
+}
+
 /// A listing is checked by a controller without power.
 TEST(Super40ncCorners, AListingIsCheckedAgainstTheFactorysRoom) {
   std::string text = "AREA C\n";
