@@ -196,10 +196,11 @@ inline constexpr ChoiceRow kChoices[] = {
      "The axis drops the old move and its remaining distance. With old_target, an old move at speed 0 also "
      "counts. A distance of 0 stops the axis at once with either, as in appendix A."},
     {"speed_while_moving", "運動相關",
-     "When does a write to Speed, AccTime, DecTime or Resoultion take effect during a move that uses them?",
+     "When does a write to Speed, AccTime, DecTime or Resoultion take effect during Move_INC or Move_ABS?",
      "next_move|at_once", kProposal,
      "Appendix A plans a move as a whole. With at_once, the rest of the move uses the new values (speed 0 "
-     "waits for the next move)."},
+     "waits for the next move, and a move that began at speed 0 stays there). Moves by a set and homing copy "
+     "their values when they begin."},
     {"least_ramp", "附錄 A", "What is the shortest ramp time, printed as 1?", "10ms|1ms|500us", kProposal,
      "It is the unit of the registers. A time of 0 also gives this ramp."},
     {"move_begins", "附錄 A", "How far along is a move in the first 1 ms tick after its command?",
