@@ -51,7 +51,8 @@ Item parse_element(std::string_view word, Kind kind) {
   const std::string_view index = without_blanks(word.substr(3, word.size() - 4));
   const bool is_variable = index.starts_with('N');
   const std::optional<int> number = whole_number(is_variable ? index.substr(1) : index);
-  if (!number) return wrong(Error::syntax);
+  const bool is_negative = index.starts_with('-') && whole_number(index.substr(1)).has_value();
+  if (!number) return wrong(is_negative ? Error::range : Error::syntax);
   if (*number >= (is_variable ? kVariableCount : kArrayCount)) return wrong(Error::range);
   return right({.kind = kind, .index = *number, .index_is_variable = is_variable});
 }

@@ -154,6 +154,10 @@ TEST(SlimProgramOptions, FewerEvents) {
     EXPECT_EQ(parse_line(line, four).error, Error::none) << line;
   }
   EXPECT_EQ(parse_line("ON EV9,$A").error, Error::range);
+  for (const char* const line : {"NS(2001)=1", "NS(-1)=1", "RS(-7)=1", "N0=NS(-1)", "NS(N100)=1"})
+    EXPECT_EQ(parse_line(line).error, Error::range) << line;
+  for (const char* const line : {"NS(-)=1", "NS()=1", "NS(--1)=1"})
+    EXPECT_EQ(parse_line(line).error, Error::syntax) << line;
   EXPECT_EQ(parse_line("ON P1,$A", four).error, Error::syntax);
 
   // A restored program cannot contain one either.

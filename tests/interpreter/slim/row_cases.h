@@ -105,7 +105,7 @@ inline constexpr std::array<RowCase, 169> kRowCases{{
      "2 N65=0 | 2 N0=32767 | 2 N0=-32769 | 1 N0=0.5 | 1 N0= | 1 N0 5 | 1 N0=R0 | 1 T1N0=5 | 1 N=5"},
     {"R#=data", "R0 = 0.1", "2 R65=0 | 2 R0=1e39 | 1 R0=abc | 1 R0="},
     {"NS(i)=data", "NS(2000)=-32768",
-     "2 NS(2001)=0 | 2 NS(0)=32767 | 1 NS(-1)=0 | 1 NS()=0 | 1 NS=5 | 1 NS(R0)=1 | 1 NS(0)"},
+     "2 NS(2001)=0 | 2 NS(0)=32767 | 2 NS(-1)=0 | 1 NS()=0 | 1 NS=5 | 1 NS(R0)=1 | 1 NS(0)"},
     {"RS(i)=data", "RS(N5)=2.5", "2 RS(N65)=0 | 2 RS(2001)=0 | 1 RS(1=0"},
     {"AIN=N#", "AIN=N7", "2 AIN=N65 | 1 AIN=5 | 1 AIN= | 1 AIN N0"},
     {"<name>=data", "PR2=1000", "1 PR2= | 1 =5 | 1 PR2==5 | 1 PR2=abc | 1 5A=1"},
