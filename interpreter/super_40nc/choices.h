@@ -150,6 +150,8 @@ inline constexpr auto kChoices = std::to_array<ChoiceRow>({
      Confidence::proposal, "Each CAL must have its RET."},
     {"cal_count", "CAL , RET 指令", "What does CAL with a count below 1 do?", "skipped|endless",
      Confidence::proposal, "The manual is silent."},
+    {"cal_of_d", "CAL , RET 指令", "How does CAL use a register that changes during the passes?",
+     "read_once|compared_at_each_ret", Confidence::proposal, "The manual is silent."},
     {"c3p_plane", "Motion指令一覽表", "Which plane does C3P use?", "the_set_one|always_xy",
      Confidence::proposal,
      "The manual says both that it is the selected plane and that it is found automatically. The two "

@@ -28,6 +28,7 @@ class StepCode {
   int next_step(int step) const;
   /// Returns the step after the last line.
   int length() const { return static_cast<int>(lines_.size()); }
+  int line_count() const { return static_cast<int>(steps_.size()); }
   int step_of(int line) const { return steps_[static_cast<std::size_t>(line)]; }
   /// Returns the target step of a line. JMP, CJ, CJN, CAL: the first such label, or -1 if there is none. IF:
   /// the line after ELSE, or ENDI. ELSE: ENDI.

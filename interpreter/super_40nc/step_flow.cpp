@@ -116,8 +116,20 @@ StepPrograms::Slice StepPrograms::call(Area area, const Instruction& line) {
     fail(area, label < 0 ? Code::label_missing : Code::pairing);
     return Slice::is_over;
   }
+  const bool is_compared =
+      line.fields[1].letter == Letter::d && options_.chose(option("cal_of_d", "compared_at_each_ret"));
+  if (is_compared) passes = -1;
   program.calls.push_back({program.step + steps_of(line), label, passes});
   return jump(area, label);
+}
+
+/// Returns the present count of the CAL before a step, or 0 if another program has no CAL there.
+std::int64_t StepPrograms::passes_wanted(Area area, int back) {
+  const int number = code(area).line_at(back) > 0  ? code(area).line_at(back) - 1
+                     : back == code(area).length() ? code(area).line_count() - 1
+                                                   : -1;
+  if (number < 0 || code(area).line(number).op != Op::cal) return 0;
+  return access_.value(code(area).line(number).fields[1]);
 }
 
 StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
@@ -128,7 +140,8 @@ StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
     return Slice::is_over;
   }
   Call& last = program.calls.back();
-  if (last.passes > 1) {
+  const bool goes_again = last.passes < 0 ? -last.passes < passes_wanted(area, last.back) : last.passes > 1;
+  if (goes_again) {
     --last.passes;
     return jump(area, last.label);
   }

@@ -19,7 +19,7 @@ namespace understudy::interpreter::super_40nc {
 struct Call {
   int back = 0;             // step after CAL
   int label = 0;            // step
-  std::int64_t passes = 0;  // passes left, including the running one
+  std::int64_t passes = 0;  // passes left, including the running one; negative: passes that have begun
 
   bool operator==(const Call&) const = default;
 };
@@ -136,6 +136,7 @@ class StepPrograms : public StepControl {
   Slice jump_to_label(Area area);
   Slice call(Area area, const Instruction& line);
   Slice return_(Area area, const Instruction& line);
+  std::int64_t passes_wanted(Area area, int back);
   Slice end(Area area);
   Slice wait(Area area, const Instruction& line, bool is_over);
   Slice wait_for_time(Area area, const Instruction& line);

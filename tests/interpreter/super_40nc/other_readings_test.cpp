@@ -191,6 +191,18 @@ TEST(Super40ncOtherReadings, OfSubroutines) {
   EXPECT_TRUE(loose.machine.contact(y(0)));
 
   options = {};
+  options.choose(option("cal_of_d", "compared_at_each_ret"));
+  for (const int last : {1, 4}) {  // below the passes that have begun, and above
+    Running compared = running(
+        "AREA C;MOV K2 D1;CAL K1 D1;SET Y0;END;LAB K1;INC D0;MOV K" + std::to_string(last) + " D1;RET",
+        options);
+    compared.start(Area::c);
+    compared.tick(20);
+    EXPECT_EQ(compared.machine.value(d(0)), last);
+    EXPECT_TRUE(compared.machine.contact(y(0)));
+  }
+
+  options = {};
   options.choose(option("cal_count", "endless"));
   Running endless = running("AREA C;CAL K1 K0;END;LAB K1;INC D0;RET", options);
   endless.start(Area::c);
