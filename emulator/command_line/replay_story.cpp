@@ -109,7 +109,7 @@ void print_story(const ReplayArguments& arguments, serve::TimelineSetup setup) {
   try {
     const page::Drawing drawing = page::story_picture(ask, name, panel);
     picture.replace(is_svg(arguments.picture) ? page::svg_of(drawing, page::picture_words(ask, name, panel))
-                                            : page::png_of(drawing));
+                                              : page::png_of(drawing));
   } catch (const page::RefusedError& error) {
     throw UsageError("replay: --picture: " + std::string(error.what()));
   }

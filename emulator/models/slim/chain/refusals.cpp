@@ -21,8 +21,7 @@ Error refusal_of_motion(const ChainState& chain, int module, InPause what) {
   if (result.outcome == PauseOutcome::is_refused) return Error::paused;
   // A jog is not queued, so HON and HOFF that wait in the queue do not concern it.
   const motion::Axis& axis = chain.axes[at(module)];
-  const bool servo =
-      what == InPause::jog ? axis.servo_on : chain.modules[at(module)].servo_expected(axis);
+  const bool servo = what == InPause::jog ? axis.servo_on : chain.modules[at(module)].servo_expected(axis);
   return servo ? Error::none : Error::servo_off;
 }
 
