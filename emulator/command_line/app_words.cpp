@@ -170,7 +170,7 @@ std::string diagnostic_about(const CLI::App& app, const CLI::ParseError& error, 
     const bool is_real = option != nullptr && option->get_type_name() == "FLOAT";
     return name + ": " + quoted(message.substr(kBegin.size() + name.size() + 3)) +
            (is_real ? " is not a number; expected a number"
-                    : " is not a whole number, or too large; expected a whole number");
+                    : " is not a whole number, or is too large; expected a whole number");
   }
   return message;
 }

@@ -64,7 +64,7 @@ void read_memories(world::Bench& bench, std::size_t line, const std::string& fro
     return;
   }
   throw UsageError("--from: " + from + ": is for " + quoted(image->model) +
-                   ", but the line has no device of that model; expected an image of one of them");
+                   ", but the line has no device of that model; expected an image for a device on the line");
 }
 
 /// Returns the number of the only station on the line, or nothing if the line has several or a text protocol.
@@ -146,9 +146,9 @@ void StationFilter::require_some(const std::string& path) const {
   if (has_kept_) return;
   std::string numbers;
   for (const int number : others_) numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
-  throw FileError(path + ": all requests are for station " + numbers + ", which line " +
+  throw FileError(path + ": all requests are to station " + numbers + ", which is not on line " +
                   quoted(box_.bench.lines[box_.settings.line].name) +
-                  " of the bench does not have; expected a capture of " +
+                  " of the bench; expected a capture of " +
                   (only_ ? "station " + std::to_string(*only_) : std::string("one of its stations")));
 }
 
@@ -218,20 +218,20 @@ std::vector<std::string> notes_text(const box::CaptureNotes& notes) {
   if (!notes.begins_at_power_up || notes.knows_beginning) texts.push_back("read as " + notes.format);
   if (!notes.beyond_the_line.empty())
     texts.push_back("from " + notes.beyond_the_line +
-                    " on, differences are undecidable, because it is not repeated");
+                    " on, differences are undecidable, because the bench does not repeat this");
   if (notes.is_side_inferred)
     texts.emplace_back("the host's and the controller's bytes were distinguished by their frames");
-  add(notes.bytes_of_no_frame, "byte belongs to no frame", "bytes belong to no frame");
+  add(notes.bytes_of_no_frame, "byte is outside a frame", "bytes are outside frames");
   add(notes.unasked, "reply follows no request", "replies follow no request");
-  add(notes.elsewhere, "request is for a station that the bench does not have",
-      "requests are for stations that the bench does not have");
+  add(notes.elsewhere, "request is to a station that is not in the bench",
+      "requests are to stations that are not in the bench");
   add(notes.restored_requests, "request was lost, but its reply repeats it",
       "requests were lost, but their replies repeat them");
   if (notes.lost_requests != 0)
     texts.push_back(
         "from " + std::to_string(notes.lost_requests) +
         (notes.lost_requests == 1 ? " lost request on, differences" : " lost requests on, differences") +
-        " are undecidable, because it may have written");
+        " are undecidable, because a lost request may have written something");
   return texts;
 }
 

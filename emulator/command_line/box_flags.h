@@ -17,11 +17,13 @@ inline void add_stage_flags(CLI::App& command, OnArguments& on) {
                    "Also send requests that change memory; implies --allow-writes");
   command.add_flag("--allow-outputs", on.allow_outputs,
                    "Also send requests that may switch an output; implies --allow-writes");
-  command.add_flag("--allow-motion", on.allow_motion,
-                   "Also send requests that may move an axis, and all others. KEEP CLEAR OF THE MACHINE");
+  command.add_flag(
+      "--allow-motion", on.allow_motion,
+      "Also send requests that may move an axis, and all other requests. KEEP CLEAR OF THE MACHINE");
   command
-      .add_option("--envelope", on.envelope,
-                  "File with limits for targets, speeds and distances; requests outside them are not sent")
+      .add_option(
+          "--envelope", on.envelope,
+          "File with limits for targets, speeds and distances; requests outside these limits are not sent")
       ->check(kNotEmpty);
   command
       .add_option("--rig", on.rig,
@@ -55,7 +57,7 @@ inline void add_photograph_flags(CLI::App& command, PhotographArguments& photogr
       ->check(kNotEmpty);
   command.add_option("--modules", photograph.modules, "Number of modules to read in the chain [as in PN50]");
   command.add_option("--timeout", photograph.timeout, "How long to wait for a reply")->capture_default_str();
-  command.add_flag("--arrays", photograph.arrays, "SLIM: read NS(0) to RS(2000), too; takes a minute");
+  command.add_flag("--arrays", photograph.arrays, "SLIM: also read NS(0) to RS(2000), which takes a minute");
 }
 
 /// Adds the flag for the controller's name in evidence.
@@ -71,7 +73,7 @@ inline void add_probe_flags(CLI::App& command, ProbeArguments& probe) {
   command.add_option("--model", probe.model, "The controller's model")->required()->check(kNotEmpty);
   command.add_option("-o,--output", probe.output, "Evidence to write: FILE.json")->check(kNotEmpty);
   add_box_name(command, probe.box);
-  command.add_option("--station", probe.station, "Station to ask [that of the proofs]");
+  command.add_option("--station", probe.station, "Station number of the controller [that of the proofs]");
   command.add_option("--firmware", probe.firmware, "The controller's firmware version [newest]")
       ->check(kNotEmpty);
   command.add_option("--proofs", probe.proofs, "Folder of proofs [the one that comes with this program]")
@@ -84,30 +86,29 @@ inline void add_capture_flags(CLI::App& command, CompareArguments& compare) {
       .add_option("--pattern", compare.pattern,
                   "Format of a log's lines, such as '{time} {dir} {hex}'; {*} matches anything")
       ->check(kNotEmpty);
-  command
-      .add_option("--every", compare.every, "Time between requests, for a log without times, such as 20ms")
+  command.add_option("--every", compare.every, "Time between requests in a log without times, such as 20ms")
       ->check(kNotEmpty);
   command
       .add_option("--sample-rate", compare.sample_rate,
-                  "Samples per second, for a decoder's log that counts samples, such as 1000000")
+                  "Samples per second in a decoder's log that counts samples, such as 1000000")
       ->check(CLI::PositiveNumber);
 }
 
 inline void add_compare_flags(CLI::App& command, CompareArguments& compare) {
   command.add_option("CAPTURE", compare.captures, "Captures of the controller's line")->required();
-  command.add_option("--bench", compare.bench, "The bench that should reply as the controller did")
+  command.add_option("--bench", compare.bench, "The bench whose replies are compared with the controller's")
       ->required()
       ->check(kNotEmpty);
   command.add_option("--line", compare.line, "The line, if the bench or a capture has several")
       ->check(kNotEmpty);
   command.add_option("--from", compare.from, "NV image of the controller's memory at the beginning")
       ->check(kNotEmpty);
-  command.add_option("--tolerance", compare.tolerance, "How far apart times may be")->capture_default_str();
+  command.add_option("--tolerance", compare.tolerance, "How much times may differ")->capture_default_str();
   command.add_flag("--power-up", compare.power_up,
                    "Time 0 of the captures is the controller's power-up, so its whole state is known");
   command
       .add_option("--inputs", compare.inputs,
-                  "File with the changes of the inputs, in lines such as '0.250 feeder.DIN_2 on'")
+                  "File with input changes, in lines such as '0.250 feeder.DIN_2 on'")
       ->check(kNotEmpty);
   add_capture_flags(command, compare);
 }
@@ -129,8 +130,8 @@ inline void add_compare_looks(CLI::App& command, CompareArguments& compare) {
 inline void add_tap_flags(CLI::App& command, TapArguments& tap) {
   command
       .add_option("PORT", tap.ports,
-                  "One adapter that receives both directions, or two that receive one each: "
-                  "/dev/ttyUSB0[,SPEED[,8E1]], rtu://HOST:PORT [19200,8E1]")
+                  "One adapter that receives both directions, or two adapters that receive one direction "
+                  "each: /dev/ttyUSB0[,SPEED[,8E1]], rtu://HOST:PORT [19200,8E1]")
       ->required()
       ->expected(1, 2)
       ->check(kNotEmpty);
@@ -151,8 +152,9 @@ inline void add_calibrate_flags(CLI::App& command, CalibrateArguments& calibrate
 
 inline void add_certificate_flags(CLI::App& command, CertificateArguments& certificate) {
   command
-      .add_option("FILE", certificate.evidence,
-                  "Evidence of `calibrate` and `probe`, about one controller; with --verify, a certificate")
+      .add_option(
+          "FILE", certificate.evidence,
+          "Evidence files of one controller, from `calibrate` and `probe`; with --verify, a certificate")
       ->required()
       ->check(kNotEmpty);
   CLI::Option* const verify =

@@ -147,7 +147,7 @@ std::string progress_of(const box::CalibrateTally& tally, std::size_t captures, 
   const std::string tried = tried_text(tally, seconds);
   switch (tally.phase) {
     case trying_each: return "trying each option: " + tried;
-    case contradicting: return "looking for contradictions: " + tried;
+    case contradicting: return "searching for contradictions: " + tried;
     case explaining: break;
   }
   std::string text = tried + "; explained " + std::to_string(tally.explained) + " of " +
@@ -176,15 +176,15 @@ void print_interruption(const BoxBench& box, const std::vector<box::Capture>& ca
   if (found.explains) {
     std::fprintf(to, "these options explain everything: %s\n",
                  hypothesis_text(box.bench, found.explanations.front()).c_str());
-    std::fprintf(to, "the options of %zu choices were tried; nothing is known about the others\n",
+    std::fprintf(to, "the options of %zu choices were tried; the other choices were not\n",
                  found.findings.size());
     return;
   }
   const box::Capture& capture = captures[found.capture];
   const box::Exchange& exchange = capture.exchanges[found.exchange];
   std::fprintf(to, "no options were found that explain everything\n");
-  std::fprintf(to, "the furthest, up to %s:%zu, at %s: %s\n", capture.path.c_str(), exchange.place,
-               format_duration(exchange.at).c_str(),
+  std::fprintf(to, "the options that agree longest, up to %s:%zu, at %s: %s\n", capture.path.c_str(),
+               exchange.place, format_duration(exchange.at).c_str(),
                hypothesis_text(box.bench, found.explanations.front()).c_str());
 }
 

@@ -96,7 +96,7 @@ std::string only_one(const std::vector<Running>& all, const std::string& what_is
                      const std::string& flags) {
   if (all.size() == 1) return all.front().socket;
   throw UsageError("ctl: " + std::to_string(all.size()) + " " + what_is_told + "; expected " + flags +
-                   " of one of: " + list_of(all));
+                   " for one of: " + list_of(all));
 }
 
 std::string find_by(const WhichDaemon& which) {
@@ -108,8 +108,9 @@ std::string find_by(const WhichDaemon& which) {
     if (running.has_answered && fits) fitting.push_back(running);
   }
   if (!fitting.empty()) {
-    return only_one(fitting, "daemons match " + flags_of(which),
-                    which.port.empty() ? "--port LINK as well, or --control SOCKET," : "--control SOCKET");
+    return only_one(
+        fitting, "daemons match " + flags_of(which),
+        which.port.empty() ? "an additional --port LINK, or --control SOCKET," : "--control SOCKET");
   }
   const std::string what = which.port.empty()    ? which.bench
                            : which.bench.empty() ? which.port
@@ -131,9 +132,9 @@ std::string choose_daemon(const WhichDaemon& which) {
     throw serve::ControlError("ctl: no daemon answers in " + serve::control_folder() +
                               "; expected a running `understudy serve`, or --control SOCKET");
   }
-  return live.size() == 1
-             ? live.front()
-             : only_one(identify_all(), "are running", "--bench FILE, --port LINK or --control SOCKET");
+  return live.size() == 1 ? live.front()
+                          : only_one(identify_all(), "daemons are running",
+                                     "--bench FILE, --port LINK or --control SOCKET");
 }
 
 int list_daemons(bool as_json) {

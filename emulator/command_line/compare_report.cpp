@@ -173,8 +173,8 @@ std::string CaptureComparison::text() const {
     text += "    it agrees with  " + remedy.text +
             (remedy.section.empty() ? "" : "  (" + one_line(remedy.section) + ")") + "\n";
   if (remedies.empty())
-    text += has_searched ? "    no other option of a single choice agrees with it\n"
-                         : "    it is so late in the capture that no other options were tried\n";
+    text += has_searched ? "    no other option of a single choice agrees with this reply\n"
+                         : "    this is so late in the capture that no other options were tried\n";
   for (const auto& [kind, counts] : by_kind_) {
     const std::size_t different = counts[index_of(Verdict::different)];
     const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});

@@ -57,7 +57,7 @@ void add_one_device(const ControlArguments& arguments, Json& message) {
 void add_coverage_words(const ControlArguments& arguments, Json& message) {
   for (const std::string& word : arguments.operands) {
     const char* const key = word == "again" ? "again" : "device";
-    if (message.contains(key)) throw stray_word(arguments, word, "one device, and again");
+    if (message.contains(key)) throw stray_word(arguments, word, "at most one device, and `again`");
     if (word == "again") {
       message["again"] = true;
     } else {

@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kPlaces = "a time such as 1.5s, or tick, frame or event, a number, and back";
+constexpr const char* kPlaces =
+    "a time such as 1.5s, or tick, frame or event, optionally with a number and back";
 
 std::string time_text(const Json& entry, const char* key) {
   return format_duration(SimTime{entry.at(key).get<std::int64_t>()});
@@ -33,7 +34,7 @@ void add_place(const ControlArguments& arguments, Json& message) {
   const auto refuse = [&](const std::string& why) {
     return UsageError("ctl seek: " + why + "; expected " + kPlaces);
   };
-  if (words.empty()) throw refuse("no place is given");
+  if (words.empty()) throw refuse("the time is missing");
   if (words[0] != "tick" && words[0] != "frame" && words[0] != "event") {
     const auto time = parse_duration(words[0]);
     if (!time) throw refuse(understudy::quoted(words[0]) + " is not understood");

@@ -48,7 +48,7 @@ inline constexpr std::array kControlWords{
                 "within=1h; or back"},
     ControlWord{"break", "Set, list or delete breakpoints and logpoints", "WHAT",
                 "DEVICE LINE, instruction=N program=NAME, write=NAME by=WHO or on=EVENT; when=CONDITION, "
-                "nth=N, log=TEXT; delete N, or delete all; without words, list them"},
+                "nth=N, log=TEXT; delete N, or delete all; without arguments, list the breakpoints"},
     ControlWord{"continue", "Continue simulated time after a stop", "WITHIN", "within=10s; or back"},
     ControlWord{"stack", "Show the current lines of a device's programs, and their callers", "DEVICE",
                 "Name of the device"},
@@ -66,21 +66,22 @@ inline constexpr std::array kControlWords{
                 "Number of events [200]"},
     ControlWord{"spans",
                 "Show what a host in simulated time is waiting for; in a recording, everything that happened",
-                "WHAT", "from=1s, to=2s; without words, everything"},
-    ControlWord{"where", "Show which line a device's programs are at, and what they wait for", "DEVICE",
-                "Name of the device"},
+                "WHAT", "from=1s, to=2s; without arguments, show everything"},
+    ControlWord{"where", "Show which line a device's programs are at, and what they are waiting for",
+                "DEVICE", "Name of the device"},
     ControlWord{"coverage", "Show which lines of the programs have run since the count began", "WHAT",
                 "DEVICE, and `again` to restart the count"},
-    ControlWord{"scope", "Record values at every tick around a moment", "WHAT",
-                "NAME..., when=CONDITION, before=1s, after=1s; off to disarm; without words, show the state"},
+    ControlWord{
+        "scope", "Record values at every tick around a moment", "WHAT",
+        "NAME..., when=CONDITION, before=1s, after=1s; off to disarm; without arguments, show the state"},
     ControlWord{"send", "Send a request on a line that no host has open", "WHAT",
                 "LINE, and the bytes in hexadecimal, or text=TEXT"},
     ControlWord{"timeline", "Show the failure and the marks of a recording", "FROM",
                 "from=500, if there are more"},
     ControlWord{"seek", "Go to another moment of a recording", "WHERE",
                 "Such as 1.5s; or tick, frame or event, with a number [1], and back"},
-    ControlWord{"what-if", "Let commands change a recording, or go back to what was recorded", "WHAT",
-                "off to go back"},
+    ControlWord{"what-if", "Let commands change a recording, or return to the recorded state", "WHAT",
+                "off to return"},
 };
 
 }  // namespace understudy::emulator::command_line

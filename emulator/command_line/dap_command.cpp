@@ -131,7 +131,7 @@ void serve_clients(const std::vector<Descriptor>& listeners) {
         }));
       } else if (refusing.size() < kMaxRefused) {
         refusing.push_back(start_beside([&] {
-          dap::refuse_session(client.get(), "another client is being served; expected one at a time");
+          dap::refuse_session(client.get(), "another client is connected; expected only one at a time");
         }));
       }
     }

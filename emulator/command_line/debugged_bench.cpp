@@ -141,11 +141,12 @@ void RecordedScenario::find_recording() {
     if (entry.path().extension() != ".jsonl") continue;
     if (!recording_.empty())
       throw dap::RequestError(
-          "scenario: the file has several cases; expected one, or `run --record` and then "
-          "one of its recordings");
+          "scenario: the file has several cases; expected one case, or a recording of a case from `run "
+          "--record`");
     recording_ = entry.path().string();
   }
-  if (recording_.empty()) throw dap::RequestError("scenario: the run made no recording; expected one");
+  if (recording_.empty())
+    throw dap::RequestError("scenario: the run made no recording; expected a recording");
 }
 
 }  // namespace understudy::emulator::command_line

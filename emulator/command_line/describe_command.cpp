@@ -108,7 +108,7 @@ std::vector<box::EvidenceFile> read_evidence(const Model& model, const DescribeA
 int print_thing(const Model& model, const DescribeArguments& arguments) {
   if (model.registers == nullptr)
     throw UsageError(quoted(arguments.model) +
-                     " has no registers, and so no Thing Model; expected a model that speaks Modbus");
+                     " has no registers, so it has no Thing Model; expected a model that speaks Modbus");
   std::fputs(thing_model(model).c_str(), stdout);
   return kExitWell;
 }
@@ -131,10 +131,10 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
   }
   if (sheet->rows.empty() && *format == SheetFormat::table) {
     const bool has_window = arguments.what == "commands" && model.window != nullptr;
-    const std::string more = has_window
-                                 ? " of text; its window accepts those that `instructions` lists, such as " +
-                                       std::string(model.window->example())
-                                 : "";
+    const std::string more =
+        has_window ? " in text form; its window accepts the commands that `instructions` lists, such as " +
+                         std::string(model.window->example())
+                   : "";
     std::printf("%s has no %s%s\n", arguments.model.c_str(), arguments.what.c_str(), more.c_str());
     return kExitWell;
   }
@@ -153,8 +153,8 @@ Firmware require_firmware(const Model& model, const std::string& text) {
   std::string versions;
   for (const Firmware known : model.firmwares)
     versions += (versions.empty() ? "" : ", ") + version_text(known);
-  throw UsageError("--firmware: " + quoted(text) + " is not a version of " + std::string(model.name) +
-                   "; expected one of " + versions);
+  throw UsageError("--firmware: " + quoted(text) + " is not a firmware version of " +
+                   std::string(model.name) + "; expected one of " + versions);
 }
 
 }  // namespace understudy::emulator::command_line

@@ -89,7 +89,8 @@ class Dialogue {
     const bool has_values = message.is_object() && message.contains("values") && message["values"].is_array();
     if (has_step) return play(message["step"]);
     if (has_values) return values_of(message["values"]);
-    return error_reply("refused", "a message is wrong; expected {\"step\": {...}} or {\"values\": [...]}");
+    return error_reply("refused",
+                       "a message is not valid; expected {\"step\": {...}} or {\"values\": [...]}");
   }
 
  private:
@@ -116,7 +117,8 @@ class Dialogue {
     Json reply = good();
     reply["values"] = Json::object();
     for (const Json& name : names) {
-      if (!name.is_string()) return error_reply("refused", "a value is not a text; expected names in quotes");
+      if (!name.is_string())
+        return error_reply("refused", "a value is not a string; expected names in quotes");
       try {
         const world::Number value = performance_.present_value(name.get<std::string>());
         if (value.is_whole()) {

@@ -55,7 +55,7 @@ void use_private_places(Serving& serving, const ExecArguments& arguments, serve:
 
 void require_host_time(const ExecArguments& arguments) {
   if (arguments.has_speed)
-    throw UsageError("--host-time: the host's waits decide how fast time passes; expected no --speed");
+    throw UsageError("--host-time: the host's waits determine how fast time passes; expected no --speed");
 }
 
 /// Prints the verdicts of the scenario and returns its exit code.
@@ -170,7 +170,7 @@ Outcome execute_once(ModelList models, const ExecArguments& arguments) {
 /// Runs the command several times, and compares the recordings.
 int execute_repeatedly(ModelList models, const ExecArguments& arguments, int times) {
   if (!arguments.host.host_time)
-    throw UsageError("--repeat: runs differ in real time; expected --host-time as well");
+    throw UsageError("--repeat: runs differ in real time; expected --repeat with --host-time");
   if (!arguments.serve.nv.empty())
     throw UsageError("--repeat: each run would begin with the memory of the previous run; expected no --nv");
   serve::PrivateFolder folder;
@@ -232,7 +232,7 @@ void require_bench_flags(const ExecArguments& arguments) {
                                            {"--results", !cases.results.empty()},
                                            {"--resume", cases.resume},
                                            {"--failures", !cases.failures.empty()}}};
-  require_none(of_cases, "is for the cases of a scenario; expected a scenario instead of the bench");
+  require_none(of_cases, "applies only to the cases of a scenario; expected a scenario instead of the bench");
 }
 
 /// Runs the command in each case of a scenario.
@@ -259,7 +259,9 @@ int execute_cases(ModelList models, const ExecArguments& arguments) {
                                             {"--no-pty", serve.no_pty},
                                             {"--coverage", !serve.coverage.empty()},
                                             {"--device-coverage", !serve.device_coverage.empty()}}};
-  require_none(of_bench, "is not for the cases of a scenario; expected a bench, or the scenario alone");
+  require_none(
+      of_bench,
+      "cannot be used with the cases of a scenario; expected a bench, or the scenario without this flag");
   if (const auto code = code_of_unusable(arguments.host, "exec")) return *code;
   RunArguments run = arguments.cases;
   run.scenarios = {serve.bench};

@@ -71,7 +71,8 @@ std::string Courses::add(const std::string& recording) {
   const std::string run = "run " + std::to_string(runs_) + " differs from run 1";
   if (place < first.find('\n')) {
     return run +
-           " from the beginning: the devices' memories differ; expected a bench that keeps none in files";
+           " from the beginning: the devices' memories differ; expected a bench that keeps no memories in "
+           "files";
   }
   return run + " at " + time_in(line) + ": " + shown(line) + "; expected " + shown(line_at(first, place));
 }

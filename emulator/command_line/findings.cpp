@@ -23,9 +23,9 @@ struct FindingRule {
   std::string_view doc;
 };
 constexpr FindingRule kFindingRules[] = {
-    {"bench", "A bench file asks for something impossible."},
-    {"scenario", "A scenario file asks for something impossible."},
-    {"steps", "An included file of steps asks for something impossible."},
+    {"bench", "A bench file contains an error."},
+    {"scenario", "A scenario file contains an error."},
+    {"steps", "An included file of steps contains an error."},
     {"program", "The model does not accept the text of a program."},
     {"capture", "A controller replied differently from the bench."},
     {"file", "The file cannot be read, or has an unknown format."},

@@ -357,8 +357,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"run", "Run scenarios in simulated time", &CommandLine::add_run},
     {"hunt",
      "Search for disturbances that break a scenario, or a command that runs with it (hunt FILE -- COMMAND), "
-     "and "
-     "reduce them to the fewest that do",
+     "and reduce each finding to the fewest disturbances",
      &CommandLine::add_hunt},
     {"coverage", "Add the coverage of several runs", &CommandLine::add_coverage_sum},
     {"replay", "Replay a recording and compare every byte", &CommandLine::add_replay},
@@ -366,7 +365,7 @@ const std::vector<CommandLine::Command> CommandLine::kCommands{
     {"page", "Show running benches in a browser", &CommandLine::add_page},
     {"dap", "Debug controllers' programs from an editor (Debug Adapter Protocol)", &CommandLine::add_dap},
     {"poll", "Read and write registers: a small Modbus master", &CommandLine::add_poll},
-    {"photograph", "Read everything that a real controller reports, into an NV image",
+    {"photograph", "Read everything that a real controller reports, and write an NV image",
      &CommandLine::add_photograph},
     {"probe", "Play the proofs of choices on a real controller, to find out which options it follows",
      &CommandLine::add_probe},

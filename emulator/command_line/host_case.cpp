@@ -142,7 +142,7 @@ void require_steps_for(const play::Scenario& scenario, bool has_command, const s
   const auto step = std::ranges::find_if(scenario.steps, is_command_end);
   if (step == scenario.steps.end()) return;
   throw FileError(step->file + ":" + std::to_string(step->line) + ": " + step->text +
-                  ": no command runs beside this scenario; expected `understudy " + verb + " " +
+                  ": no command runs alongside this scenario; expected `understudy " + verb + " " +
                   scenario.file + " -- COMMAND`");
 }
 

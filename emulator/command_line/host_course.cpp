@@ -213,7 +213,8 @@ void require_variables(const world::Bench& bench) {
       if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
       throw UsageError("exec: the lines " + understudy::quoted(bench.lines[j].name) + " and " +
                        understudy::quoted(bench.lines[i].name) + " would both have the variable " +
-                       variable_of(bench.lines[i].name) + "; expected names that differ more");
+                       variable_of(bench.lines[i].name) +
+                       "; expected names that differ in more than case and punctuation");
     }
   }
 }

@@ -81,7 +81,7 @@ FoundFiles::FoundFiles(ModelList models, const HuntArguments& arguments, FileCla
     : models_(models), arguments_(arguments), claims_(std::move(claims)) {
   std::error_code error;
   if (fs::exists(arguments.found, error) && !fs::is_directory(arguments.found, error)) {
-    throw UsageError("--found: " + arguments.found + ": is not a folder; expected one");
+    throw UsageError("--found: " + arguments.found + ": is not a folder; expected a folder");
   }
   for (fs::path folder = arguments.found; !folder.empty() && !fs::exists(folder, error);
        folder = folder.parent_path())

@@ -122,7 +122,7 @@ std::optional<model_file::AddressReading> require_thing_flags(const ImportArgume
        {"--encoding", &arguments.encoding}}};
   for (const auto& [flag, value] : others) {
     if (!value->empty())
-      throw UsageError(std::string(flag) + ": a Thing Model has none; expected it for lists");
+      throw UsageError(std::string(flag) + ": does not apply to a Thing Model; expected a CSV list");
   }
   if (reading.addresses == model_file::AddressReading::modicon)
     throw UsageError("--addresses: a Thing Model has no Modicon numbers; expected wire or from_one");

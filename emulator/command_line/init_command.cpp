@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kBenchHead = "# yaml-language-server: $schema=./bench.schema.json\n";
 constexpr std::string_view kScenarioHead =
     "# yaml-language-server: $schema=./scenario.schema.json\n# A first move: what the host sends, and what "
-    "must be true after it. Run it: `understudy run first_move.yaml`.\nunderstudy: 1\nname: a first "
+    "must be true afterwards. Run it: `understudy run first_move.yaml`.\nunderstudy: 1\nname: a first "
     "move\nbench: bench.yaml\nsteps:\n";
 
 }  // namespace

@@ -32,7 +32,7 @@ std::map<std::string, box::PortName> ports_of(const OnArguments& arguments) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--on: " + quoted(text) +
-                       " names no line; expected LINE=PORT such as rs485=/dev/ttyUSB0,19200");
+                       " does not name a line; expected LINE=PORT such as rs485=/dev/ttyUSB0,19200");
     try {
       if (!ports.emplace(text.substr(0, equals), box::parse_port_name(text.substr(equals + 1))).second)
         throw UsageError("--on: " + quoted(text.substr(0, equals)) +
@@ -87,8 +87,8 @@ void require_flags_of_boxes(const RunArguments& arguments) {
   if (!is_on_box(arguments)) {
     if (has_stage_flags || arguments.dialogue)
       throw UsageError(
-          "run: --allow-..., --envelope, --rig, --ask, --plan and --dialogue are for real controllers; "
-          "expected --on LINE=PORT as well");
+          "run: --allow-..., --envelope, --rig, --ask, --plan and --dialogue need a real controller; "
+          "expected --on LINE=PORT");
     return;
   }
   if (arguments.dialogue && (arguments.scenarios.size() != 1 || arguments.on.ask))

@@ -32,7 +32,8 @@ inline std::string require_capture(FileClaims& claims, const std::string& path) 
 /// Like require_output(), but also checks that `also` is empty if there is no trace.
 inline std::string require_trace(FileClaims& claims, const std::string& path,
                                  const std::vector<std::string>& also) {
-  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE as well");
+  if (path.empty() && !also.empty())
+    throw UsageError("--trace-also: has no effect without --trace; expected --trace FILE");
   if (!path.empty() && !world::is_trace_name(path)) {
     throw UsageError("--trace: " + path + ": has an unknown format; expected FILE.csv or FILE.vcd");
   }

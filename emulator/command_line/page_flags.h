@@ -14,7 +14,8 @@ inline void add_page_flags(CLI::App& command, PageArguments& page) {
                   "Control socket of a bench; can be given several times [all running daemons]")
       ->check(kNotEmpty)
       ->allow_extra_args(false);
-  command.add_option("--port", page.port, "Port to listen on; 0 takes any free port")->capture_default_str();
+  command.add_option("--port", page.port, "Port to listen on; 0 selects any free port")
+      ->capture_default_str();
   command.add_option("--listen", page.listen, "Address to listen on")
       ->capture_default_str()
       ->check(kNotEmpty);

@@ -115,7 +115,7 @@ void summarize(const box::Photograph& photo, const std::string& image, const std
   for (const auto& [name, why] : photo.left_out)
     std::printf("not in the image, %s: %s\n", one_line(name).c_str(), one_line(why).c_str());
   const std::size_t entries = photo.image.registers.size() + photo.image.reals.size();
-  std::printf("wrote %s: %zu values that differ from the factory's%s\n", image.c_str(), entries,
+  std::printf("wrote %s: %zu values that differ from the factory values%s\n", image.c_str(), entries,
               photo.image.program.empty() ? "" : ", and the program");
   std::printf("wrote %s\n", file.c_str());
 }
@@ -128,7 +128,7 @@ int take_photograph(ModelList models, const PhotographArguments& arguments) {
   const box::PhotoSettings settings = settings_of(model, arguments);
   if (!arguments.output.ends_with(kImageEnding) || arguments.output.size() == kImageEnding.size())
     throw UsageError("--output: " + quoted(arguments.output) +
-                     " is not the name of an NV image; expected one that ends in .nv.json");
+                     " is not the name of an NV image; expected a name that ends in .nv.json");
   const std::string photo_path = photo_next_to(arguments.output);
   FileClaims claims;
   require_writable(claims, arguments.output, ContentKind::nv_image);

@@ -56,7 +56,7 @@ struct Item {
 std::int64_t require_integer(std::string_view text, const std::string& item) {
   if (const auto value = parse_integer(text)) return *value;
   throw UsageError("poll: " + quoted(item) +
-                   " is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
+                   " is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, optionally with =VALUE");
 }
 
 Type require_type(const std::string& name) {
@@ -103,7 +103,7 @@ void require_rtu(const Model& model) {
   const bool is_ascii = is_modbus_ascii(model);
   if (model.rtu && model.registers != nullptr && !is_ascii) return;
   throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
-                   (is_ascii ? ", and poll only Modbus RTU; expected another host"
+                   (is_ascii ? ", but poll supports only Modbus RTU; expected another host"
                              : ", not Modbus; expected a model with registers, or a terminal program"));
 }
 
@@ -168,7 +168,8 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
 
 Item command_item(ModelList models, const std::string& text, const PollArguments& arguments,
                   std::optional<bool> low_word_first) {
-  if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL as well");
+  if (arguments.model.empty())
+    throw UsageError("poll: --command: the names of commands need a model; expected --model MODEL");
   const Model& model = require_model(models, arguments.model);
   const bool is_by_table_low_first = model.registers != nullptr && model.registers->policy().low_word_first;
   try {

@@ -119,7 +119,7 @@ Travelled replay_whole(ModelList models, const ReplayArguments& arguments, std::
 Travelled replay_to(ModelList models, const ReplayArguments& arguments, std::optional<SimTime> at) {
   Travelled travelled = replay_whole(models, arguments, at);
   if (at && *at != travelled.setup.at_first)
-    throw UsageError("--at: " + arguments.at + " is not in the recording; its nearest moment is " +
+    throw UsageError("--at: " + arguments.at + " is not in the recording; the nearest time in it is " +
                      format_duration(travelled.setup.at_first));
   return travelled;
 }

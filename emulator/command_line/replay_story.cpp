@@ -79,9 +79,9 @@ bool wants_story(const ReplayArguments& arguments) {
 
 void require_story_flags(const ReplayArguments& arguments) {
   if (!arguments.at.empty() && !wants_story(arguments))
-    throw UsageError("replay: --at: expected --export or --picture as well");
+    throw UsageError("replay: --at: has no effect alone; expected --export or --picture");
   if (!arguments.panel.empty() && arguments.picture.empty())
-    throw UsageError("replay: --panel: expected --picture as well");
+    throw UsageError("replay: --panel: has no effect alone; expected --picture");
   if (is_svg(arguments.story) || arguments.story.ends_with(".png"))
     throw UsageError("replay: --export: " + arguments.story +
                      ": is the name of a picture; expected FILE.html, or --picture");

@@ -178,8 +178,8 @@ void RunAccount::finish() {
                  one_line(step.place + ": " + step.why).c_str());
   }
   if (left_out_ > 0) {
-    std::fprintf(out_, "%" PRIu64 " skipped, since they ran before; %" PRIu64 " of them failed\n", left_out_,
-                 left_out_failed_);
+    std::fprintf(out_, "%" PRIu64 " skipped, because they ran earlier; %" PRIu64 " of them failed\n",
+                 left_out_, left_out_failed_);
   }
   std::fprintf(out_, "%s\n", play::summary_line(tally_).c_str());
   for (const std::string& line : lint_findings_) std::fprintf(stderr, "lint: %s\n", line.c_str());

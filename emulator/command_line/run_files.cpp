@@ -187,7 +187,7 @@ constexpr std::array<const char*, 2> kParts = {"", world::kOlderPart};
 
 void require_folders(const FileClaims& claims, const RunFolders& folders) {
   if (folders.traces.empty() && !folders.trace_also.empty()) {
-    throw UsageError("--trace-also: expected --trace DIR as well");
+    throw UsageError("--trace-also: has no effect without --trace; expected --trace DIR");
   }
   if (!folders.failures.empty() && !folders.recordings.empty()) {
     throw UsageError("--failures: --record keeps all recordings in its folder; expected one of the two");

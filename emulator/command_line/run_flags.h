@@ -37,7 +37,7 @@ inline void add_case_flags(CLI::App& command, RunArguments& run) {
                   "Write the results to this file as JUnit XML; - writes to standard output")
       ->check(kNotEmpty);
   command.add_flag("--hash", run.hash,
-                   "Print a hash of what each scenario's devices sent and did, to compare runs");
+                   "Print a hash of everything that each scenario's devices sent and did, to compare runs");
   command.add_option("--jobs", run.jobs,
                      "Number of scenarios to run at a time [one for each core; in real time at least 8]");
   command.add_option("--shard", run.shard, "I/N: run the I-th of all scenarios, and every N-th after it")
@@ -46,7 +46,7 @@ inline void add_case_flags(CLI::App& command, RunArguments& run) {
   command
       .add_option(
           "--filter", run.filter,
-          "Run only scenarios whose names match this pattern, such as '*move*', or one case, by its identity")
+          "Run only scenarios whose names match this pattern, such as '*move*', or one case, by its ID")
       ->check(kNotEmpty);
   command
       .add_option("--results", run.results,
@@ -133,11 +133,11 @@ inline void add_exec_flags(CLI::App& command, ExecArguments& exec) {
   command.add_option("--with", exec.with, "Scenario to run while the command runs [none]")->check(kNotEmpty);
   add_save_below(command, exec.save_below);
   command.add_flag("--tty-shim", exec.host.tty_shim,
-                   "Preload a library that lets hosts that insist on parity use a pseudo-terminal");
+                   "Preload a library with which hosts that insist on parity can use a pseudo-terminal");
   command.add_flag("--host-time", exec.host.host_time,
-                   "Run the command in simulated time too; implies --tty-shim");
+                   "Also run the command in simulated time; implies --tty-shim");
   command.add_option("--repeat", exec.repeat,
-                     "Run it this many times, and compare the recordings (with --host-time)");
+                     "Run the command this many times, and compare the recordings (with --host-time)");
   command.add_flag_callback(
       "--twice", [&exec] { exec.repeat = 2; }, "The same as --repeat 2");
   command

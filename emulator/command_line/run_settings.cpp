@@ -72,7 +72,7 @@ void require_flags_that_agree(const RunArguments& arguments) {
     throw UsageError("--hash: no two runs in real time are the same; expected it without --real-time");
   }
   if (arguments.resume && arguments.results.empty()) {
-    throw UsageError("--resume: expected --results FILE as well, which lists the cases that ran");
+    throw UsageError("--resume: needs the list of the cases that have run; expected --results FILE");
   }
   const bool is_covered = coverage_of(arguments).is_wanted() || !arguments.device_coverage.empty();
   if (arguments.resume && is_covered) {

@@ -76,7 +76,7 @@ world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
   device.settings.modules = arguments.modules.value_or(0);
   if (arguments.modules == 0) throw UsageError("--modules: 0 is too few; expected 1 or more");
   if (arguments.baud == 0)
-    throw UsageError("--baud: 0 is not a speed; expected one of the model's, such as 19200 or 115200");
+    throw UsageError("--baud: 0 is not a speed; expected a speed of the model, such as 19200 or 115200");
   device.settings.bauds.assign(device.model->line.ports.size(), arguments.baud.value_or(0));
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);
@@ -128,9 +128,10 @@ void listen_as_wished(world::Bench& bench, const std::string& wish) {
     line.tcp.push_back(address);
     return;
   }
-  throw UsageError("--listen: " +
-                   (names_line ? understudy::quoted(name) + " is not a line" : std::string("names no line")) +
-                   "; expected LINE=... with one of " + lines);
+  throw UsageError(
+      "--listen: " +
+      (names_line ? understudy::quoted(name) + " is not a line" : std::string("does not name a line")) +
+      "; expected LINE=... with one of " + lines);
 }
 
 void require_no_pty(world::Bench& bench, const ServeArguments& arguments) {
@@ -143,7 +144,7 @@ void require_no_pty(world::Bench& bench, const ServeArguments& arguments) {
     line.has_pty = false;
     line.link.clear();
   }
-  if (!listens) throw UsageError("--no-pty: no line listens on TCP; expected --listen as well");
+  if (!listens) throw UsageError("--no-pty: no line listens on TCP; expected --listen");
 }
 
 world::Bench make_bench(ModelList models, const ServeArguments& arguments, const std::string& command) {
@@ -153,9 +154,9 @@ world::Bench make_bench(ModelList models, const ServeArguments& arguments, const
   const bool flags_of_one = arguments.station || arguments.modules || arguments.baud ||
                             !arguments.firmware.empty() || !arguments.link.empty();
   if (!arguments.bench.empty() && flags_of_one) {
-    throw UsageError(
-        command +
-        ": --station, --modules, --firmware, --baud and --link need --model; a bench file has its own");
+    throw UsageError(command +
+                     ": --station, --modules, --firmware, --baud and --link need --model; a bench file "
+                     "defines these settings itself");
   }
   world::Bench bench = arguments.bench.empty() ? bench_of_flags(models, arguments)
                                                : world::load_bench(models, arguments.bench, arguments.links);
@@ -218,7 +219,8 @@ std::string require_recording(const std::string& path, FileClaims& claims) {
   require_output(claims, "--record", older);
   const std::string why = older.empty() ? "" : world::why_no_older_part(older);
   if (!why.empty()) {
-    throw GrowingFileError("--record: " + older + ", where its older part goes, cannot be written: " + why);
+    throw GrowingFileError("--record: " + older +
+                           ", to which the older part is moved, cannot be written: " + why);
   }
   return require_output(claims, "--record", path);
 }

@@ -191,7 +191,7 @@ TEST_F(Campaign, OneThatIsKilledContinues) {
     EXPECT_GT(killed, 0) << "it always ended before it was killed";
     const Finished last = understudy(command);
     EXPECT_EQ(last.exit_code, 1) << last.errors;
-    const std::regex left_out("([0-9]+) skipped, since they ran before; ([0-9]+) of them failed");
+    const std::regex left_out("([0-9]+) skipped, because they ran earlier; ([0-9]+) of them failed");
     const std::regex played("([0-9]+) passed, ([0-9]+) failed; ");
     std::smatch before;
     std::smatch now;
@@ -207,7 +207,7 @@ TEST_F(Campaign, OneThatIsKilledContinues) {
                        "SELECT count(*), count(DISTINCT case_id), sum(verdict = 'failed') FROM results"),
                 "12000 12000 1200\n");
     }
-    EXPECT_NE(understudy(command).output.find("12000 skipped, since they ran before; 1200 of them failed"),
+    EXPECT_NE(understudy(command).output.find("12000 skipped, because they ran earlier; 1200 of them failed"),
               std::string::npos);
   }
 }
@@ -326,7 +326,7 @@ TEST_F(Campaign, FlagsThatMakeNoSenseAreRefused) {
   };
   folder_.write("other.jsonl", "not a row\n");
   for (const Row& row : std::vector<Row>{
-           {{"--resume"}, "--resume: expected --results FILE as well, which lists the cases that ran", 2},
+           {{"--resume"}, "--resume: needs the list of the cases that have run; expected --results FILE", 2},
            {{"--results", "rows.csv"},
             "--results: rows.csv: has an unknown format; expected FILE.jsonl or FILE.sqlite",
             2},

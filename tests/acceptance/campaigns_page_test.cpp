@@ -39,8 +39,8 @@ TEST_F(CampaignsPage, ItsCommandsComeToWhatItSays) {
       {"6 passed, 0 failed; ", "1 passed, 0 failed; ", "hash a move past a bad line (speed="},
       {"speed  pulses  failed", "400    7000    3"},
       {"27 passed, 3 failed; ", ": the same: "},
-      {"30 skipped, since they ran before; 3 of them failed", "0 passed, 0 failed; ",
-       "27 skipped, since they ran before; 0 of them failed", "0 passed, 3 failed; "}};
+      {"30 skipped, because they ran earlier; 3 of them failed", "0 passed, 0 failed; ",
+       "27 skipped, because they ran earlier; 0 of them failed", "0 passed, 3 failed; "}};
   ASSERT_EQ(scripts.size(), expected.size());
   for (std::size_t i = 0; i < scripts.size(); ++i) {
     const Finished finished = with({"bash", "-ec"}, scripts[i]);

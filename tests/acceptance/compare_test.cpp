@@ -179,7 +179,7 @@ TEST_F(Compare, ReportsHowFarASearchIsAndEndsItAtCtrlC) {
       EXPECT_TRUE(calibrate.shows(" hypotheses, ")) << calibrate.screen();
     calibrate.type("\x03");
     EXPECT_TRUE(calibrate.shows("interrupted after ")) << calibrate.screen();
-    EXPECT_TRUE(calibrate.shows("nothing is known about the others")) << calibrate.screen();
+    EXPECT_TRUE(calibrate.shows("the other choices were not")) << calibrate.screen();
     EXPECT_TRUE(calibrate.shows("wrote " + evidence)) << calibrate.screen();
     EXPECT_EQ(calibrate.wait(kPatience), 1);
   }
@@ -333,7 +333,7 @@ TEST_F(Compare, RefusesWhatItCannotReadInOneLine) {
   } cases[] = {
       {{"compare", text, "--bench", plain_}, "text.txt:2: 'zz' is not a byte; expected a line"},
       {{"compare", other_station, "--bench", plain_},
-       "all requests are for station 7, which line 'line' of the bench does not have; expected a capture of "
+       "all requests are to station 7, which is not on line 'line' of the bench; expected a capture of "
        "station 1"},
       {{"compare", text, "--bench", plain_, "--every", "soon"}, "is not an interval"},
       {{"compare", text, "--bench", plain_, "--format", "xml"}, "is not a format"},

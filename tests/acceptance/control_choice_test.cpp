@@ -69,7 +69,7 @@ TEST_F(SeveralDaemons, OfTwoNoneIsGuessedAndEachIsNamed) {
     EXPECT_EQ(refused.output, "") << words[0];
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
     for (const std::string& part :
-         {std::string("ctl: 2 are running; expected --bench FILE, --port LINK or --control SOCKET"),
+         {std::string("ctl: 2 daemons are running; expected --bench FILE, --port LINK or --control SOCKET"),
           socket(*feeder) + " (bench " + bench("feeder") + ", port " + port("feeder") + ")",
           socket(*turner) + " (bench " + bench("turner") + ", port " + port("turner") + ")"}) {
       EXPECT_NE(refused.errors.find(part), std::string::npos) << part << " in " << refused.errors;
@@ -115,7 +115,7 @@ TEST_F(SeveralDaemons, OfTwoThatServeOneBenchAPortTells) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors.find(
                 "understudy: ctl: 2 daemons match --bench " + bench("feeder") +
-                "; expected --port LINK as well, or --control SOCKET, of one of: " + folder_.path()),
+                "; expected an additional --port LINK, or --control SOCKET, for one of: " + folder_.path()),
             0U)
       << refused.errors;
   expect_chosen({"--bench", bench("feeder"), "--port", port("feeder")}, "feeder");

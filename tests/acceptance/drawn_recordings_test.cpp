@@ -199,7 +199,9 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
        2,
        "--capture: " + (folder / "c.pcap") +
            ": this old format is not supported; expected .pcapng, or another ending for a text log"},
-      {{"replay", recording, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace FILE as well"},
+      {{"replay", recording, "--trace-also", "Cord_A"},
+       2,
+       "--trace-also: has no effect without --trace; expected --trace FILE"},
       {{"replay", recording, "--trace", csv, "--trace-also", "Cord_AA"},
        2,
        "--trace-also: feeder: no register is called 'Cord_AA'; the nearest is 'Cord_A'"},
@@ -210,7 +212,9 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
        2,
        "--capture: " + (folder / "c.pcapng") +
            ": is a file name; expected a folder, for one file per scenario"},
-      {{"run", scenario, "--trace-also", "Cord_A"}, 2, "--trace-also: expected --trace DIR as well"},
+      {{"run", scenario, "--trace-also", "Cord_A"},
+       2,
+       "--trace-also: has no effect without --trace; expected --trace DIR"},
       {{"run", scenario, "--trace", folder / "t", "--trace-also", "Cord_AA"},
        2,
        "--trace-also: " + scenario + ": feeder: no register is called 'Cord_AA'; the nearest is 'Cord_A'"},

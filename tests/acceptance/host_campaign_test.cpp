@@ -127,7 +127,7 @@ TEST_F(HostCampaign, SkipsCasesThatRanBefore) {
   const Words flags{"--host-time", "--results", rows, "--resume"};
   EXPECT_EQ(exec(kLostReplies, host("careful"), flags).exit_code, 0);
   const Finished again = exec(kLostReplies, host("careful"), flags);
-  EXPECT_TRUE(has(again.output, "10 skipped, since they ran before")) << again.output;
+  EXPECT_TRUE(has(again.output, "10 skipped, because they ran earlier")) << again.output;
   // Another command makes other results.
   const Finished other = exec(kLostReplies, host("naive"), flags);
   EXPECT_TRUE(has(other.output, "8 passed, 2 failed")) << other.output;
@@ -139,7 +139,7 @@ TEST_F(HostCampaign, PlaysCasesAgainIfTheHostHasChanged) {
   const Words flags{"--host-time", "--results", folder() / "changed.jsonl", "--resume"};
   const Words command{"sh", folder().write("host.sh", "exit 0\n")};
   EXPECT_EQ(exec(rest, command, flags).exit_code, 0);
-  EXPECT_TRUE(has(exec(rest, command, flags).output, "2 skipped, since they ran before"));
+  EXPECT_TRUE(has(exec(rest, command, flags).output, "2 skipped, because they ran earlier"));
   folder().write("host.sh", "exit 1\n");
   const Finished changed = exec(rest, command, flags);
   EXPECT_EQ(changed.exit_code, 1);
@@ -294,8 +294,12 @@ TEST_F(HostCampaign, RefusesWhatDoesNotFit) {
        "campaign.yaml:5: write feeder.Aaxis_SVON=1: uses a line, which belongs to the host program"},
       {nothing, {"echo", "${speed}"}, {}, 2, "the command's '${speed}': "},
       {nothing, {"no-such-program"}, {}, 127, "exec: no-such-program: cannot be started; expected a program"},
-      {nothing, {"true"}, {"--with", "x.yaml"}, 2, "exec: --with: is not for the cases of a scenario"},
-      {nothing, {"true"}, {"--nv", "."}, 2, "exec: --nv: is not for the cases of a scenario"},
+      {nothing,
+       {"true"},
+       {"--with", "x.yaml"},
+       2,
+       "exec: --with: cannot be used with the cases of a scenario"},
+      {nothing, {"true"}, {"--nv", "."}, 2, "exec: --nv: cannot be used with the cases of a scenario"},
       {nothing, {"true"}, {"--timeout", "soon"}, 2, "--timeout: 'soon' is not a duration"},
       {nothing, {"true"}, {"--hash"}, 2, "--hash: no two runs in real time are the same"},
   };
@@ -309,13 +313,14 @@ TEST_F(HostCampaign, RefusesWhatDoesNotFit) {
       "understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n");
   const Finished of_bench = understudy({"exec", bench, "--jobs", "2", "--", "true"});
   EXPECT_EQ(of_bench.exit_code, 2);
-  EXPECT_TRUE(has(of_bench.errors, "exec: --jobs: is for the cases of a scenario")) << of_bench.errors;
+  EXPECT_TRUE(has(of_bench.errors, "exec: --jobs: applies only to the cases of a scenario"))
+      << of_bench.errors;
   exec("steps:\n  - host: stop\n", {"true"});
   const Finished run = understudy({"run", folder() / "campaign.yaml"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(
       has(run.errors,
-          "campaign.yaml:5: host stop: no command runs beside this scenario; expected `understudy exec "))
+          "campaign.yaml:5: host stop: no command runs alongside this scenario; expected `understudy exec "))
       << run.errors;
 }
 

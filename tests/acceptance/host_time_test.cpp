@@ -317,8 +317,9 @@ TEST_F(HostTime, RefusesWhatCannotLoadTheLibrary) {
 TEST_F(HostTime, RefusesFlagsThatDisagree) {
   const Finished speed = exec({"true"}, {"--speed", "real"});
   EXPECT_EQ(speed.exit_code, 2);
-  EXPECT_EQ(speed.errors,
-            "understudy: --host-time: the host's waits decide how fast time passes; expected no --speed\n");
+  EXPECT_EQ(
+      speed.errors,
+      "understudy: --host-time: the host's waits determine how fast time passes; expected no --speed\n");
   const Finished name = exec({"true"}, {"--listen", "rtu://somewhere.example:5020"});
   EXPECT_EQ(name.exit_code, 3);
   EXPECT_NE(name.errors.find("rtu://somewhere.example:5020: a name's address is not known in simulated time"),

@@ -167,7 +167,7 @@ TEST(ImportedAscii, PlaysItsScenariosInBothTimes) {
   }
   const Finished polled = understudy({"poll", "nowhere", "--model", folder.path() + "/m.yaml", "A"});
   EXPECT_EQ(polled.exit_code, 2);
-  EXPECT_NE(polled.errors.find("m speaks Modbus ASCII, and poll only Modbus RTU"), std::string::npos)
+  EXPECT_NE(polled.errors.find("m speaks Modbus ASCII, but poll supports only Modbus RTU"), std::string::npos)
       << polled.errors;
 }
 

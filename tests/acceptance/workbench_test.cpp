@@ -254,10 +254,10 @@ TEST_F(ServedWorkbench, TakesCommandsByNameFromPoll) {
   const Finished full = poll({"--model", "workbench", "--command", "STOP"});
   EXPECT_EQ(full.exit_code, 1) << "the FIFO holds three";
   EXPECT_NE(full.errors.find("poll: STOP: "), std::string::npos) << full.errors;
-  EXPECT_EQ(
-      run({WORKBENCH_BINARY, "describe", "workbench", "commands"}).output,
-      "workbench has no commands of text; its window accepts those that `instructions` lists, such as MOVE "
-      "X 1000\n");
+  EXPECT_EQ(run({WORKBENCH_BINARY, "describe", "workbench", "commands"}).output,
+            "workbench has no commands in text form; its window accepts the commands that `instructions` "
+            "lists, such as MOVE "
+            "X 1000\n");
 }
 
 TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {

@@ -576,7 +576,7 @@ def case_listen():
     first = connect()
     first.ask("initialize", adapterID="understudy")
     second = connect()
-    assert "another client is being served" in second.refused("initialize", adapterID="understudy")
+    assert "another client is connected" in second.refused("initialize", adapterID="understudy")
     assert second.receive() is None
     first.ask("launch", model="slim", stopOnEntry=True)
     first.ask("disconnect")
