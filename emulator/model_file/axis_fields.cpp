@@ -49,14 +49,14 @@ motion::UnitScale read_scale(const YamlFields& field) {
   };
   if (!is_one(multiplier) || !is_one(divider))
     field.fail(understudy::quoted(text) +
-               " is not valid; expected a whole number above 0, or two as in 25/4");
+               " is not valid; expected a whole number above 0, or a fraction such as 25/4");
   return motion::UnitScale::of(*multiplier, *divider);
 }
 
 double read_factor(const YamlFields& field) {
   const auto factor = parse_real(field.text());
   if (!factor || !(*factor > 0) || *factor > 1e9)
-    field.fail(understudy::quoted(field.text()) + " is not valid; expected a number above 0, up to 1e9");
+    field.fail(understudy::quoted(field.text()) + " is not valid; expected a number above 0 and up to 1e9");
   return *factor;
 }
 
@@ -73,7 +73,7 @@ int read_input(const YamlFields& field, const Description& description) {
     names.push_back(description.terminals[i].name);
   }
   field.fail(understudy::quoted(field.text()) + " is not an input" +
-             suggestion(field.text(), names, "`inputs` of the model has none"));
+             suggestion(field.text(), names, "the model has no `inputs`"));
 }
 
 /// A key, and another key that it requires.
@@ -107,7 +107,7 @@ void check_needs(const YamlFields& fields, world::Diagnostics& diagnostics) {
     const auto field = fields.find(need.key);
     if (!field || fields.has(need.needed) || (!need.instead.empty() && fields.has(need.instead))) continue;
     diagnostics.attempt(
-        [&] { field->fail("has no effect alone; expected `" + std::string(need.needed) + "` as well"); });
+        [&] { field->fail("has no effect without `" + std::string(need.needed) + "`; expected both"); });
   }
   for (const auto& [key, other] : kEither) {
     if (!fields.has(key) || !fields.has(other)) continue;

@@ -93,7 +93,7 @@ Spot Binder::shown(const YamlFields& field, const std::string& name, bool is_fla
   auto& taken = taken_[where.number];
   for (const auto& [mask, other] : taken) {
     if ((mask & mask_of(where)) == 0) continue;
-    field.fail(understudy::quoted(name) + " shows " + other + " already; expected another place for " + what);
+    field.fail(understudy::quoted(name) + " already shows " + other + "; expected another place for " + what);
   }
   taken.emplace_back(mask_of(where), what);
   return where;
@@ -103,7 +103,7 @@ Condition Binder::condition(const YamlFields& field) const {
   const std::string text = field.text();
   const std::size_t equals = text.find(kEquals);
   if (equals == std::string::npos && !map_.find(trimmed(text), UINT16_MAX))
-    require_known_sign(field, text, {"=="}, "a name, or one with a number", "COMMAND == 2");
+    require_known_sign(field, text, {"=="}, "a name, or a name and a number", "COMMAND == 2");
   Condition made{.spot = spot(field, trimmed(text.substr(0, equals)))};
   if (made.spot.is_whole() && listed(made.spot).type == Type::f32)
     field.fail(understudy::quoted(text) + " is a real number; expected a bit, or a whole number");
@@ -111,7 +111,7 @@ Condition Binder::condition(const YamlFields& field) const {
   const std::string number = trimmed(text.substr(equals + kEquals.size()));
   made.value = parse_integer(number);
   if (!made.value)
-    field.fail(understudy::quoted(number) + " is not a number; expected one, as in COMMAND == 2");
+    field.fail(understudy::quoted(number) + " is not a number; expected a number, as in COMMAND == 2");
   const ListedRegister& row = listed(made.spot);
   TypeLimits limits = limits_of(row.type);
   // Shown values may be beyond the list's range, and so may values that are stored unchecked.
@@ -187,8 +187,9 @@ Comparison Binder::comparison(const YamlFields& field) const {
   }
   require_known_sign(field, text, {"<=", ">=", "==", "!=", "<", ">"}, "<=, >=, ==, !=, < or >",
                      "TEMPERATURE > LIMIT");
-  field.fail(understudy::quoted(text) +
-             " is not a relation; expected one such as TEMPERATURE > LIMIT, with spaces around the operator");
+  field.fail(
+      understudy::quoted(text) +
+      " is not a comparison; expected one such as TEMPERATURE > LIMIT, with spaces around the operator");
 }
 
 }  // namespace understudy::emulator::model_file

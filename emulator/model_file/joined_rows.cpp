@@ -75,19 +75,18 @@ std::string difference(const DescribedTwice& both) {
   const ListedRegister& again = both.again;
   const auto both_have = [&](Column column) { return both.first_row.has(column) && both.row.has(column); };
   if (whole.type != again.type) return other("type", type_text(whole), type_text(again));
-  if (!(whole.order == again.order)) return "another order of its words or bytes";
+  if (!(whole.order == again.order)) return "a different order of words or bytes";
   if (!whole.unit.empty() && !again.unit.empty() && whole.unit != again.unit)
     return other("unit", whole.unit, again.unit);
   if (whole.ranged && again.ranged && (whole.min != again.min || whole.max != again.max))
     return other("range", range_of(whole), range_of(again));
   if (both_have(Column::factory) && whole.factory != again.factory)
     return other("default", value_text(whole.factory, whole.type), value_text(again.factory, again.type));
-  if (both_have(Column::persistent) && whole.persistent != again.persistent)
-    return "another answer to whether it is persistent";
+  if (both_have(Column::persistent) && whole.persistent != again.persistent) return "a different persistence";
   if (both_have(Column::since) && whole.since != again.since)
     return other("firmware", version_text(whole.since), version_text(again.since));
   if (both.has_other_name() && !whole.alias.empty() && whole.alias != again.name)
-    return "two names already (" + whole.name + " and " + whole.alias + ")";
+    return "two other names (" + whole.name + " and " + whole.alias + ")";
   return "";
 }
 
@@ -115,13 +114,13 @@ bool are_bytes(const DescribedTwice& both) {
 }
 
 std::string join_bytes(const DescribedTwice& both) {
-  if (!both.whole.bits.empty()) return "bits with names already";
+  if (!both.whole.bits.empty()) return "named bits";
   const auto first = says_high(both.first_row.text(Column::name));
   const auto second = says_high(both.row.text(Column::name));
   if (!first && !second)
-    return "8 bits as well, and the names do not say which byte is high (10.b8 and 10.b0 do)";
+    return "8 bits too, and the names do not show which byte is high (10.b8 and 10.b0 do)";
   const bool is_high = second.value_or(!first.value_or(false));
-  if (first.value_or(!is_high) == is_high) return "the same byte, by the two names";
+  if (first.value_or(!is_high) == is_high) return "the same byte, according to the two names";
   const auto byte_of = [](const std::string& name, bool is_the_high_one) {
     return BitName{.name = as_word(name), .bit = is_the_high_one ? kByte : 0, .width = kByte};
   };
@@ -138,7 +137,7 @@ std::string join_bytes(const DescribedTwice& both) {
       .factory = shifted(both.whole.factory, !is_high) | shifted(both.again.factory, is_high),
       .bits = {byte_of(both.whole.name, !is_high), byte_of(both.again.name, is_high)},
       .since = std::min(both.whole.since, both.again.since)};
-  if (joined.bits.front().name == joined.bits.back().name) return "the same name, as far as letters go";
+  if (joined.bits.front().name == joined.bits.back().name) return "a name with the same letters and digits";
   both.whole = std::move(joined);
   return "";
 }
@@ -157,7 +156,7 @@ std::string join_rows(const DescribedTwice& both) {
   try {
     whole.bits = joined_bits(whole, again);
   } catch (const std::invalid_argument&) {
-    return "other names of its bits";
+    return "different names for the bits";
   }
   whole.access = joined_access(whole.access, again.access);
   if (whole.unit.empty()) whole.unit = again.unit;

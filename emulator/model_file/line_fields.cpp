@@ -101,7 +101,7 @@ void read_framing(const YamlFields& field, Line& line) {
 void read_data_bits(const YamlFields& field, Line& line) {
   line.data_bits = static_cast<int>(field.integer(kDataBitsSchema));
   if (line.data_bits != 8 && !line.is_ascii)
-    field.fail("a frame of Modbus RTU has bytes of 8 bits; expected 8, or `framing: ascii`");
+    field.fail("Modbus RTU frames have bytes of 8 bits; expected 8, or `framing: ascii`");
 }
 
 }  // namespace
@@ -144,11 +144,12 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("stop_bits",
        [&](const YamlFields& field) { line.stop_bits = static_cast<int>(field.integer(kStopBitsSchema)); });
   read("silence", [&](const YamlFields& field) {
-    if (line.is_ascii) field.fail("ends frames of Modbus RTU; expected it without `framing: ascii`");
+    if (line.is_ascii) field.fail("ends Modbus RTU frames; expected no `silence` with `framing: ascii`");
     line.silence = field.duration();
     constexpr pty::SimTime kLongest = std::chrono::seconds(1);
     if (*line.silence <= pty::SimTime{0} || *line.silence > kLongest)
-      field.fail(understudy::quoted(field.text()) + " is not valid; expected more than 0, up to 1s");
+      field.fail(understudy::quoted(field.text()) +
+                 " is not valid; expected a duration above 0 and up to 1s");
   });
   read("stations", [&](const YamlFields& field) {
     const auto ends = field.elements();
@@ -161,7 +162,7 @@ void read_line(const YamlFields& fields, Line& line, Diagnostics& diagnostics) {
   read("functions", [&](const YamlFields& field) {
     std::vector<std::uint8_t> functions;
     for (const YamlFields& one : field.elements()) functions.push_back(read_function(one));
-    if (functions.empty()) field.fail("is empty; expected at least one");
+    if (functions.empty()) field.fail("is empty; expected at least one function");
     line.functions = functions;
   });
   read("most", [&](const YamlFields& field) { read_limits(field, line); });
@@ -211,11 +212,12 @@ std::string read_station_register(const YamlFields& field, const Binder& binder,
   const bool suits = spot.is_whole() && listed.access != Access::write && listed.table == Table::holding &&
                      !is_32_bit(listed.type);
   if (!suits)
-    field.fail(understudy::quoted(field.text()) + " cannot hold it; expected a holding register of 16 bits");
+    field.fail(understudy::quoted(field.text()) +
+               " cannot hold the station number; expected a 16-bit holding register");
   const Line& line = description.line;
   if (listed.factory < line.lowest_station || listed.factory > line.highest_station) {
     field.fail(understudy::quoted(listed.name) + " has the default " + std::to_string(listed.factory) +
-               "; expected one from " + std::to_string(line.lowest_station) + " to " +
+               "; expected a default from " + std::to_string(line.lowest_station) + " to " +
                std::to_string(line.highest_station) + " (`stations`)");
   }
   return field.text();

@@ -196,7 +196,8 @@ class Planner {
         std::vector<std::string> headings_there;
         for (const CsvCell& cell : row().cells) headings_there.push_back(cell.text);
         const auto near = near_word(name, headings_there);
-        throw FileError(place_of(0), "columns: there is no " + name + (near ? ", but " + quoted(*near) : "") +
+        throw FileError(place_of(0), "columns: there is no column " + name +
+                                         (near ? ", but " + quoted(*near) : "") +
                                          "; expected a first line such as "
                                          "address,name,access,width,unit,min,max,default, or --columns " +
                                          name + "=HEADING");

@@ -136,7 +136,7 @@ void read_firmwares(const YamlFields& field, std::vector<Firmware>& firmwares) {
       one.fail(understudy::quoted(one.text()) + " is not a version; expected one such as 1.52");
     if (!all.empty() && version <= all.back())
       one.fail(understudy::quoted(one.text()) +
-               " is not above the version before it; expected the oldest first");
+               " is not above the previous version; expected the oldest version first");
     all.push_back(version);
   }
   if (all.empty()) field.fail("is empty; expected at least one version");

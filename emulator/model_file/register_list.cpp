@@ -49,7 +49,8 @@ void require_text(const std::string& text, const ListPlace& place) {
 
 BitName bits_called(const std::string& name, const std::string& bits, Type type) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
-  if (type == Type::bit || type == Type::f32) refuse("there are no bits to name; expected none");
+  if (type == Type::bit || type == Type::f32)
+    refuse("the register has no bits to name; expected no names of bits");
   const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
   if (is_number || name.find_first_of(".{}\"'=<>!, ") != std::string::npos || one_line(name) != name)
     refuse(quoted(name) + " cannot be used as a bit's name; expected a word");
@@ -59,7 +60,7 @@ BitName bits_called(const std::string& name, const std::string& bits, Type type)
   const int width = width_of(type);
   if (!first || !last || *first < 0 || *last < *first || *last >= width)
     refuse(quoted(bits) + " is not a bit; expected 0 to " + std::to_string(width - 1) +
-           ", or two of them as in 4-7");
+           ", or a range such as 4-7");
   return {.name = name, .bit = static_cast<int>(*first), .width = static_cast<int>(*last - *first) + 1};
 }
 
@@ -168,10 +169,10 @@ class ListReader {
       row.remark("addresses", Column::address,
                  "read as Modicon numbers: " + quoted(row.text(Column::address)) + " is " +
                      std::to_string(as_modicon->address) +
-                     " on the wire (--addresses wire leaves them unchanged)");
+                     " on the wire (--addresses wire leaves the addresses unchanged)");
     } else if (!guessed) {
       row.remark("addresses", Column::address,
-                 "read as addresses on the wire, although all may be Modicon numbers (`list: { addresses: "
+                 "read as addresses on the wire, although all of them may be Modicon numbers (`list: { addresses: "
                  "modicon }`)");
     } else if (evidence_.begins_a_block && not_modicon_ != nullptr && reading_.guesses_addresses) {
       not_modicon_->remark("addresses", Column::address,
@@ -262,14 +263,14 @@ RegisterList read_register_list(const std::string& text, const ListPlace& place,
       throw FileError({place.file, 1 + place.lines_before, 1}, "registers: " + what);
     };
     const std::size_t before = diagnostics.count();
-    if (rows.size() < 2) fail("the list is empty; expected a line of columns, and a line for each register");
+    if (rows.size() < 2) fail("the list is empty; expected a line of headings, and a line for each register");
     if (rows.size() > kMaxRegisters)
-      fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
+      fail("there are too many registers; expected at most " + std::to_string(kMaxRegisters));
     ListReader(rows, place, reading, diagnostics, list).read();
     if (list.registers.empty() && diagnostics.count() == before)
-      fail("the list is empty; expected a line for each register below the columns");
+      fail("the list is empty; expected a line for each register below the headings");
     if (list.registers.size() > kMaxRegisters)
-      fail("there are too many; expected " + std::to_string(kMaxRegisters) + " at most");
+      fail("there are too many registers; expected at most " + std::to_string(kMaxRegisters));
   });
   return list;
 }

@@ -41,7 +41,7 @@ Table table_of(const ListRow& row, std::optional<Table> by_address) {
   const auto in_cells = table_in_cells(row);
   if (in_cells && by_address && *in_cells != *by_address) {
     row.fail(Column::address, quoted(row.text(Column::address)) + " is a number of the table " +
-                                  std::string(to_string(*by_address)) + "; expected one of the table " +
+                                  std::string(to_string(*by_address)) + "; expected a number of the table " +
                                   std::string(to_string(*in_cells)));
   }
   if (in_cells) return *in_cells;
@@ -49,7 +49,7 @@ Table table_of(const ListRow& row, std::optional<Table> by_address) {
 }
 
 WireAddress address_of(const ListRow& row, const std::optional<PrintedAddress>& printed) {
-  if (!row.has(Column::address)) row.fail(Column::address, "is missing; expected one in every row");
+  if (!row.has(Column::address)) row.fail(Column::address, "is missing; expected an address in every row");
   const AddressReading reading = row.context().addresses;
   if (printed) {
     if (const auto address = wire_address(*printed, reading)) return *address;
@@ -70,7 +70,7 @@ bool is_taken_word(const std::string& name) {
 /// other letters. A sign at the beginning would make a flag or a comment of it.
 void read_name(const ListRow& row, ListedRegister& listed) {
   const std::string& name = row.text(Column::name);
-  if (name.empty()) row.fail(Column::name, "is missing; expected one in every row");
+  if (name.empty()) row.fail(Column::name, "is missing; expected a name in every row");
   const auto first = static_cast<unsigned char>(name[0]);
   const bool begins_well = std::isalpha(first) != 0 || first == '_' || first >= 0x80;
   const bool is_plain = name.find_first_of(".{}\"") == std::string::npos && one_line(name) == name;

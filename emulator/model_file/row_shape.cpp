@@ -37,7 +37,7 @@ Type plain_type(const ListRow& row, Table table) {
   const std::string& width = row.text(Column::width);
   if (is_table_of_bits(table)) {
     if (!width.empty() && width != "1")
-      row.fail(Column::width, quoted(width) + " is not valid there; expected 1");
+      row.fail(Column::width, quoted(width) + " is not valid in this table; expected 1");
     return Type::bit;
   }
   if (!width.empty() && width != "16" && width != "32")
@@ -125,9 +125,9 @@ RowShape shape_of(const ListRow& row, Table table, int printed_words) {
   }
   if (shape.words == 0) {  // text, and raw words
     if (stated_words == 0)
-      row.remark(
-          "no length", Column::type,
-          quoted(row.text(Column::type)) + " has no length; one word is assumed (a column `words` gives it)");
+      row.remark("no length", Column::type,
+                 quoted(row.text(Column::type)) +
+                     " has no length; one word is assumed (a column `words` sets the length)");
     shape.words = std::max(stated_words, 1);
     return shape;
   }

@@ -116,7 +116,8 @@ class RowNumbers {
     }
     const auto counts = counts_of(*number, *step);
     if (!counts)
-      row_.fail(column, quoted(word) + " is not a multiple of " + quoted(step->text) + "; expected one");
+      row_.fail(column,
+                quoted(word) + " is not a multiple of " + quoted(step->text) + "; expected a multiple");
     return counts;
   }
 

@@ -75,11 +75,11 @@ void TakenPlaces::join_one(const ListRow& row, const ListedRegister& again, List
   }
   for (const std::string& name : names_of(whole)) names_[index_of(whole.table)].emplace(name, row.line());
   if (is_reserved(row.text(Column::name))) return;
-  const std::string is_known =
-      is_word               ? " is half of " + quoted(before) + line + "; it has no name of its own"
-      : is_byte             ? " is a byte of " + quoted(whole.name) + ", as " + quoted(before) + line
-      : whole.alias.empty() ? " is also" + line + "; the rows are one register"
-                            : " is another name of " + quoted(before) + line;
+  const std::string is_known = is_word ? " is half of " + quoted(before) + line + "; it gets no separate name"
+                               : is_byte
+                                   ? " is a byte of " + quoted(whole.name) + ", as " + quoted(before) + line
+                               : whole.alias.empty() ? " is also" + line + "; the rows are one register"
+                                                     : " is another name of " + quoted(before) + line;
   row.remark("joined", Column::name, quoted(row.text(Column::name)) + is_known);
 }
 
@@ -109,7 +109,7 @@ void TakenPlaces::place(const ListRow& row, std::vector<ListedRegister>& registe
       if (taken.number == 0) continue;
       row.fail(Column::address, quoted(row.text(Column::address)) + " is taken by " + taken.name +
                                     " in line " + std::to_string(taken.row->line()) +
-                                    "; expected a free one in the table " +
+                                    "; expected a free address in the table " +
                                     std::string(to_string(listed.table)) +
                                     (is_32_bit(listed.type) ? " (32 bits take two addresses)" : ""));
     }

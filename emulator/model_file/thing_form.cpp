@@ -223,7 +223,8 @@ std::optional<ThingForm> thing_form(const YamlFields& property, const std::strin
     const bool is_same = joined->table == form->table && joined->address == form->address &&
                          joined->counts_from_zero == form->counts_from_zero;
     if (!is_same)
-      field.fail("names another register than the form before it; expected one for each property");
+      field.fail(
+          "names a different register than the previous form; expected one register for each property");
     joined->is_read |= form->is_read;
     joined->is_written |= form->is_written;
     if (!joined->quantity) joined->quantity = form->quantity;

@@ -176,8 +176,8 @@ class ThingReader {
     if (!form) return remark("no form", property, "has no Modbus form; ignored");
     if (form->unit) {
       if (made_.unit && *made_.unit != *form->unit)
-        property.fail("is of unit " + std::to_string(*form->unit) + ", and another of unit " +
-                      std::to_string(*made_.unit) + "; expected a Thing for each of them");
+        property.fail("belongs to unit " + std::to_string(*form->unit) + ", and another property to unit " +
+                      std::to_string(*made_.unit) + "; expected a Thing for each unit");
       made_.unit = form->unit;
     }
     const ThingType type = type_of(property, *form);
@@ -219,8 +219,7 @@ class ThingReader {
       remark("counts", property,
              "its address " + std::to_string(form.address) + " counts from 1: it is " +
                  std::to_string(form.address - 1) +
-                 " on the wire (--addresses wire takes "
-                 "addresses unchanged)");
+                 " on the wire (--addresses wire leaves addresses unchanged)");
     return form.address - 1;
   }
 
@@ -267,7 +266,7 @@ ThingList read_thing(const std::string& text, const std::string& path,
   ThingReader reader(thing, addresses, made);
   diagnostics.require([&] { reader.read(diagnostics); });
   if (reader.rows().empty())
-    thing.at("properties").fail("has none with a Modbus form; expected one for each register");
+    thing.at("properties").fail("has no property with a Modbus form; expected one for each register");
   const ListReading reading{.addresses = AddressReading::wire};
   const Remarks own = made.list.remarks;
   try {

@@ -65,7 +65,7 @@ void read_terminals(const YamlFields& fields, bool are_inputs, Description& made
                                 ? made.registers[terminal.spot->number].type == Type::bit
                                 : terminal.spot->width == 1;
         if (!is_bit)
-          where.fail(understudy::quoted(where.text()) + " is not a bit; expected one, as in OUTPUTS.0");
+          where.fail(understudy::quoted(where.text()) + " is not a bit; expected a bit, as in OUTPUTS.0");
       }
       made.terminals.push_back(std::move(terminal));
     });
@@ -81,7 +81,7 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       following.spot = binder.shown(keys, called, false, "what follows");
       const auto not_itself = [&](const YamlFields& field, const Quantity& quantity) {
         if (quantity.spot && quantity.spot->number == following.spot.number)
-          field.fail("is the register itself; expected another one");
+          field.fail("is the register itself; expected another register");
         return quantity;
       };
       following.of = not_itself(keys.at("of"), binder.quantity(keys.at("of")));
@@ -91,7 +91,7 @@ void read_followings(const YamlFields& fields, Description& made, Binder& binder
       if (const auto field = keys.find("rest")) following.rest = not_itself(*field, binder.quantity(*field));
       if (const auto field = keys.find("while")) following.as_long_as = binder.condition(*field);
       if (!keys.has("while") && keys.has("rest"))
-        keys.at("rest").fail("has no effect alone; expected `while` as well");
+        keys.at("rest").fail("has no effect without `while`; expected both");
       if (const auto field = keys.find("time_constant"))
         following.time_constant_s = static_cast<double>(field->duration().count()) / 1e9;
       if (const auto field = keys.find("rate")) {
@@ -116,7 +116,7 @@ void read_comparisons(const YamlFields& fields, Description& made, Binder& binde
   for (const auto& [name, relation] : fields.entries()) {
     diagnostics.attempt([&, &called = name, &field = relation] {
       Comparison comparison = binder.comparison(field);
-      comparison.spot = binder.shown(field, called, true, "a relation");
+      comparison.spot = binder.shown(field, called, true, "a comparison");
       made.comparisons.push_back(comparison);
       places.push_back(field);
     });
@@ -129,7 +129,7 @@ void read_comparisons(const YamlFields& fields, Description& made, Binder& binde
   for (std::size_t i = 0; i < places.size(); ++i) {
     diagnostics.attempt([&] {
       if (shows_one(made.comparisons[i].left) || shows_one(made.comparisons[i].right))
-        places[i].fail("compares a register that itself shows a relation; expected registers that do not");
+        places[i].fail("compares a register that itself shows a comparison; expected other registers");
     });
   }
 }
@@ -197,7 +197,7 @@ class BindingCheck {
     for (const ShownPart& part : shown_[spot.number]) {
       if (is_level(command) && part.what == ShownPart::What::input) continue;
       if (!overlap(spot, part.spot)) continue;
-      field.fail(understudy::quoted(name) + " shows a value there; expected a register that hosts write" +
+      field.fail(understudy::quoted(name) + " shows a value; expected a register that hosts write" +
                  (is_level(command) ? ", or an input" : ""));
     }
     if (is_level(command) && shown_[spot.number].empty() &&

@@ -289,7 +289,7 @@ TEST_F(Mistakes, OfAModelFilesConditionsSayWhatIsMeant) {
            {"COMMAND=1", "'=' is not an operator; expected '==' to compare"},
            {"COMMAND==1", "'==' has no spaces around it; expected spaces, as in COMMAND == 2"},
            {"COMMAND > 1",
-            "'>' is not allowed here; expected a name, or one with a number, as in COMMAND == 2"},
+            "'>' is not allowed here; expected a name, or a name and a number, as in COMMAND == 2"},
            {"COMAND", "no register is called 'COMAND'; the nearest is 'COMMAND'"}}) {
     folder_.write("model.yaml", model(start));
     const Finished finished = understudy({"check", at("model.yaml")});

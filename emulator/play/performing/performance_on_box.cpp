@@ -86,7 +86,7 @@ struct StepOnBox {
     rehearse(what);
   }
   void operator()(const ProgramStep& what) const {
-    if (what.file.empty()) throw OnBox::Skip("a program that the scenario contains is not loaded", true);
+    if (what.file.empty()) throw OnBox::Skip("the rig can load a program only from a file", true);
     on_box.act({"program", on_box.device_name(what.device), what.file});
     rehearse(what);
   }

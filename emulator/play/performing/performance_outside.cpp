@@ -92,9 +92,9 @@ void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::
   for (const auto& [what, texts] : both) {
     const auto [is, should_be] = texts;
     if (should_be == nullptr) {
-      lines.push_back(what + " exists; expected none");
+      lines.push_back(what + " exists; expected no such text");
     } else if (is == nullptr) {
-      lines.push_back(what + " is missing; expected it");
+      lines.push_back(what + " is missing; expected it in the memory");
     } else if (*is != *should_be) {
       compare_lines(what, lines_in(is->text()), lines_in(should_be->text()), lines);
     }
@@ -147,7 +147,8 @@ void Performance::perform(const ClearStep& step) {
       return was_there = true;
     });
   });
-  if (!was_there) throw StepError("no fault called '" + step.name + "' is in force; expected one");
+  if (!was_there)
+    throw StepError("no fault called '" + step.name + "' is in force; expected an active fault");
 }
 
 void Performance::perform(const PowerStep& step) {

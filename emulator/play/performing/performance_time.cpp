@@ -213,7 +213,9 @@ void Performance::perform(const EndSpanStep& step) {
     was_open = world_observers_->spans.close(step.name);
     if (world_observers_->spans.is_empty()) world.remove_watcher(world_observers_->spans);
   });
-  if (!was_open) throw StepError("no span called '" + step.name + "' is open; expected one");
+  if (!was_open)
+    throw StepError("no `always` or `never` called '" + step.name +
+                    "' is active; expected one that is active");
 }
 
 void Performance::perform(const ResetPeaksStep&) {
@@ -246,7 +248,7 @@ std::optional<Failure> Performance::finish_with_command() {
 
 void Performance::perform(const CommandEndStep& step) {
   if (command_ == nullptr) {
-    throw StepError("no command runs beside this scenario; expected `understudy exec " + step_->file +
+    throw StepError("no command runs alongside this scenario; expected `understudy exec " + step_->file +
                     " -- COMMAND`");
   }
   if (step.stops) executor_->with_world([&](world::World&) { command_->stop(); });

@@ -208,9 +208,9 @@ class Run {
     if (const auto found = known.find(step.name); found != known.end()) {
       performance.restore(*found->second);
     } else {
-      result.failure =
-          Failure{.at = performance.now(),
-                  .what = "no snapshot is called '" + step.name + "'; expected one taken earlier"};
+      result.failure = Failure{
+          .at = performance.now(),
+          .what = "no snapshot is called '" + step.name + "'; expected a snapshot that was saved earlier"};
     }
   }
 

@@ -68,7 +68,7 @@ Scenario load_side_scenario(ModelList models, const std::string& path, const wor
   ScenarioFile file(path, {.save_below = save_below, .seed = {}}, shared);
   if (file.size() != 1) {
     throw FileError(path + ": cases: there are " + std::to_string(file.size()) +
-                    "; expected one, because one host program runs with it");
+                    "; expected only one, because a single host program runs with the scenario");
   }
   Scenario scenario = file.read(0);
   if (!is_same_bench(scenario.bench, bench)) {

@@ -57,7 +57,7 @@ TraceTable parse_csv_trace(std::string_view text, const std::string& name) {
     if (!is_read(time, tick))
       fail("time_ms: " + quoted(time) + " is not a time; expected whole milliseconds");
     if (!table.ticks.empty() && tick <= table.ticks.back()) {
-      fail("time_ms: " + quoted(time) + " is not later than the line before; expected ascending times");
+      fail("time_ms: " + quoted(time) + " is not later than the previous time; expected ascending times");
     }
     table.ticks.push_back(tick);
     for (std::size_t i = 0; i < table.names.size(); ++i) {

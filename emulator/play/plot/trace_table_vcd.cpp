@@ -100,7 +100,7 @@ class VcdReader {
       has_row_ = true;
       return;
     }
-    if (!has_row_) fail(quoted(word) + " comes before any time; expected one such as #0");
+    if (!has_row_) fail(quoted(word) + " comes before any time; expected a time such as #0 first");
     const bool is_scalar =
         word.front() == '0' || word.front() == '1' || word.front() == 'x' || word.front() == 'z';
     const std::string code(is_scalar ? word.substr(1) : next());

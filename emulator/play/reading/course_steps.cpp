@@ -84,7 +84,7 @@ void read_for(StepsReader& reader, const world::YamlFields& /*step*/, const worl
   for (const world::YamlFields& row : rows) {
     Parameters inner(reader.parameters());
     if (row.is_map()) {
-      if (as) as->fail("names a value, but the rows name their values; expected no `as`");
+      if (as) as->fail("is not needed, because the rows name their values; expected no `as`");
       row.require_map();
       for (const auto& [name, field] : row.entries()) define(field, inner, name, field.text());
     } else {

@@ -89,7 +89,7 @@ HuntPlan::HuntPlan(const world::YamlFields& hunt, const world::YamlFields& head,
     all.attempt([&] {
       const world::YamlFields may = hunt.at("may");
       const auto entries = may.elements();
-      if (entries.empty()) may.fail("is empty; expected something such as `- inject: { drop: feeder }`");
+      if (entries.empty()) may.fail("is empty; expected an entry such as `- inject: { drop: feeder }`");
       for (const world::YamlFields& entry : entries) all.attempt([&] { read_entry(entry, reader); });
     });
   });

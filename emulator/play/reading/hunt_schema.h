@@ -57,8 +57,9 @@ inline constexpr std::array kMayKeys{
     world::Key{"send", "Bytes or a line of text from another host.", &kDrawnByName},
     world::Key{"program", "A program that somebody loads.", &kDrawnByDevice},
     world::Key{"advance", "A delay of the host.", &kDrawn},
-    world::Key{"times", "How often it may happen in a course at most (default: 1).", &kMaxTimesSchema},
-    world::Key{"within", "All of these happen within this time, as when a contact bounces.",
+    world::Key{"times", "The maximum number of times that it may happen in a course (default: 1).",
+               &kMaxTimesSchema},
+    world::Key{"within", "All repetitions happen within this time, as when a contact bounces.",
                &world::kDuration},
     world::Key{"from", "The text of the `say` step before which it does not happen.", &world::kText},
     world::Key{"to", "The text of the `say` step after which it does not happen.", &world::kText}};

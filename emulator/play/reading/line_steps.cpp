@@ -42,7 +42,7 @@ Answer read_answer(StepsReader& reader, const world::YamlFields& step) {
   reader.attempt([&] {
     const auto within = step.find("within");
     if (!within) return;
-    if (!step.has("reply")) within->fail("needs `reply: nothing`; expected that as well");
+    if (!step.has("reply")) within->fail("has no effect without `reply: nothing`; expected both");
     answer.silence = read_within(*within);
   });
   return answer;

@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_entries(const wor
                                                                        const std::string& example) {
   value.require_map();
   auto entries = value.entries();
-  if (entries.empty()) value.fail("is empty; expected something such as `{ " + example + " }`");
+  if (entries.empty()) value.fail("is empty; expected entries such as `{ " + example + " }`");
   return entries;
 }
 
@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, world::YamlFields>> require_entries(const wor
 std::string refusal_text(const world::YamlFields& field) {
   const std::string text = field.text();
   if (text == "false" || text.empty()) {
-    field.fail("expected true, or a part of the message about the first mistake");
+    field.fail("expected true, or part of the message about the first mistake");
   }
   return text == "true" ? "" : text;
 }
@@ -52,7 +52,7 @@ void read_inputs(StepsReader& reader, const world::YamlFields& step, const world
     const world::InputSetup input = world::read_input(field, name, reader.trial().known());
     for (const world::InputSetup& other : inputs.inputs) {
       if (other.device == input.device && other.terminal == input.terminal) {
-        field.fail("is the same input as another; expected it only once");
+        field.fail("is an input that is already in this step; expected each input only once");
       }
     }
     text += (inputs.inputs.empty() ? " " : ", ") + name + "=" + field.text();
@@ -76,7 +76,7 @@ void read_turn(StepsReader& reader, const world::YamlFields& step, const world::
     });
   }
   if (entries.size() == (in ? 1U : 0U))
-    value.fail("turns nothing; expected something such as `{ mill.MPG: 400, in: 2s }`");
+    value.fail("turns nothing; expected counts such as `{ mill.MPG: 400, in: 2s }`");
   if (in) text += " in " + in->text();
   reader.add(step, text, std::move(turn));
 }
@@ -94,7 +94,7 @@ void read_inject(StepsReader& reader, const world::YamlFields& step, const world
     inject.name = value.at("name").text();
     if (inject.name.empty() || inject.name == "all") {
       value.at("name").fail(understudy::quoted(inject.name) +
-                            " cannot be the name of a fault; expected another");
+                            " cannot be the name of a fault; expected another name");
     }
     if (std::find(in_force.begin(), in_force.end(), inject.name) != in_force.end()) {
       value.at("name").fail(understudy::quoted(inject.name) +

@@ -85,7 +85,7 @@ class ScenarioFile::Reader {
       return;
     }
     if (root_.has("steps"))
-      root_.at("steps").fail("cannot be combined with `plays`; expected them in one of the plays");
+      root_.at("steps").fail("cannot be combined with `plays`; expected `steps` in each play");
     // The file's name describes all its scenarios; each of them has its own name.
     static constexpr std::array<std::string_view, 3> kOfTheFile{"understudy", "name", "plays"};
     const world::YamlFields common = root_.without(kOfTheFile);

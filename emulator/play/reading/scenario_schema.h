@@ -24,7 +24,8 @@ inline constexpr world::Schema kCasesSchema = world::list_schema(world::kTextByN
 inline constexpr world::Schema kSamplesSchema = world::integer_schema(1, 1'000'000'000'000);
 inline constexpr world::Schema kTwoTexts = world::list_schema(world::kText, 2);
 inline constexpr world::Key kSamplesKey{
-    "samples", "Number of distinct values to draw; without it, one is drawn for each case.", &kSamplesSchema};
+    "samples", "Number of distinct values to draw; without it, one value is drawn for each case.",
+    &kSamplesSchema};
 inline constexpr world::Key kSamplesSeedKey{"seed", "Seed of these draws (default: the scenario's seed).",
                                             &world::kSeedSchema};
 inline constexpr std::array kRangeKeys{
@@ -72,10 +73,10 @@ inline constexpr world::Key kCasesKey{"cases", "Rows of parameters; each row is 
 inline constexpr world::Key kChoiceKey{
     "choice",
     "A choice that the manual leaves open, with its options: each option is a case, in which every "
-    "device with this choice uses that option. An option may give values to parameters.",
+    "device with this choice uses that option. An option can set parameters.",
     &kChoiceSchema};
 inline constexpr world::Key kVaryKey{
-    "vary", "Values of parameters; each combination is a case, for each row of `cases`.", &kVarySchema};
+    "vary", "Values of parameters; each combination with a row of `cases` is a case.", &kVarySchema};
 
 inline constexpr world::Key kHuntKey{"hunt", "The disturbances that `hunt` tries, and what must hold.",
                                      &kHuntSchema};
@@ -83,8 +84,8 @@ inline constexpr world::Key kHuntKey{"hunt", "The disturbances that `hunt` tries
 /// A play has the keys of a scenario. It can omit `bench`, and everything else that the file provides for all
 /// plays.
 inline constexpr std::array kPlayKeys{
-    world::Key{kNameKey.key, "A sentence that describes it, different in each play.", &world::kText},
-    world::Key{kBenchKey.key, "The bench; if the file also has one, the differences from it.",
+    world::Key{kNameKey.key, "A sentence that describes the play, different in each play.", &world::kText},
+    world::Key{kBenchKey.key, "The bench, or its differences from the bench of the file.",
                &kBenchOrPartSchema},
     kNvKey,
     kFirmwareKey,

@@ -49,7 +49,7 @@ constexpr std::array kStepRows{
     // These steps act from outside.
     StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByInput},
             read_inputs},
-    StepRow{{"turn", "Turns hand wheels and other counted inputs this many counts, `in` a duration.",
+    StepRow{{"turn", "Turns hand wheels and other counted inputs by these counts, `in` a duration.",
              &world::kTextByTurned},
             read_turn},
     StepRow{{"inject", "Injects a fault.", &kInjectSchema}, read_inject, {}, StepRow::Names::gives},

@@ -98,7 +98,7 @@ inline constexpr world::Schema kRowsSchema = world::list_schema(kRowSchema);
 inline constexpr std::array kForKeys{
     world::Key{"each", "The values, or rows of several: [ { n: 1, speed: 200 }, { n: 2, speed: 400 } ].",
                &kRowsSchema, true},
-    world::Key{"as", "A name for the value (rows have names already).", &world::kText},
+    world::Key{"as", "A name for the value (rows already have names).", &world::kText},
     world::Key{"steps", "The steps to run for each value.", &world::kSteps, true}};
 inline constexpr world::Schema kForSchema = world::keys_schema(kForKeys);
 

@@ -62,7 +62,7 @@ std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value) {
   if (value.has("line")) return reader.trial().line(value.at("line"), value.at("line").text());
   if (reader.trial().bench().lines.size() > 1) {
-    value.fail("'line' is missing, but the bench has several; expected it here");
+    value.fail("'line' is missing, but the bench has several lines; expected it here");
   }
   return 0;
 }

@@ -32,7 +32,7 @@ world::Tolerance read_takes(const world::YamlFields& field, SimTime within) {
   try {
     world::Tolerance takes = world::parse_tolerance(field.text(), world::Unit::nanoseconds);
     if (takes.low && *takes.low > world::Number(within.count())) {
-      field.fail("is longer than `within`, " + format_duration(within) + "; expected it to fit");
+      field.fail("is longer than `within`, " + format_duration(within) + "; expected a shorter time");
     }
     return takes;
   } catch (const world::ExpressionError& error) {
@@ -91,7 +91,7 @@ void read_wait(StepsReader& reader, const world::YamlFields& step, const world::
   reader.attempt([&] {
     const auto via = value.find(kViaKey.key);
     if (via && !value.has("poll"))
-      via->fail("needs `poll`, since only `poll` reads over a line; expected `poll` as well");
+      via->fail("has no effect without `poll`, because only `poll` reads over a line; expected both");
     if (!has_condition || !value.has("poll")) return;
     const std::vector<std::size_t> devices = reader.trial().require_registers_only(value.at("until"));
     if (!via) return;

@@ -136,7 +136,7 @@ void Variation::read_range(bool is_drawn) {
   for (const auto& [where, amount] : all) {
     const auto count = scale_.count_of(amount);
     if (!count)
-      where.fail(quoted(where.text()) + " is too large or too fine; expected one that can be counted");
+      where.fail(quoted(where.text()) + " is too large or too fine; expected a value that can be counted");
     counts.push_back(*count);
   }
   first_ = counts[0];
@@ -144,7 +144,7 @@ void Variation::read_range(bool is_drawn) {
   if (scale_.kind() == Amount::Kind::duration && first_ < 0) low.fail("is negative; expected a duration");
   if (step_ <= 0) all[2].first.fail("is " + all[2].first.text() + "; expected more than 0");
   if (counts[1] < first_)
-    high.fail(high.text() + " is less than " + low.text() + "; expected the larger one second");
+    high.fail(high.text() + " is less than " + low.text() + "; expected the larger value second");
   places_ = static_cast<std::uint64_t>((counts[1] - first_) / step_) + 1;
 }
 

@@ -54,7 +54,7 @@ bool is_same_row(const Untouched& a, const Untouched& b) {
 }
 
 std::string worst_of(const std::vector<Untouched>& cells) {
-  if (cells.empty()) return "<p class=\"good\">Everything has been touched.</p>\n";
+  if (cells.empty()) return "<p class=\"good\">Everything has been used.</p>\n";
   std::string text = "<div class=\"scroll\"><table>\n";
   std::size_t shown = 0;
   for (std::size_t rows = 0; shown < cells.size() && rows < kWorstOnPage; ++rows) {
@@ -103,7 +103,7 @@ std::string touched_page(const world::TouchedReport& report, std::string_view ve
       "<title>Understudy: coverage of devices</title>\n<style>" +
       std::string(kPageStyle) +
       "</style>\n</head>\n<body>\n<header>\n<h1>Understudy</h1>\n<p>Coverage of devices</p>\n</header>\n"
-      "<main>\n<h2>Never touched, the worst first</h2>\n" +
+      "<main>\n<h2>Never used, largest gaps first</h2>\n" +
       worst_of(report.untouched());
   for (const auto& [model, tables] : report.models) {
     page += "<h2>" + xml_escaped(model) + "</h2>\n";

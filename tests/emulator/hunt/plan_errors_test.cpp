@@ -27,7 +27,7 @@ TEST(HuntPlanErrors, EachIsOneLineWithItsPlace) {
   } kCases[] = {
       {" {}\n", "s.yaml:20:7: hunt: 'may' is missing; expected it here"},
       {" { may: [] }\n",
-       "s.yaml:20:14: hunt.may: is empty; expected something such as `- inject: { drop: feeder }`"},
+       "s.yaml:20:14: hunt.may: is empty; expected an entry such as `- inject: { drop: feeder }`"},
       {" { may: [ times: 2 ] }\n",
        "s.yaml:20:16: hunt.may[0]: has no step; expected one such as `inject: { drop: feeder }`"},
       {" { may: [ inject: { drop: feder } ] }\n",

@@ -111,7 +111,7 @@ TEST(ForeignList, HasColumnsByTheFlag) {
   parse_columns("address=Were,name=What", wrong);
   EXPECT_EQ(lines_in(list, wrong),
             "l.csv:1:1: columns: there is no heading 'Were'; the nearest is 'Where'\n"
-            "l.csv:1:1: columns: there is no address; expected a first line such as "
+            "l.csv:1:1: columns: there is no column address; expected a first line such as "
             "address,name,access,width,unit,min,max,default, or --columns "
             "address=HEADING");
   for (const char* const flag : {"address", "=A", "address=", "adress=A", "name=A,name=B", ""})
@@ -200,7 +200,7 @@ TEST(ForeignList, MayDescribeARegisterTwice) {
   EXPECT_EQ(remarks_on("address,name,type\n0,A high,uint8\n0,A low,uint8\n"),
             "l.csv:3:3: name: 'A low' is a byte of 'Register_0', as 'A high' in line 2\n");
   EXPECT_EQ(remarks_on("address,name,type\n0,A,u32\n1,A low,u16\n"),
-            "l.csv:3:3: name: 'A low' is half of 'A' in line 2; it has no name of its own\n");
+            "l.csv:3:3: name: 'A low' is half of 'A' in line 2; it gets no separate name\n");
   const Model& model =
       described_models().parse(model_with("address,name,type\n4,A,u32\n4,B,u32\n", ""), "m.yaml");
   for (const char* const name : {"A", "B", "B_H"})
@@ -213,10 +213,10 @@ TEST(ForeignList, NamesBothRowsThatContradict) {
       {"A,u16,V,,,\n0,B,u16,A,,,\n", "another unit (V, here A)"},
       {"A,u16,,0,5,\n0,B,u16,,0,6,\n", "another range (0..5, here 0..6)"},
       {"A,u16,,,,1\n0,B,u16,,,,2\n", "another default (1, here 2)"},
-      {"A,f32,,,,\n0,B,floatsw,,,,\n", "another order of its words or bytes"},
+      {"A,f32,,,,\n0,B,floatsw,,,,\n", "a different order of words or bytes"},
       {"A,uint8,,,,\n0,B,uint8,,,,\n",
-       "8 bits as well, and the names do not say which byte is high (10.b8 and 10.b0 do)"},
-      {"A low,uint8,,,,\n0,B low,uint8,,,,\n", "the same byte, by the two names"},
+       "8 bits too, and the names do not show which byte is high (10.b8 and 10.b0 do)"},
+      {"A low,uint8,,,,\n0,B low,uint8,,,,\n", "the same byte, according to the two names"},
   };
   for (const Foreign& one : kRows) {
     const std::string first(one.list, std::string(one.list).find(','));
@@ -226,7 +226,7 @@ TEST(ForeignList, NamesBothRowsThatContradict) {
   }
   EXPECT_EQ(
       lines_in("address,name\n0,A\n0,B\n0,C\n"),
-      "l.csv:4:1: address: '0' is taken by A in line 2, which has two names already (A and B); expected rows "
+      "l.csv:4:1: address: '0' is taken by A in line 2, which has two other names (A and B); expected rows "
       "that agree, or a free address");
 }
 
@@ -266,7 +266,7 @@ TEST(ForeignList, SaysHowItsAddressesAreRead) {
             "from_one, the first)\n");
   EXPECT_EQ(remark("40001"),
             "l.csv:2:1: address: read as Modicon numbers: '40001' is 0 on the wire (--addresses wire leaves "
-            "them unchanged)\n");
+            "the addresses unchanged)\n");
   EXPECT_EQ(
       remark("40001,B\n50001"),
       "l.csv:3:1: address: read as addresses on the wire, like all others of the list: '50001' is not a "
@@ -281,8 +281,9 @@ TEST(ForeignList, SaysHowItsAddressesAreRead) {
             "0 A u16\n1 B u16\n");
   EXPECT_EQ(lines_in("address,name\n7,A\n", {.addresses = AddressReading::modicon, .table = Table::coil}),
             "coil 6 A bit\n");
-  EXPECT_EQ(lines_in("address,name,table\n40001,A,input\n", {.addresses = AddressReading::modicon}),
-            "l.csv:2:1: address: '40001' is a number of the table holding; expected one of the table input");
+  EXPECT_EQ(
+      lines_in("address,name,table\n40001,A,input\n", {.addresses = AddressReading::modicon}),
+      "l.csv:2:1: address: '40001' is a number of the table holding; expected a number of the table input");
 }
 
 TEST(ForeignList, HasNumbersInTheUnit) {
@@ -368,7 +369,8 @@ TEST(ForeignList, MayBelongToSeveralFirmwares) {
             "m.yaml:6:5: since: '1.52' is not a firmware of the model; expected a version listed under "
             "`firmware`, such as 1.52");
   EXPECT_EQ(diagnostic_about(model_with("address,name\n0,A\n", "firmware: [ '1.52', '1.00' ]\n")),
-            "m.yaml:6:21: firmware[1]: '1.00' is not above the version before it; expected the oldest first");
+            "m.yaml:6:21: firmware[1]: '1.00' is not above the previous version; expected the oldest version "
+            "first");
   EXPECT_NE(starter_model(imported(list), {}, "one", "l.csv").find("firmware: [ '1.00', '1.52' ]"),
             std::string::npos);
 }

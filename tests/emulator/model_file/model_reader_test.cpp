@@ -70,16 +70,16 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"busy: CONTROL.MODE", 14,
        "axes.A.busy: 'CONTROL.MODE' is several bits; expected one bit, or a register"},
       {"busy: STATUS.BUSY, ready: STATUS.0", 34,
-       "axes.A.ready: 'STATUS.0' shows A.busy already; expected another place for A.ready"},
+       "axes.A.ready: 'STATUS.0' already shows A.busy; expected another place for A.ready"},
       {"busy: STATUS, ready: STATUS.3", 29,
-       "axes.A.ready: 'STATUS.3' shows A.busy already; expected another place for A.ready"},
-      {"start: CONTROL.GO", 15, "axes.A.start: has no effect alone; expected `target` as well"},
+       "axes.A.ready: 'STATUS.3' already shows A.busy; expected another place for A.ready"},
+      {"start: CONTROL.GO", 15, "axes.A.start: has no effect without `target`; expected both"},
       {"start: STATUS.2, target: TARGET, speed: SPEED", 15,
        "axes.A.start: 'STATUS' cannot be written; expected a register that hosts write"},
       {"start: TARGET, target: TARGET, speed: SPEED", 15,
        "axes.A.start: 'TARGET' has 32 bits, which hosts can write in halves; expected 16 bits, or a coil"},
       {"start: CONTROL == x, target: TARGET, speed: SPEED", 15,
-       "axes.A.start: 'x' is not a number; expected one, as in COMMAND == 2"},
+       "axes.A.start: 'x' is not a number; expected a number, as in COMMAND == 2"},
       {"start: CONTROL.MODE == 16, target: TARGET, speed: SPEED", 15,
        "axes.A.start: '16' never occurs; expected 0 to 15"},
       {"stop: GAIN", 14, "axes.A.stop: 'GAIN' is a real number; expected a bit, or a whole number"},
@@ -95,15 +95,15 @@ TEST(ModelReader, SaysWhatIsWrongWithAnAxis) {
       {"acceleration_time: RAMP, acceleration: 5", 27,
        "axes.A.acceleration_time: cannot be combined with `acceleration`; expected one of the two"},
       {"pulses_per_count: 0", 26,
-       "axes.A.pulses_per_count: '0' is not valid; expected a whole number above 0, or two as in 25/4"},
+       "axes.A.pulses_per_count: '0' is not valid; expected a whole number above 0, or a fraction such as "
+       "25/4"},
       {"pps_per_count: -1", 23,
-       "axes.A.pps_per_count: '-1' is not valid; expected a number above 0, up to 1e9"},
+       "axes.A.pps_per_count: '-1' is not valid; expected a number above 0 and up to 1e9"},
       {"home: CONTROL.2, speed: 5", 14, "axes.A.home: needs a switch; expected `inputs: { home: ... }`"},
-      {"inputs: { home: DI1 }", 24,
-       "axes.A.inputs.home: 'DI1' is not an input; `inputs` of the model has none"},
+      {"inputs: { home: DI1 }", 24, "axes.A.inputs.home: 'DI1' is not an input; the model has no `inputs`"},
       {"while_busy: wait", 20,
        "axes.A.while_busy: 'wait' is not valid; expected one of replace, ignore, refuse"},
-      {"while_disabled: refuse", 24, "axes.A.while_disabled: has no effect alone; expected `enable` as well"},
+      {"while_disabled: refuse", 24, "axes.A.while_disabled: has no effect without `enable`; expected both"},
   };
   for (const WrongAxis& wrong : kWrong) {
     if (std::string(wrong.diagnostic).empty()) continue;
@@ -127,7 +127,8 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "line.baud: '0' is not valid; expected a whole number from 50 to 4000000"},
       {"line: { parity: mark }\n", 1, 17,
        "line.parity: 'mark' is not valid; expected one of none, even, odd"},
-      {"line: { silence: 2s }\n", 1, 18, "line.silence: '2s' is not valid; expected more than 0, up to 1s"},
+      {"line: { silence: 2s }\n", 1, 18,
+       "line.silence: '2s' is not valid; expected a duration above 0 and up to 1s"},
       {"line: { stations: [5, 1] }\n", 1, 19,
        "line.stations: ends before it begins; expected a range such as [1, 247]"},
       {"line: { functions: [3, 7] }\n", 1, 24,
@@ -138,38 +139,39 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
        "line.most.3: 126 is more than function 3 allows; expected 125 or fewer"},
       {"line: { most: { 6: 2 } }\n", 1, 20,
        "line.most.6: 2 is more than function 6 allows; expected 1 or fewer"},
-      {"line: { silence: 0ms }\n", 1, 18, "line.silence: '0ms' is not valid; expected more than 0, up to 1s"},
+      {"line: { silence: 0ms }\n", 1, 18,
+       "line.silence: '0ms' is not valid; expected a duration above 0 and up to 1s"},
       {"outputs: { DO1: STATUS.3 }\nshows: { STATUS.2: SPEED > 5 }\n", 1, 17,
        "outputs.DO1: 'STATUS.3' never changes; expected a register that hosts write, or that shows a value"},
       {"axes: { A: { stop: SPEED == 9001 } }\n", 1, 20,
        "axes.A.stop: '9001' never occurs; expected 0 to 9000"},
       {"line: { station_in: TARGET }\n", 1, 21,
-       "line.station_in: 'TARGET' cannot hold it; expected a holding register of 16 bits"},
+       "line.station_in: 'TARGET' cannot hold the station number; expected a 16-bit holding register"},
       {"line: { station_in: CONTROL }\n", 1, 21,
-       "line.station_in: 'CONTROL' has the default 0; expected one from 1 to 247 (`stations`)"},
+       "line.station_in: 'CONTROL' has the default 0; expected a default from 1 to 247 (`stations`)"},
       {"map: { holes: none }\n", 1, 15, "map.holes: 'none' is not valid; expected one of refused, zero"},
       {"bits: { STATUSS: { A: 0 } }\n", 1, 18,
        "bits.STATUSS: 'STATUSS' is not a register of the list; the nearest is "
        "'STATUS'"},
       {"bits: { STATUS: { A: 16 } }\n", 1, 22,
-       "bits.STATUS.A: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
+       "bits.STATUS.A: '16' is not a bit; expected 0 to 15, or a range such as 4-7"},
       {"bits: { STATUS: { A: 0 } }\n", 1, 22,
        "bits.STATUS.A: A shares a bit with another name; expected separate bits"},
       {"inputs: { DI1: CONTROL.0, DI2: CONTROL }\n", 1, 32,
        "inputs.DI2: 'CONTROL' is written by hosts; expected a register that hosts only read (R)"},
       {"inputs: { DI1: STATUS.1, DI2: STATUS.1 }\n", 1, 31,
-       "inputs.DI2: 'STATUS.1' shows DI1 already; expected another place for DI2"},
+       "inputs.DI2: 'STATUS.1' already shows DI1; expected another place for DI2"},
       {"outputs: { DO1: SPEED }\n", 1, 17,
-       "outputs.DO1: 'SPEED' is not a bit; expected one, as in OUTPUTS.0"},
+       "outputs.DO1: 'SPEED' is not a bit; expected a bit, as in OUTPUTS.0"},
       {"inputs: { D: SWITCH }\noutputs: { D: RUN }\n", 2, 15,
        "outputs.D: 'D' is also an input; expected another "
        "name"},
       {"follows: { TEMPERATURE: { time_constant: 1s } }\n", 1, 25,
        "follows.TEMPERATURE: 'of' is missing; expected it here"},
       {"follows: { TEMPERATURE: { of: TEMPERATURE } }\n", 1, 31,
-       "follows.TEMPERATURE.of: is the register itself; expected another one"},
+       "follows.TEMPERATURE.of: is the register itself; expected another register"},
       {"follows: { TEMPERATURE: { of: SPEED, rest: 5 } }\n", 1, 44,
-       "follows.TEMPERATURE.rest: has no effect alone; expected `while` as well"},
+       "follows.TEMPERATURE.rest: has no effect without `while`; expected both"},
       {"follows: { TEMPERATURE: { of: SPEED, rate: 0 } }\n", 1, 44,
        "follows.TEMPERATURE.rate: '0' is not valid; expected a number above 0"},
       {"follows: { TEMPERATURE: { of: SPEED, every: 0ms } }\n", 1, 45,
@@ -179,14 +181,14 @@ TEST(ModelReader, SaysWhatIsWrongElsewhere) {
       {"shows: { STATUS.1: TEMPERATURE>5 }\n", 1, 20,
        "shows.STATUS.1: '>' has no spaces around it; expected spaces, as in TEMPERATURE > LIMIT"},
       {"shows: { STATUS.1: SPEED > 5, SWITCH: STATUS > 0 }\n", 1, 39,
-       "shows.SWITCH: compares a register that itself shows a relation; expected registers that do not"},
+       "shows.SWITCH: compares a register that itself shows a comparison; expected other registers"},
       {"momentary: [ STATUS ]\n", 1, 14,
        "momentary[0]: 'STATUS' cannot be momentary; expected a 16-bit register or a coil that hosts can "
        "write"},
       {"momentary: [ RUN ]\naxes: { A: { forward: RUN, speed: 5 } }\n", 2, 23,
        "axes.A.forward: 'RUN' is momentary; expected a register that keeps what is written"},
       {"follows: { TEMPERATURE: { of: SPEED } }\naxes: { A: { forward: TEMPERATURE, speed: 5 } }\n", 2, 23,
-       "axes.A.forward: 'TEMPERATURE' shows a value there; expected a register that hosts write, or an "
+       "axes.A.forward: 'TEMPERATURE' shows a value; expected a register that hosts write, or an "
        "input"},
   };
   for (const WrongPart& wrong : kWrong) {
@@ -371,8 +373,8 @@ TEST(ModelFiles, InsideABenchAreReportedAtTheirLines) {
   EXPECT_EQ(
       reported("|\n      understudy: 1\n      model: m\n      registers: |\n        table,address\n      "
                "axs: 1\n"),
-      "bench.yaml:9:7: devices.d.model: registers: the list is empty; expected a line of columns, and a line "
-      "for each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
+      "bench.yaml:9:7: devices.d.model: registers: the list is empty; expected a line of headings, and a "
+      "line for each register\nbench.yaml:10:12: devices.d.model: axs: is not a key here; expected one of "
       "understudy, model, title, firmware, registers, list, line, map, bits, inputs, outputs, axes, follows, "
       "shows, "
       "momentary (the nearest is 'axes')");

@@ -33,19 +33,18 @@ struct WrongList {
 TEST(RegisterList, SaysWhatIsWrongAndWhere) {
   const WrongList kWrong[] = {
       {"",
-       "l.csv:1:1: registers: the list is empty; expected a line of columns, and a line for each register"},
+       "l.csv:1:1: registers: the list is empty; expected a line of headings, and a line for each register"},
       {"address,name\n",
-       "l.csv:1:1: registers: the list is empty; expected a line of columns, and a line for each "
-       "register"},
+       "l.csv:1:1: registers: the list is empty; expected a line of headings, and a line for each register"},
       {"address,name\n,\n",
-       "l.csv:1:1: registers: the list is empty; expected a line for each register below the columns"},
+       "l.csv:1:1: registers: the list is empty; expected a line for each register below the headings"},
       {"adress,name\n0,A\n",
-       "l.csv:1:1: columns: there is no address, but 'adress'; expected a first line such as "
+       "l.csv:1:1: columns: there is no column address, but 'adress'; expected a first line such as "
        "address,name,access,width,unit,min,max,default, or --columns address=HEADING"},
       {"address,name,Address\n0,A,1\n",
        "l.csv:1:14: columns: 'Address' appears twice; expected it only once"},
-      {"address,name\n0\n", "l.csv:2:1: name: is missing; expected one in every row"},
-      {"address,name\n,A\n", "l.csv:2:1: address: is missing; expected one in every row"},
+      {"address,name\n0\n", "l.csv:2:1: name: is missing; expected a name in every row"},
+      {"address,name\n,A\n", "l.csv:2:1: address: is missing; expected an address in every row"},
       {"address,name\n65536,A\n",
        "l.csv:2:1: address: '65536' is not an address; expected 0 to 65535, or 0x0000 to 0xFFFF"},
       {"address,name\n0,A,B\n",
@@ -56,7 +55,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "that "
        "agree, or a free address"},
       {"address,name,width\n0,A,32\n1,B,16\n",
-       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free one in the table holding"},
+       "l.csv:3:1: address: '1' is taken by A in line 2; expected a free address in the table holding"},
       {"address,name,table\n0,A,holdings\n",
        "l.csv:2:5: table: 'holdings' is not a table; expected holding, input, coil or discrete"},
       {"address,name,access\n0,A,RX\n", "l.csv:2:5: access: 'RX' is unknown; expected R, W or R/W"},
@@ -64,7 +63,8 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
        "l.csv:2:11: access: hosts cannot write the table input; expected R"},
       {"address,name,width\n0,A,8\n",
        "l.csv:2:5: width: '8' is not valid; expected 16 or 32, and 1 in coil and discrete"},
-      {"address,name,table,width\n0,A,coil,16\n", "l.csv:2:10: width: '16' is not valid there; expected 1"},
+      {"address,name,table,width\n0,A,coil,16\n",
+       "l.csv:2:10: width: '16' is not valid in this table; expected 1"},
       {"address,name,type\n0,A,u12\n",
        "l.csv:2:5: type: 'u12' is not a type; expected u16, s16, u32, s32, f32 or bit, or another type "
        "in docs/import.md"},
@@ -89,7 +89,7 @@ TEST(RegisterList, SaysWhatIsWrongAndWhere) {
       {"address,name,bits\n0,A,0 X 1\n",
        "l.csv:2:5: bits: 'X 1' cannot be used as a bit's name; expected a word"},
       {"address,name,bits\n0,A,16 X\n",
-       "l.csv:2:5: bits: '16' is not a bit; expected 0 to 15, or two of them as in 4-7"},
+       "l.csv:2:5: bits: '16' is not a bit; expected 0 to 15, or a range such as 4-7"},
       {"address,name,bits\n0,A,\"0-3 X, 2 Y\"\n",
        "l.csv:2:5: bits: Y shares a bit with another name; expected separate bits"},
       {"address,name,bits\n0,A,\"0 X, 1 X\"\n", "l.csv:2:5: bits: 'X' appears twice; expected it only once"},
@@ -192,7 +192,7 @@ TEST(RegisterList, IsWhatDescribePrints) {
 /// Lines of a list inside a model file are counted in that file.
 TEST(RegisterList, InsideOfAModelFileIsSaidToBeThere) {
   EXPECT_EQ(diagnostic_about(model_with("address,name,width\n0,A,32\n1,B,16\n", "")),
-            "m.yaml:6:1: address: '1' is taken by A in line 5; expected a free one in the table holding");
+            "m.yaml:6:1: address: '1' is taken by A in line 5; expected a free address in the table holding");
 }
 
 TEST(Starter, IsAModelThatCanBeReadAndEdited) {

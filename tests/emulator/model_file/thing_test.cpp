@@ -197,16 +197,15 @@ TEST(Thing, SaysWhatIsWrongAndWhere) {
             "t.json:1:22: properties.P: has the address 0, but its form counts from 1; expected "
             "`modv:zeroBasedAddressing: true`, or --addresses wire");
   EXPECT_EQ(line_of("\"type\": \"integer\""),
-            "t.json:1:16: properties: has none with a Modbus form; expected one for each register");
+            "t.json:1:16: properties: has no property with a Modbus form; expected one for each register");
   EXPECT_EQ(
       line_of(with_form("\"modv:entity\": \"HoldingRegister\", \"modv:address\": 1",
                         "\"type\": \"integer\", \"minimum\": 5, \"maximum\": 1")),
       "t.json:1:22: properties.P: max: '1' is below 5; expected a maximum that is not below the minimum");
-  EXPECT_EQ(
-      line_of("\"forms\": [{\"modv:function\": 1, \"modv:address\": 1}, {\"modv:function\": 5, "
-              "\"modv:address\": 2}]"),
-      "t.json:1:74: properties.P.forms[1]: names another register than the form before it; expected one for "
-      "each property");
+  EXPECT_EQ(line_of("\"forms\": [{\"modv:function\": 1, \"modv:address\": 1}, {\"modv:function\": 5, "
+                    "\"modv:address\": 2}]"),
+            "t.json:1:74: properties.P.forms[1]: names a different register than the previous form; expected "
+            "one register for each property");
 }
 
 TEST(Thing, SaysWhatItPassesOver) {
@@ -217,12 +216,11 @@ TEST(Thing, SaysWhatItPassesOver) {
       "t.json", {});
   std::string text;
   for (const FileError::Diagnostic& remark : thing.list.remarks.all()) text += remark.text + "\n";
-  EXPECT_EQ(
-      text,
-      "t.json:1:22: properties.A: its address 3 counts from 1: it is 2 on the wire (--addresses wire takes "
-      "addresses unchanged)\n"
-      "t.json:1:84: properties.B: has no Modbus form; ignored\n"
-      "t.json:2:13: actions: ignored; only properties become registers\n");
+  EXPECT_EQ(text,
+            "t.json:1:22: properties.A: its address 3 counts from 1: it is 2 on the wire (--addresses wire "
+            "leaves addresses unchanged)\n"
+            "t.json:1:84: properties.B: has no Modbus form; ignored\n"
+            "t.json:2:13: actions: ignored; only properties become registers\n");
 }
 
 TEST(Thing, IsToldFromAList) {

@@ -148,8 +148,8 @@ TEST(PersistentBlocks, StepsSaveAndCompareThem) {
   EXPECT_EQ(failure_of(folder, "  - power: { it: cycle }\n" + compare, first), "");
   const std::string other = failure_of(folder, compare, ", nv: { files: { '07': \"a\\nc\\n\", '08': d } }");
   EXPECT_NE(other.find("files '07' line 2 is 'c'; expected 'b'"), std::string::npos) << other;
-  EXPECT_NE(other.find("files '08' exists; expected none"), std::string::npos) << other;
-  EXPECT_NE(other.find("recipes '01' is missing; expected it"), std::string::npos) << other;
+  EXPECT_NE(other.find("files '08' exists; expected no such text"), std::string::npos) << other;
+  EXPECT_NE(other.find("recipes '01' is missing; expected it in the memory"), std::string::npos) << other;
 }
 
 TEST(PersistentBlocks, OutliveThePowerThatCtlSwitches) {

@@ -98,8 +98,8 @@ TEST(Via, IsRefusedWhereItCannotBe) {
       {"  - wait: { until: mill.D0 == lathe.D0, within: 1s, poll: 20ms, via: hmi }\n",
        "test.yaml:10:70: steps[0].wait.via: lathe is not on line 'hmi'; expected pc"},
       {"  - wait: { until: mill.D0 == 1, within: 1s, via: hmi }\n",
-       "test.yaml:10:51: steps[0].wait.via: needs `poll`, since only `poll` reads over a line; expected "
-       "`poll` as well"},
+       "test.yaml:10:51: steps[0].wait.via: has no effect without `poll`, because only `poll` reads over a "
+       "line; expected both"},
       {"  - advance: 1ms\n    via: hmi\n",
        "test.yaml:11:10: steps[0].via: is not a key here; expected one of advance"},
       {"  - write: { mill.D0: 5 }\n    via: usb\n  - expect: { mill.D0: 5 }\n    via: usb\n",

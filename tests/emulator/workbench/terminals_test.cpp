@@ -97,7 +97,7 @@ TEST(TerminalsOfEveryKind, ATurnOfSomethingElseIsRefused) {
             "test.yaml:5:21: steps[0].turn.it.MPG: 'man");
   EXPECT_EQ(diagnostic_of("  - turn: { it.MPG: 4, in: 2 }\n").substr(0, 35),
             "test.yaml:5:28: steps[0].turn.in: '");
-  EXPECT_NE(diagnostic_of("  - turn: { in: 2s }\n").find("turns nothing; expected something such as"),
+  EXPECT_NE(diagnostic_of("  - turn: { in: 2s }\n").find("turns nothing; expected counts such as"),
             std::string::npos);
   EXPECT_NE(diagnostic_of("  - input: { it.MPG: 4 }\n")
                 .find("it.MPG is a counted input; expected `turn` to change it"),

@@ -86,7 +86,7 @@ TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
             at + ".when: column 1 of 'feeder.A.puls > 3': axis A has no 'puls'; the nearest is 'pulses'");
   EXPECT_EQ(diagnostic("{ drop: feedr }"), at + ": no device is called 'feedr'; the nearest is 'feeder'");
   EXPECT_EQ(diagnostic("{ drop: feeder, nth: 3, name: all }"),
-            at + ".name: 'all' cannot be the name of a fault; expected another");
+            at + ".name: 'all' cannot be the name of a fault; expected another name");
 }
 
 }  // namespace runner_faults_test

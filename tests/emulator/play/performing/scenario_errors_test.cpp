@@ -139,7 +139,7 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: 1 }",
        ".reply: '1' is unknown; expected nothing (values that are read are compared without `reply`)"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, within: 1s }",
-       ".within: needs `reply: nothing`; expected that as well"},
+       ".within: has no effect without `reply: nothing`; expected both"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 0s }",
        ".within: takes no time; expected a duration above 0"},
       {"{ expect: { feeder.HW_Code: 1 }, reply: nothing, exception: 2 }",
@@ -251,7 +251,7 @@ TEST_F(ScenarioErrors, BytesAndLines) {
   expect_diagnostics(
       {{"understudy: 1\nbench:\n  lines:\n    a: { stations: [ { name: x, model: simple2-r3 } ] }\n"
         "    b: { stations: [ { name: y, model: simple2-r3 } ] }\nsteps: [ send: { bytes: 01 } ]\n",
-        "6: steps[0].send: 'line' is missing, but the bench has several; expected it here"}});
+        "6: steps[0].send: 'line' is missing, but the bench has several lines; expected it here"}});
 }
 
 TEST_F(ScenarioErrors, Conditions) {
@@ -263,7 +263,7 @@ TEST_F(ScenarioErrors, Conditions) {
       {"wait: { " + until + ", within: 1s, takes: 5 }",
        ".wait.takes: column 1 of '5': a number where a duration is expected, such as 3050ms"},
       {"wait: { " + until + ", within: 1s, takes: 2s +- 1ms }",
-       ".wait.takes: is longer than `within`, 1s; expected it to fit"},
+       ".wait.takes: is longer than `within`, 1s; expected a shorter time"},
       {"wait: { " + until + ", within: 1s, poll: 0ms }",
        ".wait.poll: takes no time; expected a duration above 0"},
       {"wait: { until: feeder.A.pulses > 5, within: 1s, poll: 1ms }",
@@ -297,7 +297,7 @@ TEST_F(ScenarioErrors, Conditions) {
 
 TEST_F(ScenarioErrors, FromOutside) {
   expect_step_diagnostics({
-      {"input: {}", ".input: is empty; expected something such as `{ feeder.DIN_10: on }`"},
+      {"input: {}", ".input: is empty; expected entries such as `{ feeder.DIN_10: on }`"},
       {"input: { feeder.DIN_99: on }",
        ".input.feeder.DIN_99: no input of feeder is called 'DIN_99'; the nearest is 'DIN_9'"},
       {"input: { feeder.DIN_1: high }", ".input.feeder.DIN_1: 'high' is not a level; expected on or off"},
@@ -305,7 +305,7 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"inject: { name: x }", ".inject: is empty; expected a fault, as in `{ stall: feeder.A }`"},
       {"inject: { stall: feeder.C }", ".inject: no axis of feeder is called 'C'; expected one of A, B"},
       {"inject: { stall: feeder.A, name: all }",
-       ".inject.name: 'all' cannot be the name of a fault; expected another"},
+       ".inject.name: 'all' cannot be the name of a fault; expected another name"},
       {"clear: jam", ".clear: no fault in force here is called 'jam'; there is none"},
       {"power: { feeder: down }", ".power.feeder: 'down' is unknown; expected on, off or cycle"},
       {"power: { feder: on }", ".power.feder: no device is called 'feder'; the nearest is 'feeder'"},
@@ -358,7 +358,7 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
        ".for.each: is empty; expected at least one value"},
       {"for: { each: [ 1 ], steps: [ advance: 1ms ] }", ".for: 'as' is missing; expected it here"},
       {"for: { each: [ { a: 1 } ], as: b, steps: [ advance: 1ms ] }",
-       ".for.as: names a value, but the rows name their values; expected no `as`"},
+       ".for.as: is not needed, because the rows name their values; expected no `as`"},
       {"for: { each: [ 1, 2 ], as: n, steps: [ advance: \"${m}ms\" ] }",
        ".for.steps[0].advance: column 1 of 'm': no parameter is called 'm'; expected 'n'"},
       {"include: none.yaml",

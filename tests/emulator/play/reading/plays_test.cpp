@@ -119,7 +119,7 @@ TEST_F(SeveralPlays, WhatIsWrongIsReportedWhereItStands) {
        "3: plays[0].stepz: is not a key here; expected one of name, bench, nv, firmware, gap, seed, "
        "parameters, environment, cases, choice, vary, hunt, steps (the nearest is 'steps')"},
       {head + "steps: [ advance: 1ms ]\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
-       "3: steps: cannot be combined with `plays`; expected them in one of the plays"},
+       "3: steps: cannot be combined with `plays`; expected `steps` in each play"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, steps: [ advance: 1ms ] } ]\n",
        "3: parameters.far: 'far' is not used; expected ${far} in one of the plays"},
       {head + "parameters: { far: 1 }\nplays: [ { name: a, parameters: { near: 1 }, steps: [ advance: "

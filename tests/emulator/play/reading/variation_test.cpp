@@ -176,7 +176,7 @@ TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
             "p: has no values; expected `from`, `between` or `one_of`, as in `{ from: 1, to: 9, step: 2 }`"},
            {"{ from: 1, to: 9, stop: 2 }",
             "p.stop: is not a key here; expected one of from, to, step (the nearest is 'step')"},
-           {"{ from: 9, to: 1, step: 1 }", "p.to: 1 is less than 9; expected the larger one second"},
+           {"{ from: 9, to: 1, step: 1 }", "p.to: 1 is less than 9; expected the larger value second"},
            {"{ from: 1, to: 9, step: 0 }", "p.step: is 0; expected more than 0"},
            {"{ from: 1, to: 9ms, step: 1 }", "p.to: is a duration; expected a number as 1 is"},
            {"{ from: a, to: 9, step: 1 }",
@@ -184,7 +184,7 @@ TEST(Variation, WhatIsWrongIsSaidWithItsPlace) {
             "or "
             "2.5V"},
            {"{ from: 0.5ns, to: 9ns, step: 1ns }",
-            "p.from: '0.5ns' is too large or too fine; expected one that can be counted"},
+            "p.from: '0.5ns' is too large or too fine; expected a value that can be counted"},
            {"{ from: -1ms, to: 1ms, step: 1ms }", "p.from: is negative; expected a duration"},
            {"{ between: [ 1, 2, 3 ] }", "p.between: expected two values, as in `[ 1, 9 ]`"},
            {"{ between: [ 1, 9 ], samples: 10 }",

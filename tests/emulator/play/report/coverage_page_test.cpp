@@ -45,7 +45,7 @@ TEST(TouchedPage, BeginsWithWhatWasNeverTouched) {
       << page;
   EXPECT_EQ(touched_text(report), "coverage of m: registers 2 of 3\n  m: registers: B: never read\n");
   report.models["m"][0].rows[1].counts[0] = 1;
-  EXPECT_NE(touched_page(report, "1.2").find("Everything has been touched."), std::string::npos);
+  EXPECT_NE(touched_page(report, "1.2").find("Everything has been used."), std::string::npos);
 }
 
 }  // namespace coverage_page_test

@@ -358,7 +358,7 @@ TEST(AllDiagnostics, OfStepsOnALine) {
       R"(scenario.yaml:4: steps[0].write.feeder.Nosuch: feeder: no register is called 'Nosuch'; expected one such as 'STATUS'
 scenario.yaml:4: steps[0].write.turner.HW_Code: turner.HW_Code cannot be written; it is read-only (use `exception:` if the step tests that)
 scenario.yaml:5: steps[0].exception: 'many' is not valid; expected a whole number from 1 to 255
-scenario.yaml:6: steps[0].within: needs `reply: nothing`; expected that as well
+scenario.yaml:6: steps[0].within: has no effect without `reply: nothing`; expected both
 scenario.yaml:7: steps[0].via: no line is called 'c'; expected 'rs485'
 scenario.yaml:8: steps[0].at: is not a key here; expected one of write, exception, reply, within, via
 scenario.yaml:9: steps[1].expect.feeder.Nosuch: feeder: no register is called 'Nosuch'; expected one such as 'STATUS'
@@ -422,7 +422,7 @@ scenario.yaml:5: steps[1].turn.feeder.A: feeder.A has no hand wheel; expected `e
 scenario.yaml:5: steps[1].turn.turner.MPG: no axis of turner is called 'MPG'; expected one of A, B
 scenario.yaml:6: steps[2].inject: no device is called 'q'; expected one of feeder, turner
 scenario.yaml:6: steps[2].inject.one_in: 'none' is not valid; expected a whole number
-scenario.yaml:6: steps[2].inject.name: 'all' cannot be the name of a fault; expected another
+scenario.yaml:6: steps[2].inject.name: 'all' cannot be the name of a fault; expected another name
 scenario.yaml:7: steps[3].power.feeder: 'maybe' is unknown; expected on, off or cycle
 scenario.yaml:7: steps[3].power.q: no device is called 'q'; expected one of feeder, turner
 scenario.yaml:8: steps[3].advance: is a second step in one entry; expected `- ` before it
@@ -430,7 +430,7 @@ scenario.yaml:9: steps[4].save.feeder: nosuch is not a folder; expected a folder
 scenario.yaml:9: steps[4].save.q: no device is called 'q'; expected one of feeder, turner
 scenario.yaml:10: steps[5].program.feeder: nosuch.lst cannot be read (No such file or directory); expected a listing
 scenario.yaml:10: steps[5].program.q: no device is called 'q'; expected one of feeder, turner
-scenario.yaml:11: steps[5].refused: expected true, or a part of the message about the first mistake
+scenario.yaml:11: steps[5].refused: expected true, or part of the message about the first mistake
 scenario.yaml:15: steps[6].program.feeder: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec
 scenario.yaml:16: steps[6].program.feeder: operand 1: 'x' is not a number; expected 0 to 65535
 scenario.yaml:17: steps[7].command.feeder: simple2-r3 has no named commands; expected registers to write

@@ -219,10 +219,9 @@ TEST(AsciiLine, HasItsOwnSettings) {
   };
   EXPECT_EQ(
       wrong("data_bits: 7"),
-      "m.yaml:6:20: line.data_bits: a frame of Modbus RTU has bytes of 8 bits; expected 8, or `framing: "
-      "ascii`");
+      "m.yaml:6:20: line.data_bits: Modbus RTU frames have bytes of 8 bits; expected 8, or `framing: ascii`");
   EXPECT_EQ(wrong("framing: ascii, silence: 2ms"),
-            "m.yaml:6:34: line.silence: ends frames of Modbus RTU; expected it without `framing: ascii`");
+            "m.yaml:6:34: line.silence: ends Modbus RTU frames; expected no `silence` with `framing: ascii`");
   EXPECT_EQ(wrong("framing: asci"), "m.yaml:6:18: line.framing: 'asci' is not valid; the nearest is 'ascii'");
 }
 
