@@ -74,7 +74,8 @@ std::string serve_session(int input, int output, const Launcher& launcher,
     if (ready > 0 && waits[0].revents != 0) {
       const ssize_t got = read(input, some.data(), some.size());
       if (got == 0)
-        return unframer.is_empty() ? "" : "the input ends in the middle of a message; expected all of it";
+        return unframer.is_empty() ? ""
+                                   : "the input ends in the middle of a message; expected the whole message";
       if (got < 0 && errno != EINTR) return {};  // the client has gone away
       if (got > 0) unframer.push({some.data(), static_cast<std::size_t>(got)});
       if (std::string why = handle_all(session, unframer); !why.empty()) return why;

@@ -43,7 +43,7 @@ Session::Address Session::parsed_address(const Json& arguments, const char* key)
   const std::int64_t space = address ? (*address >> kInstructionBits) - kFirstProgram : -1;
   if (space < 0 || space >= static_cast<std::int64_t>(spaces_.size()))
     throw RequestError(std::string(key) + ": " + quoted(text) +
-                       " is not an address; expected one of `stackTrace`");
+                       " is not an address; expected one from `stackTrace`");
   constexpr std::int64_t kLow = (std::int64_t{1} << kInstructionBits) - 1;
   return {static_cast<std::size_t>(space), (*address & kLow) + whole_or(arguments, "offset", 0)};
 }
@@ -57,7 +57,7 @@ Json Session::disassemble(const Json& arguments) {
   const std::int64_t shift = whole_or(arguments, "instructionOffset", 0);
   if (shift < -kMaxInstructions || shift > kMaxInstructions)
     throw RequestError("instructionOffset: expected at most " + std::to_string(kMaxInstructions) +
-                       " instructions before or after");
+                       " instructions before or after the address");
   const Thread space = spaces_[from.space];
   const Json reply =
       link_->ask({{"do", "source"}, {"device", devices_[space.device].name}, {"instructions", true}});

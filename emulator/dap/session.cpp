@@ -128,7 +128,8 @@ Json Session::answer(const std::string& command, const Json& arguments) {
   const auto all = rows();
   const auto row =
       std::find_if(all.begin(), all.end(), [&](const Row& one) { return one.command == command; });
-  if (row == all.end()) throw RequestError("this request is unknown; expected one of the capabilities");
+  if (row == all.end())
+    throw RequestError("this request is unknown; expected one that the capabilities list");
   if ((row->phases & in(phase_)) == 0) throw RequestError(std::string(word_of(phase_)));
   return (this->*row->answer)(arguments);
 }

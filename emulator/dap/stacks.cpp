@@ -87,7 +87,7 @@ const Session::Thread& Session::thread_of(const Json& arguments) const {
   const std::int64_t number = require_whole(arguments, "threadId");
   if (number < 1 || number > static_cast<std::int64_t>(threads_.size()))
     throw RequestError("threadId: there is no thread " + std::to_string(number) +
-                       "; expected one of `threads`");
+                       "; expected one from `threads`");
   return threads_[static_cast<std::size_t>(number) - 1];
 }
 
@@ -146,7 +146,7 @@ Json Session::stack_trace(const Json& arguments) {
 std::size_t Session::device_of_source(std::int64_t reference) const {
   if (reference < 1 || reference > static_cast<std::int64_t>(devices_.size()))
     throw RequestError("sourceReference: there is no source " + std::to_string(reference) +
-                       "; expected one of `stackTrace`");
+                       "; expected one from `stackTrace`");
   return static_cast<std::size_t>(reference) - 1;
 }
 
@@ -162,7 +162,7 @@ std::size_t Session::device_of_frame(const Json& arguments) const {
   if (!arguments.contains("frameId") || arguments["frameId"].is_null()) return 0;
   const std::int64_t thread = require_whole(arguments, "frameId") / kPerThread;
   if (thread < 1 || thread > static_cast<std::int64_t>(threads_.size()))
-    throw RequestError("frameId: there is no such frame; expected one of `stackTrace`");
+    throw RequestError("frameId: there is no such frame; expected one from `stackTrace`");
   return threads_[static_cast<std::size_t>(thread) - 1].device;
 }
 

@@ -103,7 +103,7 @@ Json Session::variables(const Json& arguments) {
     add_section(device, section, arguments, all);
   } else {
     throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
-                       "; expected one of `scopes`");
+                       "; expected one from `scopes`");
   }
   return {{"variables", std::move(all)}};
 }
@@ -113,7 +113,7 @@ std::size_t Session::device_of_reference(std::int64_t reference) const {
   if (reference > kFirstBits) return device_of_name(register_of_reference(reference));
   if (number < 0 || number >= static_cast<std::int64_t>(devices_.size()))
     throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
-                       "; expected one of `scopes`");
+                       "; expected one from `scopes`");
   return static_cast<std::size_t>(number);
 }
 
@@ -121,7 +121,7 @@ const std::string& Session::register_of_reference(std::int64_t reference) const 
   const std::int64_t number = reference - kFirstBits;
   if (number < 1 || number > static_cast<std::int64_t>(with_bits_.size()))
     throw RequestError("variablesReference: there is no reference " + std::to_string(reference) +
-                       "; expected one of `variables`");
+                       "; expected one from `variables`");
   return with_bits_[static_cast<std::size_t>(number) - 1];
 }
 

@@ -195,15 +195,14 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
   const Hearing ours = hearing_of(line);
   if (hearing.is_strict != ours.is_strict) {
     throw StateError(hearing.is_strict
-                         ? "was saved with strict framing; expected a bench that has it too"
+                         ? "was saved with strict framing; expected a bench with strict framing"
                          : "was saved with tolerant framing; expected a bench without strict framing");
   }
   if (hearing.enforces_settings != ours.enforces_settings) {
     throw StateError(hearing.enforces_settings ? "was saved by a bench that ignores hosts with another "
-                                                 "speed; expected a bench that ignores them "
-                                                 "too"
+                                                 "speed; expected a bench that also ignores them"
                                                : "was saved by a bench that accepts hosts with any speed; "
-                                                 "expected a bench that accepts them too");
+                                                 "expected a bench that also accepts them");
   }
 }
 

@@ -56,7 +56,7 @@ const std::vector<BadUsage> kBadUsages = {
     {"LinkOfTwoLines", {"serve", "--model", "simple2-r3", "--link", "a\nb"}, "--link: a\\nb: has a control"},
     {"NvIsNoFolder",
      {"serve", "{}/good.yaml", "--nv", "/dev/null"},
-     "--nv: /dev/null is not a folder; expected one"},
+     "--nv: /dev/null is not a folder; expected a folder"},
     {"ScenarioToServe", {"serve", "{}/play.yaml"}, "play.yaml:1:1: bench: is a scenario; expected a bench"},
     {"BenchToRun", {"run", "{}/good.yaml"}, "good.yaml:1:1: scenario: is a bench; expected a scenario"},
     {"VeryLongValue", {"serve", "{}/good.yaml", "--timing", "{120}"}, "xxx...' is unknown; expected wire or"},

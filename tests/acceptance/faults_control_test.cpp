@@ -94,8 +94,9 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   expect_refused(daemon, {"clear", "1", "2"}, "clear: expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "one"},
                  "clear: 'one' is not understood; expected the number of a fault, or all");
-  expect_refused(daemon, {"clear", "1"},
-                 "clear: number: 1 is not a fault in force; expected none, since no fault is in force");
+  expect_refused(
+      daemon, {"clear", "1"},
+      "clear: number: 1 is not a fault in force; expected no number, because no fault is in force");
   EXPECT_EQ(daemon.ctl({"list", "all"}).errors,
             "understudy: ctl list: 'all' is one argument too many; expected nothing more\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");

@@ -197,7 +197,7 @@ TEST_P(FifteenStations, KeepTheirOwnValuesUnderInterleavedTraffic) {
   const Finished status = daemon_->ctl({"--json", "status"});
   traffic.expect_counted(Json::parse(status.output)["status"]["lines"].at(0));
   for (const std::string& line : lines_of(daemon_->errors())) {
-    EXPECT_NE(line.find("a host asks for station "), std::string::npos) << line;
+    EXPECT_NE(line.find("a host sends requests to station "), std::string::npos) << line;
     EXPECT_TRUE(line.ends_with("the line has 1 (s1), 2 (s2), 3 (s3), 4 (s4), and 11 more")) << line;
   }
 }

@@ -322,7 +322,7 @@ TEST_F(HostTime, RefusesFlagsThatDisagree) {
       "understudy: --host-time: the host's waits determine how fast time passes; expected no --speed\n");
   const Finished name = exec({"true"}, {"--listen", "rtu://somewhere.example:5020"});
   EXPECT_EQ(name.exit_code, 3);
-  EXPECT_NE(name.errors.find("rtu://somewhere.example:5020: a name's address is not known in simulated time"),
+  EXPECT_NE(name.errors.find("rtu://somewhere.example:5020: host names cannot be resolved in simulated time"),
             std::string::npos)
       << name.errors;
   const Finished twice =

@@ -75,7 +75,8 @@ TEST(Lint, OfARunningBenchIsReportedWhenItEnds) {
   EXPECT_EQ(asked.exit_code, 1);
   EXPECT_EQ(understudy({"poll", running.port(), "0x0001"}).exit_code, 0);
   const std::string at_once =
-      "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
+      "understudy: line line: a host sends requests to station 9, which does not exist; the line has 1 "
+      "(device)\n";
   EXPECT_EQ(running.errors(), at_once);
   EXPECT_EQ(running.stop(SIGTERM), 0);
   const std::string errors = running.errors();

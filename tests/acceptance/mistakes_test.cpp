@@ -159,8 +159,8 @@ TEST_F(Mistakes, OfValuesAreQuotedWithWhatIsExpected) {
            "understudy: ctl input: DIN_1: 'high' is not a level; expected on or off"},
           {{"clear", "9"},
            2,
-           "understudy: ctl clear: number: 9 is not a fault in force; expected none, since no fault is in "
-           "force"},
+           "understudy: ctl clear: number: 9 is not a fault in force; expected no number, because no fault "
+           "is in force"},
           {{"send", "01", "03"},
            2,
            "understudy: ctl send: line: '01' is unknown; expected one of line; put the bytes in quotes, as "
@@ -172,7 +172,7 @@ TEST_F(Mistakes, OfValuesAreQuotedWithWhatIsExpected) {
            "00 00 01'"},
           {{"send", "0x01"},
            2,
-           "understudy: ctl send: bytes: '0x01' is not hexadecimal digits; expected some such as \"01 03 00 "
+           "understudy: ctl send: bytes: '0x01' is not hexadecimal digits; expected bytes such as \"01 03 00 "
            "00 00 01\""},
           {{"advance", "5"}, 2, "understudy: ctl advance: expected one duration with a unit, such as 250ms"},
           {{"scope", "--trace", "@shot.csv"},

@@ -194,7 +194,8 @@ TEST(ModbusTcpLine, ReportsAnAbsentStationAsSoonAsRequested) {
   EXPECT_EQ(modbus_read_registers(host.get(), 1, 1, &value), -1);
   EXPECT_EQ(errno, EMBXGTAR);
   const std::string reported =
-      "understudy: line line: a host asks for station 9, which does not exist; the line has 1 (device)\n";
+      "understudy: line line: a host sends requests to station 9, which does not exist; the line has 1 "
+      "(device)\n";
   EXPECT_TRUE(eventually([&] { return served.errors().find(reported) != std::string::npos; }))
       << served.errors();
   EXPECT_EQ(served.errors().find("unit 9"), std::string::npos) << "it is reported once: " << served.errors();

@@ -91,7 +91,8 @@ TEST_F(Poll, ReportsWhoWasAskedWhereAndHow) {
   poll({"--station", "9", "--timeout", "100ms", "2"});
   EXPECT_TRUE(eventually([&] {
     return daemon_.errors().find(
-               "understudy: line line: a host asks for station 9, which does not exist; the line has 1 "
+               "understudy: line line: a host sends requests to station 9, which does not exist; the line "
+               "has 1 "
                "(device)\n") != std::string::npos;
   })) << daemon_.errors();
   EXPECT_EQ(daemon_.errors().find("station 9"), daemon_.errors().rfind("station 9"));

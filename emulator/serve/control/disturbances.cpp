@@ -258,7 +258,7 @@ std::string numbers_of_faults(const world::World& world) {
     if (++count > kMaxListed) return "one of " + numbers + ", ...";
     numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
   }
-  return numbers.empty() ? "none, since no fault is in force" : "one of " + numbers;
+  return numbers.empty() ? "no number, because no fault is in force" : "one of " + numbers;
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ std::string require_text(const Json& message, const char* key) {
 const Json& require_values(const Json& message, std::string_view expected) {
   const Json& values = require(message, "values");
   if (!values.is_object() || values.empty()) {
-    throw is_not("values", values, "an object of " + std::string(expected), "one that is not empty");
+    throw is_not("values", values, "an object of " + std::string(expected), "an object that is not empty");
   }
   return values;
 }

@@ -41,7 +41,7 @@ struct Verb {
 Json refuse_without_recording(Daemon& /*daemon*/, const Json& message) {
   throw MessageError(
       message["do"].get<std::string>() +
-      ": this daemon serves no recording; expected one that `replay RECORDING --serve` started");
+      ": this daemon does not serve a recording; expected a daemon that `replay RECORDING --serve` started");
 }
 
 constexpr std::array<Verb, 43> kVerbs{{{"status", nullptr, nullptr, status_message},

@@ -86,7 +86,7 @@ Json snapshots_message(Daemon& daemon, const Json& message) {
   require_keys(message, {"do", "drop"});
   auto& kept = daemon.observers().snapshots;
   if (message.contains("drop") && kept.erase(require_text(message, "drop")) == 0) {
-    throw MessageError("drop: there is no snapshot of that name");
+    throw MessageError("drop: there is no snapshot with that name");
   }
   Json snapshots = Json::array();
   for (const auto& [name, one] : kept) snapshots.push_back({{"name", name}, {"time_ns", one.at.count()}});
@@ -98,7 +98,7 @@ Json snapshot_by_name(Daemon& daemon, const Json& message) {
   auto& kept = daemon.observers().snapshots;
   if (kept.size() >= Observers::kMaxSnapshots && !kept.contains(name)) {
     throw MessageError("name: there are " + std::to_string(kept.size()) +
-                       " snapshots already; expected one of them to be dropped first");
+                       " snapshots already; expected `drop` of one of them first");
   }
   daemon.catch_up();
   kept.insert_or_assign(name, Observers::Kept{daemon.world().now(), world::save(daemon.world())});

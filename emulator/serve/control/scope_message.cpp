@@ -182,7 +182,7 @@ Json send_message(Daemon& daemon, const Json& message) {
   } else {
     const auto parsed = bytes_of(require_text(message, "bytes"));
     if (!parsed)
-      throw is_not("bytes", message["bytes"], "hexadecimal digits", "some such as \"01 03 00 00 00 01\"");
+      throw is_not("bytes", message["bytes"], "hexadecimal digits", "bytes such as \"01 03 00 00 00 01\"");
     bytes = *parsed;
   }
   if (message.contains("checksum") && message["checksum"] == true) understudy::pty::append_rtu_crc(bytes);
@@ -193,7 +193,7 @@ Json send_message(Daemon& daemon, const Json& message) {
                        ": a host has the line open and would receive the reply; expected it to be closed");
   }
   if (line.line.due() || line.line.room() < bytes.size()) {
-    throw MessageError(name + ": bytes are in transit there; expected an idle line");
+    throw MessageError(name + ": bytes are in transit on the line; expected an idle line");
   }
   // The bytes arrive as if from a host that has closed the port: the reply appears in `frames`, but nobody
   // receives it.

@@ -53,7 +53,9 @@ std::string control_folder() {
   // If another user owned a folder of that name, that user could read the messages.
   if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
       (status.st_mode & 077) != 0) {
-    throw ControlError(folder + ": is not a private folder of your own; expected one, or --control SOCKET");
+    throw ControlError(
+        folder +
+        ": is not your private folder; expected a folder that only you can access, or --control SOCKET");
   }
   return folder;
 }

@@ -74,7 +74,8 @@ Stretch stretch_of(const Json& message, SimTime begin, SimTime end) {
   if (message.contains("dots")) stretch.dots = require_count(message, "dots", kMaxDots);
   if (stretch.dots == 0) throw MessageError("dots: expected 1 to " + std::to_string(kMaxDots));
   if (stretch.to <= stretch.from)
-    throw MessageError("to_ns: is not later than from_ns; expected a stretch between 0 and the last moment");
+    throw MessageError(
+        "to_ns: is not later than from_ns; expected a time span between 0 and the last moment");
   return stretch;
 }
 

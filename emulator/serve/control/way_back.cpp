@@ -54,7 +54,7 @@ Before before_now(Daemon& daemon) {
 void require_way_back(const Daemon& daemon) {
   if (!daemon.pacer().standing() || daemon.is_advancing()) throw MessageError(std::string(kRunsByItself));
   if (const auto line = line_with_host(daemon))
-    throw MessageError("back: a host has " + *line + " open; expected none, or a recording");
+    throw MessageError("back: a host has " + *line + " open; expected no host on the line, or a recording");
   if (const std::string_view why = daemon.why_no_restore(); !why.empty())
     throw MessageError(std::string(why));
   const auto& course = daemon.observers().course;

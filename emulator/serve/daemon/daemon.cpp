@@ -309,8 +309,8 @@ void Daemon::work_on_advance() {
 
 std::string_view Daemon::why_no_restore() const {
   if (advance_done_) return "time is being advanced; expected `restore` after that";
-  if (recording_) return "a recording is in progress and cannot go back in time; expected none";
-  if (trace_) return "a trace is in progress and cannot go back in time; expected none";
+  if (recording_) return "a recording is in progress and cannot go back in time; expected no recording";
+  if (trace_) return "a trace is in progress and cannot go back in time; expected no trace";
   return {};
 }
 

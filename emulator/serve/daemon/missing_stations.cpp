@@ -56,7 +56,7 @@ void MissingStations::check(const pty::CapturedPacket& packet) {
   const auto carried = packet.is_text ? pty::rtu_of_ascii(packet.bytes) : std::nullopt;
   const std::uint8_t address = carried ? carried->front() : packet.bytes.front();
   if (line.stations.empty() || may_receive(line, address) || !is_new(packet.line, address)) return;
-  log_("line " + line.line.name() + ": a host asks for station " + std::to_string(address) +
+  log_("line " + line.line.name() + ": a host sends requests to station " + std::to_string(address) +
        ", which does not exist; the line has " + stations_of(line));
 }
 

@@ -51,7 +51,8 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (std::filesystem::is_directory(folder)) return;
-  if (std::filesystem::exists(folder)) throw NvError("--nv: " + folder + " is not a folder; expected one");
+  if (std::filesystem::exists(folder))
+    throw NvError("--nv: " + folder + " is not a folder; expected a folder");
   throw std::system_error(error, "--nv: " + folder + " cannot be created");
 }
 

@@ -49,9 +49,9 @@ std::string address_of(const world::TcpAddress& address) {
     const bool is_here = IN6_IS_ADDR_UNSPECIFIED(&six) || IN6_IS_ADDR_LOOPBACK(&six);
     return is_here ? std::string() : inet_ntop(AF_INET6, &six, text.data(), text.size());
   }
-  throw pty::PortError("--host-time: " + world::to_string(address) +
-                       ": a name's address is not known in simulated time; expected localhost, or an address "
-                       "in numbers");
+  throw pty::PortError(
+      "--host-time: " + world::to_string(address) +
+      ": host names cannot be resolved in simulated time; expected localhost, or a numeric address");
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ void require_host_library(const std::string& path) {
   struct statvfs system {};
   if (::fstatvfs(file.get(), &system) == 0 && (system.f_flag & ST_NOEXEC) != 0)
     refuse(
-        "is on a file system where no program may run (noexec), so no host can load it; expected another "
-        "one");
+        "is on a file system where no program may run (noexec), so no host can load it; expected a different "
+        "file system");
   std::string text;
   if (S_ISREG(status.st_mode)) {
     std::ifstream stream(path, std::ios::binary);

@@ -66,7 +66,7 @@ std::string why_not(const std::string& file, int depth) {
       head.compare(offsetof(Elf64_Ehdr, e_machine), 2, own, offsetof(Elf64_Ehdr, e_machine), 2) == 0;
   if (!is_ours) {
     return name + " is for a different processor" + (head[EI_CLASS] == ELFCLASS32 ? " (32 bits)" : "") +
-           " and cannot load our library; expected a program for this one";
+           " and cannot load our library; expected a program for this processor";
   }
   if (!is_dynamic(head))
     return name +
@@ -77,7 +77,7 @@ std::string why_not(const std::string& file, int depth) {
   if (is_another)
     return name +
            " runs as another user (setuid or setgid), so it does not load our library; expected a copy "
-           "without that";
+           "without these bits";
   return {};
 }
 

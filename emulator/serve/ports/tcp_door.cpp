@@ -89,7 +89,8 @@ std::unique_ptr<ClientProtocol> TcpDoor::make_protocol() {
     const std::string why = has_reported ? "" : why_unanswered(station, function, port_.world_line());
     if (!why.empty()) {
       has_reported = true;
-      log_("a host at " + world::to_string(address_) + " asks for unit " + std::to_string(unit) + ", " + why);
+      log_("a host at " + world::to_string(address_) + " sends requests to unit " + std::to_string(unit) +
+           ", " + why);
     }
     return station;
   };

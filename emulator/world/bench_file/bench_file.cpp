@@ -101,7 +101,7 @@ class BenchReader {
 
   void require_new_name(const YamlFields& field, const std::string& name) const {
     require_name(field, name);
-    if (name == kTime) field.fail("is the name of the time in conditions; expected another name");
+    if (name == kTime) field.fail("means simulated time in conditions; expected another name");
     if (names_.find_device(name) >= 0)
       field.fail("two devices are called " + understudy::quoted(name) + "; expected a different name");
   }
@@ -198,7 +198,7 @@ class BenchReader {
     const auto name_of = [&](std::size_t number) { return std::string(model.line.ports[number].name); };
     auto& stations = places_[device].stations;
     if (stations[port] && stations.size() == 1)
-      station.fail("the device is already on a line; expected it on only one");
+      station.fail("the device is already on a line; expected it on only one line");
     if (stations[port])
       station.fail("the device's port " + name_of(port) +
                    " is already on a line; expected another `port`, or the device on one line");

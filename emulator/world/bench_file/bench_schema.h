@@ -26,7 +26,8 @@ inline constexpr Schema kAddressSchema = integer_schema(0, 255);
 
 inline constexpr Key kNameKey{"name", "The device's name: letters, digits, _ and -.", &kText, true};
 inline constexpr Key kModelKey{
-    "model", "A model, as `understudy models` lists them, or the path of a model file.", &kText, true};
+    "model", "The name of a model (`understudy models` lists them), or the path of a model file.", &kText,
+    true};
 inline constexpr Key kAddressKey{"address", "The station number (default: 1, or the one in its memory).",
                                  &kAddressSchema};
 inline constexpr Key kPortKey{"port", "The port of the device on this line (default: its first).", &kText};

@@ -121,7 +121,7 @@ void read_nv_path(const YamlFields& field, const std::optional<std::string>& fol
   for (const DeviceSetup& other : bench.devices) {
     if (other.nv_path == device.nv_path) {
       field.fail("device " + understudy::quoted(other.settings.name) +
-                 " has the same file; expected another");
+                 " has the same file; expected another file");
     }
   }
 }
@@ -246,7 +246,7 @@ void require_name(const YamlFields& field, const std::string& name) {
 }
 
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field) {
-  if (!folder) field.fail("is a path; expected none, since a recording contains everything");
+  if (!folder) field.fail("is a path; expected no path, because a recording contains everything");
   if (field.text().empty()) field.fail("is empty; expected a path");
   return (std::filesystem::path(*folder) / field.text()).lexically_normal().string();
 }

@@ -75,7 +75,7 @@ void read_listen(const YamlFields& listen, const std::vector<LineSetup>& lines, 
 
 void require_ports(const YamlFields& fields, const LineSetup& line, const Bench& bench) {
   if (!line.has_pty && !fields.has("listen"))
-    fields.at("pty").fail("leaves the line without a port; expected `listen` as well");
+    fields.at("pty").fail("leaves the line without a port; expected `listen`");
   if (!line.has_pty && !line.link.empty())
     fields.at("link").fail("needs a pseudo-terminal, but `pty` is false; expected one of the two");
   const bool is_text = !line.stations.empty() &&
@@ -104,7 +104,7 @@ std::string read_link(const YamlFields& link, const std::optional<std::string>& 
   std::error_code ignored;
   const fs::file_type there = fs::symlink_status(path, ignored).type();
   if (name.empty() || name == "." || name == ".." || there == fs::file_type::directory)
-    link.fail(understudy::quoted(written) + " is a folder; expected a path for the link in it");
+    link.fail(understudy::quoted(written) + " is a folder; expected the path of a link in this folder");
   if (there == fs::file_type::character || there == fs::file_type::block)
     link.fail(understudy::quoted(written) + " is a device file of this machine; expected a free path");
   const auto absolute = [](const std::string& some) { return fs::weakly_canonical(fs::absolute(some)); };

@@ -114,7 +114,7 @@ void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, 
   const std::int64_t start = setup.position_pulses;
   if (knows_start && (span.first > start || span.last < start)) {
     travel.fail("does not include position " + std::to_string(start) +
-                ", where the machine starts; expected it inside");
+                ", where the machine starts; expected a range with this position");
   }
   setup.travel = span;
 }
@@ -148,7 +148,7 @@ void read_limits(const YamlFields& limits, const Model* model, PlantSetup& setup
     keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionSchema); });
     keys.read(side + "_input", [&](const YamlFields& field) {
       if (!limits.has(side)) {
-        field.fail("there is no " + side + " limit switch; expected `" + side + "` as well");
+        field.fail("there is no " + side + " limit switch; expected `" + side + "`");
       }
       input = read_own_input(field, model);
     });
@@ -157,7 +157,7 @@ void read_limits(const YamlFields& limits, const Model* model, PlantSetup& setup
   read("upper", setup.upper_limit, setup.upper_limit_input);
   diagnostics.attempt([&] {
     if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
-      limits.fail("the lower limit is not below the upper one; expected it below");
+      limits.fail("the lower limit is not below the upper one; expected `lower` below `upper`");
     }
   });
   keys.read("hysteresis", [&](const YamlFields& field) {

@@ -42,7 +42,7 @@ void require_room(const YamlFields& station, const StationSetup& wanted, const L
     const Protocol& other = rules_of(wanted).protocol;
     if (&first == &other) return;
     station.fail(quoted(bench.devices[wanted.device].settings.name) + " speaks " + std::string(other.name) +
-                 ", and the line " + std::string(first.name) + "; expected one protocol on a line");
+                 ", but the line speaks " + std::string(first.name) + "; expected one protocol on a line");
   }
   const StationSetup& lone = is_alone(wanted) ? wanted : line.stations.front();
   const LineRules& rules = rules_of(lone);
@@ -58,12 +58,13 @@ std::optional<int> read_address(const YamlFields& station, DeviceSetup& device) 
   const auto field = station.find("address");
   if (!field) return std::nullopt;
   const auto& numbers = device.model->line.station_numbers;
-  if (!numbers) field->fail(std::string(device.model->name) + " has no station number; expected none");
+  if (!numbers)
+    field->fail(std::string(device.model->name) + " has no station number; expected no `address`");
   const auto address = static_cast<int>(field->integer(numbers->lowest, numbers->highest));
   std::optional<int>& known = device.settings.address;
   if (known && *known != address) {
     field->fail("the device has one station number, and on another line it is " + std::to_string(*known) +
-                "; expected the same");
+                "; expected the same number");
   }
   known = address;
   return address;
@@ -108,7 +109,7 @@ void check_addresses(const std::vector<std::vector<NumberedStation>>& lines, con
       if (!number || taken.insert(*number).second) continue;
       diagnostics.attempt([&] {
         station.fields.fail("address " + std::to_string(*number) +
-                            " is taken on this line; expected another");
+                            " is taken on this line; expected another address");
       });
     }
   }

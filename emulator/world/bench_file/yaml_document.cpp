@@ -107,15 +107,15 @@ constexpr std::array kPlainWords{
                "a '{' inside brackets begins a map; expected quotes around a ${...} between braces or "
                "brackets"},
     PlainWords{"illegal map value", is_below_glued_key,
-               "the line before it has no space after its ':'; expected `key: value` there"},
+               "the previous line has no space after its ':'; expected `key: value` there"},
     PlainWords{"illegal map value", has_second_colon,
-               "a second ': ' in one line; expected quotes around a text with ': ', or a line of its own"},
+               "a second ': ' in one line; expected quotes around a text with ': ', or a separate line"},
     PlainWords{"illegal map value", always,
-               "this key does not fit the line before it; expected `key: value` there, and the same number "
-               "of spaces before the keys of one map"},
+               "this key does not fit the previous line; expected `key: value` there, and the same number of "
+               "spaces before the keys of one map"},
     PlainWords{"end of map not found", is_glued_key,
                "this line has no space after its ':'; expected `key: value`"},
-    PlainWords{"illegal map key", always, "a key is not allowed here; expected it on a line of its own"},
+    PlainWords{"illegal map key", always, "a key is not allowed here; expected it on a separate line"},
     PlainWords{"end of map not found", is_in_line,
                "more text follows a complete value; expected quotes around all of the text"},
     PlainWords{"end of map not found", always, kOtherIndentation},
@@ -126,10 +126,11 @@ constexpr std::array kPlainWords{
                "a '{' before this is not closed; expected ',' or '}' here"},
     PlainWords{"end of sequence flow not found", always,
                "a '[' before this is not closed; expected ',' or ']' here"},
-    PlainWords{"illegal flow end", always, "no '[' or '{' before this matches it; expected one"},
+    PlainWords{"illegal flow end", always, "there is no matching '[' or '{' before this; expected one"},
     PlainWords{"illegal block entry", always,
                "a list's '- ' is not allowed here; expected it at the beginning of a line"},
-    PlainWords{"illegal EOF in scalar", always, "a quote is not closed; expected another at the text's end"},
+    PlainWords{"illegal EOF in scalar", always,
+               "a quote is not closed; expected a quote at the end of the text"},
     PlainWords{"unknown token", always, "a text cannot begin with this character; expected quotes around it"},
     PlainWords{"the referenced anchor is not defined", always,
                "no text before this has this anchor; expected `&name` before `*name`, or quotes around a "
@@ -288,7 +289,7 @@ std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::s
     const Stop stop(text, second.mark);
     if (stop.line.starts_with("---") || std::string_view(text).find("\n...") != std::string_view::npos) {
       throw FileError({file, second.mark.line + 1, second.mark.column + 1},
-                      what + ": a second document begins here; expected one");
+                      what + ": a second document begins here; expected only one");
     }
     throw not_yaml(stop, file, what,
                    "this does not belong to the map before it; expected one map, `key: value`");

@@ -329,7 +329,7 @@ bool YamlFields::on_or_off() const {
   const std::string word = text();
   const bool on = word == "on" || word == "true" || word == "1";
   if (!on && word != "off" && word != "false" && word != "0")
-    fail(understudy::quoted(word) + " is neither on nor off; expected one of them");
+    fail(understudy::quoted(word) + " is neither on nor off; expected on or off");
   return on;
 }
 

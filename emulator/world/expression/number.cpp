@@ -85,7 +85,7 @@ Number apply_to_reals(Operator operation, double a, double b) {
     case Operator::divide:
       if (b == 0) division_by_zero();
       return finite(a / b);
-    default: throw ArithmeticError("bits, shifts and '%' take whole numbers");
+    default: throw ArithmeticError("bits, shifts and '%' require whole numbers");
   }
 }
 
@@ -183,7 +183,7 @@ Number apply(Operator operation, Number a) {
       return -a.whole();
     case Operator::absolute: return a < 0 ? apply(Operator::negate, a) : a;
     case Operator::bit_not:
-      if (!a.is_whole()) throw ArithmeticError("bits, shifts and '%' take whole numbers");
+      if (!a.is_whole()) throw ArithmeticError("bits, shifts and '%' require whole numbers");
       return ~a.whole();
     default: throw std::logic_error("not an operator of one number");
   }

@@ -245,7 +245,7 @@ Term ExpressionParser::name() {
     number = names_.resolve(token.name);
   } catch (const std::runtime_error& error) {
     if (const std::string_view word = switch_word(token.name); !word.empty()) {
-      fail(token.begin, quoted(token.name) + " is not known here; expected " + std::string(word));
+      fail(token.begin, quoted(token.name) + " is unknown here; expected " + std::string(word));
     }
     fail(token.begin, error.what());
   }

@@ -32,10 +32,10 @@ constexpr std::array<BinaryRow, 18> kRows = {{
 }};
 
 void check_bits(std::string_view sign, const Term& left, const Term& right) {
-  if (left.is_real || right.is_real) throw MisfitError("'" + std::string(sign) + "' takes whole numbers");
+  if (left.is_real || right.is_real) throw MisfitError("'" + std::string(sign) + "' requires whole numbers");
   const Unit unit = left.unit != Unit::none ? left.unit : right.unit;
   if (unit != Unit::none) {
-    throw MisfitError("'" + std::string(sign) + "' takes numbers without a unit, not " + kind_of(unit));
+    throw MisfitError("'" + std::string(sign) + "' requires numbers without a unit, not " + kind_of(unit));
   }
 }
 
@@ -92,7 +92,7 @@ Term combined(const BinaryRow& row, const Term& left, const Term& right) {
       break;
     case Level::product:
       if (row.operation == Operator::remainder && (left.is_real || right.is_real)) {
-        throw MisfitError("'%' takes whole numbers");
+        throw MisfitError("'%' requires whole numbers");
       }
       term.unit = unit_of_product(row, left, right);
       term.is_real = left.is_real || right.is_real;

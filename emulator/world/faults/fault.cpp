@@ -232,10 +232,10 @@ void set_all_fields(const KnownDevices& devices, const FaultKindRow& row, const 
     set_fields(devices, row, text, fault);
     validate_trigger(fault.trigger);
     if (fault.kind == Fault::Kind::noise && fault.before.empty() && fault.after.empty()) {
-      throw NameError("before and after are missing; expected one of them");
+      throw NameError("before and after are missing; expected at least one of them");
     }
     if (is_done_at_once(fault.kind) && fault.trigger.lasts != SimTime{0}) {
-      throw NameError("for: this fault has no duration; expected none");
+      throw NameError("for: this fault has no duration; expected no `for`");
     }
   } catch (const NameError& error) {
     // A message "field: what is wrong" becomes a FaultFieldError if the field was given.

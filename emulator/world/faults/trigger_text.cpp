@@ -102,8 +102,7 @@ void validate_trigger(const FaultTrigger& trigger) {
   require(!is_moment || !has_span, "at: cannot be combined with from and to; expected one or the other");
   require(!is_moment || trigger.times == 0, "at: happens only once; expected it without times");
   require(trigger.from < trigger.to, "to: is not after from; expected a later time");
-  require(trigger.seed < 0 || trigger.chance != 0,
-          "seed: has no effect without chance; expected chance as well");
+  require(trigger.seed < 0 || trigger.chance != 0, "seed: has no effect without chance; expected both");
 }
 
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger) {

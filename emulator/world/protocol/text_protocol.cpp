@@ -85,7 +85,8 @@ class TextLineProtocol final : public LineProtocol {
          {std::pair("function", trigger.function), std::pair("station", trigger.station),
           std::pair("address", trigger.first_address)}) {
       if (value < 0) continue;
-      throw FaultFieldError(kind, field, device + " speaks text, which has none; expected none");
+      throw FaultFieldError(
+          kind, field, device + " speaks text, to which this field does not apply; expected no such field");
     }
   }
 

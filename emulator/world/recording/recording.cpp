@@ -86,7 +86,7 @@ Json parse_line(std::string_view line) {
     Json parsed = parse_strict_json<Json>(line, [](const std::string& key) {
       return RecordingError(understudy::quoted(key) + ": appears twice; expected it only once");
     });
-    if (!parsed.is_object()) throw RecordingError("line: is not an object; expected one");
+    if (!parsed.is_object()) throw RecordingError("line: is not an object; expected an object");
     return parsed;
   } catch (const Json::exception&) {
     throw RecordingError("line: is damaged or not JSON; expected one object");
@@ -95,7 +95,7 @@ Json parse_line(std::string_view line) {
 
 const Json& require(const Json& object, const char* key) {
   const auto found = object.find(key);
-  if (found == object.end()) throw RecordingError(std::string(key) + ": is missing; expected one");
+  if (found == object.end()) throw RecordingError(std::string(key) + ": is missing; expected a value");
   return *found;
 }
 
@@ -119,7 +119,7 @@ std::int64_t number_at(const Json& object, const char* key, std::int64_t lowest,
 bool truth_at(const Json& object, const char* key) {
   const Json& value = require(object, key);
   if (!value.is_boolean())
-    throw RecordingError(std::string(key) + ": is neither true nor false; expected one of the two");
+    throw RecordingError(std::string(key) + ": is neither true nor false; expected true or false");
   return value.get<bool>();
 }
 
@@ -171,7 +171,8 @@ RecordedFailure failure_at(const Json& object, SimTime end) {
 
 Fault fault_at(const Json& object, const KnownDevices& devices) {
   const Json& fault = require(object, "fault");
-  if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
+  if (!fault.is_object() || fault.empty())
+    throw RecordingError("fault: is not an object; expected an object");
   FaultText text{};
   for (const auto& [name, value] : fault.items()) {
     if (!value.is_string()) throw RecordingError("fault: has a value that is not text; expected text");

@@ -236,7 +236,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     }
   }
   if (result.has_end && lines.next()) {
-    throw lines.error("line: follows the end; expected nothing more");
+    throw lines.error("line: follows the end; expected no further lines");
   }
   const bool is_stopped = until && result.difference.empty();
   if (is_stopped && !result.has_end) world.advance_to(*until);

@@ -97,29 +97,29 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab(mill, "{ device: mill, port: HMI }", devices),
        "bench.yaml:7:10: devices.lathe: the device is not on a line; expected a station that names it"},
       {lines_ab("{ device: mill }, { device: lathe }", "{ device: mill, port: HMI }", devices),
-       "bench.yaml:3:38: lines.a.stations[1]: address 1 is taken on this line; expected another"},
+       "bench.yaml:3:38: lines.a.stations[1]: address 1 is taken on this line; expected another address"},
       {lines_ab("{ device: mill, address: 5 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
                 devices),
-       "bench.yaml:3:50: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+       "bench.yaml:3:50: lines.a.stations[1]: address 5 is taken on this line; expected another address"},
       {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI, address: 5 }",
                 devices),
-       "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+       "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another address"},
       // The register of its number can be set, which comes after the address; by number as well.
       {lines_ab(
            "{ device: mill, address: 4 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
            "devices:\n  mill: { model: workbench, set: { Station: 5 } }\n  lathe: { model: workbench }\n"),
-       "bench.yaml:3:50: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+       "bench.yaml:3:50: lines.a.stations[1]: address 5 is taken on this line; expected another address"},
       {lines_ab("{ device: mill }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
                 "devices:\n  mill: { model: workbench, nv: m.json, set: { 0x0033: 5 } }\n"
                 "  lathe: { model: workbench }\n"),
-       "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another"},
+       "bench.yaml:3:38: lines.a.stations[1]: address 5 is taken on this line; expected another address"},
       {lines_ab(
            "{ device: mill, address: 5 }, { device: lathe, address: 5 }", "{ device: mill, port: HMI }",
            "devices:\n  mill: { model: workbench, set: { Station: 4 } }\n  lathe: { model: workbench }\n"),
        "none"},
       {lines_ab("{ device: mill, address: 5 }", "{ device: mill, port: HMI, address: 6 }", one),
        "bench.yaml:4:56: lines.b.stations[0].address: the device has one station number, and on another line "
-       "it is 5; expected the same"},
+       "it is 5; expected the same number"},
       {lines_ab(mill, "{ device: mill, port: HMI, address: 248 }", one),
        "bench.yaml:4:56: lines.b.stations[0].address: '248' is not valid; expected a whole number from 0 "
        "to 247"},
@@ -137,7 +137,8 @@ TEST(PortsOfABench, AreRefusedWhereTheyCannotBe) {
       {lines_ab("{ device: mill, port: X }, { device: lathe }", "{ device: lathe }, { device: mil }",
                 devices),
        "bench.yaml:3:42: lines.a.stations[0].port: 'X' is not a port of workbench; expected one of PC, "
-       "HMI\nbench.yaml:3:47: lines.a.stations[1]: address 1 is taken on this line; expected another\n"
+       "HMI\nbench.yaml:3:47: lines.a.stations[1]: address 1 is taken on this line; expected another "
+       "address\n"
        "bench.yaml:4:20: lines.b.stations[0]: the device's port PC is already on a line; expected "
        "another `port`, or the device on one line\nbench.yaml:4:49: lines.b.stations[1].device: no device is "
        "called 'mil'; the nearest is 'mill'"},

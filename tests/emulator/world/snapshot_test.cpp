@@ -316,16 +316,15 @@ TEST(Snapshot, IsRefusedWhereALineReceivesItsHostDifferently) {
   World patient(bench, {.patience = 1s}, {});
   for (World* world : {&tolerant, &strict, &any_speed, &patient}) world->advance_to(20ms);
   EXPECT_EQ(refusal_of(tolerant, save(strict)),
-            "line rs485: was saved with strict framing; expected a bench that has it too");
+            "line rs485: was saved with strict framing; expected a bench with strict framing");
   EXPECT_EQ(refusal_of(strict, save(tolerant)),
             "line rs485: was saved with tolerant framing; expected a bench without strict framing");
-  EXPECT_EQ(
-      refusal_of(tolerant, save(any_speed)),
-      "line rs485: was saved by a bench that accepts hosts with any speed; expected a bench that accepts "
-      "them too");
+  EXPECT_EQ(refusal_of(tolerant, save(any_speed)),
+            "line rs485: was saved by a bench that accepts hosts with any speed; expected a bench that also "
+            "accepts them");
   EXPECT_EQ(refusal_of(any_speed, save(tolerant)),
             "line rs485: was saved by a bench that ignores hosts with another speed; expected a bench that "
-            "ignores them too");
+            "also ignores them");
   EXPECT_EQ(refusal_of(tolerant, save(patient)), "") << "a daemon at another speed is more patient";
   EXPECT_EQ(refusal_of(strict, save(strict)), "");
 }

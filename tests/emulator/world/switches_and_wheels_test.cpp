@@ -99,7 +99,7 @@ TEST(Switches, ThatCannotBeWiredSoAreRefused) {
   EXPECT_EQ(diagnostic_of("home: { at: 0, width: 5, contact: closed }"),
             "bench.plant.x.A.home.contact: 'closed' is unknown; expected opens or closes");
   EXPECT_EQ(diagnostic_of("limits: { upper: 3, lower_input: DIN_9 }"),
-            "bench.plant.x.A.limits.lower_input: there is no lower limit switch; expected `lower` as well");
+            "bench.plant.x.A.limits.lower_input: there is no lower limit switch; expected `lower`");
   EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.A.home -> y.DIN_1"),
             "bench.wires[0]: the machine on x.A has no home; expected it in `plant`");
   EXPECT_EQ(diagnostic_of("travel: [ -5, 5 ]", "x.A.hom -> y.DIN_1"),
@@ -166,9 +166,9 @@ TEST(Machines, BeginWhereTheyAreSaidToStand) {
       "  - inject: { slip: x.A, pulses: -900 }\n"
       "  - advance: 2ms\n"
       "  - assert: [ x.A.position == 100, x.A.encoder == -1600 ]\n"));
-  EXPECT_EQ(
-      diagnostic_of("position: 500, travel: [ -5, 5 ]"),
-      "bench.plant.x.A.travel: does not include position 500, where the machine starts; expected it inside");
+  EXPECT_EQ(diagnostic_of("position: 500, travel: [ -5, 5 ]"),
+            "bench.plant.x.A.travel: does not include position 500, where the machine starts; expected a "
+            "range with this position");
 }
 
 TEST(HandWheels, AreTurnedByHandAlone) {

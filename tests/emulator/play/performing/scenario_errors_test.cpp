@@ -53,7 +53,8 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
       {with("seed: -1"), "3: seed: '-1' is not valid; expected a whole number from 0 to 9223372036854775807"},
       {with("gap: 5"), "3: gap: '5' is not a duration; expected one such as 250ms"},
       {with("name: [ a ]"), "3: name: expected a word or a number"},
-      {"understudy: 1\n---\nunderstudy: 1\n", "2: scenario: a second document begins here; expected one"},
+      {"understudy: 1\n---\nunderstudy: 1\n",
+       "2: scenario: a second document begins here; expected only one"},
   });
 }
 

@@ -310,7 +310,7 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
        "feeder.A has no encoder; expected one in `plant`"},
 
       {R"({"do":"clear","number":1})",
-       "number: 1 is not a fault in force; expected none, since no fault is in force"},
+       "number: 1 is not a fault in force; expected no number, because no fault is in force"},
       {R"({"do":"clear","number":"all"})", "number: 'all' is not a whole number; expected one"},
       {R"({"do":"clear","number":null})", "number: null is not a whole number; expected one"},
       {R"({"do":"clear","all":true})", "'all' is not a key of this message"},

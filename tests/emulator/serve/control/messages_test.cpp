@@ -189,7 +189,8 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
        "'' is not a command; expected one of status, identify, get, eval, set, input, turn, command, power, "
        "program, inject, clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
       {"{\"do\":\"jump\"}", "'jump' is not a command; expected "},
-      {"{\"do\":\"seek\",\"to_ns\":1}", "seek: this daemon serves no recording; expected one that `replay "},
+      {"{\"do\":\"seek\",\"to_ns\":1}",
+       "seek: this daemon does not serve a recording; expected a daemon that `replay "},
       {"{\"do\":\"a\\nb\"}", "'a\\nb' is not a command; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is not a key of this message"},
       {"{\"do\":\"pause\",\"values\":{}}", "'values' is not a key of this message"},
@@ -214,8 +215,8 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
   const auto by = [](const std::string& duration) { return R"({"do":"advance","by":)" + duration + "}"; };
   const auto eval = [](const std::string& text) { return R"({"do":"eval","expression":")" + text + "\"}"; };
   const std::string no_object =
-      " is not an object of names and whole numbers; expected one that is not empty";
-  const std::string no_levels = " is not an object of names and levels; expected one that is not empty";
+      " is not an object of names and whole numbers; expected an object that is not empty";
+  const std::string no_levels = " is not an object of names and levels; expected an object that is not empty";
   const std::string speed = "feeder.Aaxis_Speed: ";
   const std::string no_number = " is not a number; expected 0 to 32768";
   const std::string not_whole = " is not a whole number; expected 0 to 32768";
@@ -265,7 +266,7 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {eval("feeder.STATUS +"), "column 16 of 'feeder.STATUS +': unexpected end; expected "},
       {eval("1 / feeder.STATUS.0"), "column 3 of '1 / feeder.STATUS.0': division by zero"},
       {eval("feeder.STATUS == yes"),
-       "column 18 of 'feeder.STATUS == yes': 'yes' is not known here; expected on"},
+       "column 18 of 'feeder.STATUS == yes': 'yes' is unknown here; expected on"},
       {R"({"do":"eval"})", "'expression' is missing"},
       {R"({"do":"frames","since":1,"last":1})", "since: cannot be combined with last; expected one of them"},
       {R"({"do":"frames","since":-1})", "since: -1 is not a whole number; expected one of 0 or more"},

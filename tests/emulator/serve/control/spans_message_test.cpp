@@ -87,7 +87,7 @@ TEST_F(SpansMessage, RefusesWhatIsNoStretch) {
   wait(1, milliseconds(0), milliseconds(100), "sleeps");
   EXPECT_EQ(ask(R"(,"dots":0)")["error"], "dots: expected 1 to 4000");
   EXPECT_EQ(ask(R"(,"from_ns":5000000,"to_ns":5000000)")["error"],
-            "to_ns: is not later than from_ns; expected a stretch between 0 and the last moment");
+            "to_ns: is not later than from_ns; expected a time span between 0 and the last moment");
   EXPECT_EQ(ask(R"(,"kind":"wait")")["ok"], false);
 }
 

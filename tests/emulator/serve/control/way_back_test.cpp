@@ -116,7 +116,8 @@ TEST(WayBack, IsRefusedWhereThereIsNone) {
     const Descriptor host(
         ::open((debugged.running.rig.folder.path + "/feeder.port").c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     ASSERT_TRUE(host);
-    EXPECT_EQ(debugged.refusal(back), "back: a host has rs485 open; expected none, or a recording");
+    EXPECT_EQ(debugged.refusal(back),
+              "back: a host has rs485 open; expected no host on the line, or a recording");
   }
   EXPECT_EQ(debugged.ask({{"do", "snapshot"}, {"name", "here"}})["ok"], true);
   EXPECT_EQ(debugged.ask({{"do", "advance"}, {"by", "1s"}})["ok"], true);

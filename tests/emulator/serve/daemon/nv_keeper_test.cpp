@@ -178,7 +178,7 @@ TEST(ReadMemories, OfAFolderThatCannotBeMadeIsAnError) {
     read_memories(bench, folder.path + "/file");
     ADD_FAILURE() << "was not refused";
   } catch (const NvError& error) {
-    EXPECT_EQ(error.what(), "--nv: " + folder.path + "/file is not a folder; expected one");
+    EXPECT_EQ(error.what(), "--nv: " + folder.path + "/file is not a folder; expected a folder");
   }
   EXPECT_THROW(read_memories(bench, folder.path + "/file/nv"), std::system_error);
 }

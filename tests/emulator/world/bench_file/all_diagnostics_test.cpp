@@ -92,8 +92,8 @@ bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of nam
 bench.yaml:8: lines.a.stations[0].firmware: 'new' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
 bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not valid; expected a whole number from -2147483648 to 4294967295
 bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
-bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
-bench.yaml:12: plant.x.A.travel: does not include position 0, where the machine starts; expected it inside
+bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another address
+bench.yaml:12: plant.x.A.travel: does not include position 0, where the machine starts; expected a range with this position
 bench.yaml:12: plant.x.A.home: 'width' is missing; expected it here
 bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive (the nearest is 'limits')
 bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
@@ -139,7 +139,7 @@ bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aax
 bench.yaml:14:27: lines.a.stations[0].choices.stopp: no choice is called 'stopp'; the nearest is 'stop'
 bench.yaml:14:49: lines.a.stations[0].choices.servo_at_power_up: choice 'servo_at_power_up' has no option 'maybe'; expected one of off|on
 bench.yaml:15:22: lines.a.stations[0].dip.DIP9: 'DIP9' is not a switch of simple2-r3; the nearest is 'DIP1'
-bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither on nor off; expected one of them
+bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither on nor off; expected on or off
 bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple2-r3; the nearest is 'DIP1'
 bench.yaml:16:18: lines.a.stations[0].program: line 2, column 1: mnemonic: no instruction is called 'NONSENSE'; expected an instruction, such as Delay_mSec)");
 }
@@ -177,13 +177,13 @@ faults:
   - { stall: y.A, when: "y.A.pulses ==" }
   - { stall: x.B, when: "x.B.pulses ==" }
 )"),
-            R"(bench.yaml:6: lines.a.stations[1]: address 2 is taken on this line; expected another
+            R"(bench.yaml:6: lines.a.stations[1]: address 2 is taken on this line; expected another address
 bench.yaml:6: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
 bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one with two decimals, like "1.52"
 bench.yaml:6: lines.a.stations[1].modules: 'many' is not valid; expected a whole number from 1 to 255
 bench.yaml:6: lines.a.stations[1].nv: is empty; expected a path
 bench.yaml:7: lines.a.stations[1].set.P: 'fast' is not a number; expected one
-bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither on nor off; expected one of them
+bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither on nor off; expected on or off
 bench.yaml:7: lines.a.stations[1].choices.c: expected a word or a number
 bench.yaml:7: lines.a.stations[1].program: /nowhere/x.lst cannot be read (No such file or directory); expected a listing
 bench.yaml:8: lines.a.stations[2]: 'model' is missing; expected it here
@@ -253,7 +253,7 @@ lines:
 )"),
       R"(bench.yaml:4: lines.a.speed: is not a key here; expected one of link, listen, pty, baud, baud_tolerance, byte_timeout, timing, echo, stations
 bench.yaml:5: lines.a.baud: '0' is not valid; expected a whole number from 1 to 4000000
-bench.yaml:6: lines.a.pty: 'maybe' is neither on nor off; expected one of them
+bench.yaml:6: lines.a.pty: 'maybe' is neither on nor off; expected on or off
 bench.yaml:7: lines.a.echo: 'perhaps' is not valid; expected on or off
 bench.yaml:8: lines.a.byte_timeout: 'soon' is not valid; expected 10ms to 60s, as in 200ms
 bench.yaml:9: lines.a.baud_tolerance: 'lots' is not valid; expected 0% to 10%, as in 2%
@@ -263,7 +263,7 @@ bench.yaml:12: lines.a.listen[0]: 'modbus-tcp://:99999' has port 99999; expected
 bench.yaml:12: lines.a.listen[1]: 'foo://x' is not an address; expected rtu://HOST:PORT, rfc2217://HOST:PORT or modbus-tcp://HOST:PORT, such as rtu://127.0.0.1:5020
 bench.yaml:12: lines.a.listen[3]: appears twice; expected it only once
 bench.yaml:13: lines.a.stations: is empty; expected at least one station
-bench.yaml:14: lines.b.pty: leaves the line without a port; expected `listen` as well
+bench.yaml:14: lines.b.pty: leaves the line without a port; expected `listen`
 bench.yaml:14: lines.b.stations: is empty; expected at least one station)");
 }
 

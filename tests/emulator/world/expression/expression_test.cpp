@@ -210,10 +210,10 @@ TEST(Expression, WithoutAResultItSaysWhyAndWithWhichValues) {
       {"1 << 64", "no result: column 3 of '1 << 64': a shift by 64 places; expected 0 to 63"},
       {"1 >> c", "no result: column 3 of '1 >> c': a shift by -7 places; expected 0 to 63  (c is -7)"},
       {"feeder.A.speed & 1",
-       "no result: column 16 of 'feeder.A.speed & 1': bits, shifts and '%' take whole numbers  "
+       "no result: column 16 of 'feeder.A.speed & 1': bits, shifts and '%' require whole numbers  "
        "(feeder.A.speed is 1500.25)"},
       {"~feeder.A.speed",
-       "no result: column 1 of '~feeder.A.speed': bits, shifts and '%' take whole numbers  "
+       "no result: column 1 of '~feeder.A.speed': bits, shifts and '%' require whole numbers  "
        "(feeder.A.speed is 1500.25)"},
   });
 }

@@ -232,7 +232,7 @@ TEST(RandomExpressions, GiveTheSameResultAsWalkingTheTree) {
       expression = parse_expression(text, bench);
     } catch (const ExpressionError& error) {
       // Only bits of a value that is certainly real are refused before they are computed.
-      EXPECT_NE(std::string(error.what()).find("' takes whole numbers"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("' requires whole numbers"), std::string::npos)
           << seed << ": " << text << "\n"
           << error.what();
       ++refused;

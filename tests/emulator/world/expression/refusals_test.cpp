@@ -137,9 +137,9 @@ TEST(ExpressionRefusals, UnitsThatDoNotFitAreRefused) {
       {"time * 3s > 0", 6, "'*' between a duration and a duration; expected one number without a unit"},
       {"1 / 3s", 3, "'/' between a number and a duration; a duration is written like 250ms"},
       {"time % 7 == 0", 6, "'%' between a duration and a number; a duration is written like 250ms"},
-      {"time & 1", 6, "'&' takes numbers without a unit, not a duration"},
-      {"1 << 3s", 3, "'<<' takes numbers without a unit, not a duration"},
-      {"~time", 1, "'~' takes numbers without a unit, not a duration"},
+      {"time & 1", 6, "'&' requires numbers without a unit, not a duration"},
+      {"1 << 3s", 3, "'<<' requires numbers without a unit, not a duration"},
+      {"~time", 1, "'~' requires numbers without a unit, not a duration"},
       {"min(time, 5)", 9, "',' between a duration and a number; a duration is written like 250ms"},
       {"a ? 3s : 5", 8, "':' between a duration and a number; a duration is written like 250ms"},
       {"(a ? 3s : 0) == 5", 14, "'==' between a duration and a number; a duration is written like 250ms"},
@@ -148,14 +148,14 @@ TEST(ExpressionRefusals, UnitsThatDoNotFitAreRefused) {
 
 TEST(ExpressionRefusals, BitOperatorsOnRealNumbersAreRefused) {
   expect_refusals({
-      {"a & 1.5", 3, "'&' takes whole numbers"},
-      {"1.5 << 2", 5, "'<<' takes whole numbers"},
-      {"(a + 1.5) | 1", 11, "'|' takes whole numbers"},
-      {"(a ? 1.5 : 2.5) & 1", 17, "'&' takes whole numbers"},
-      {"min(1.5, 2.5) | 1", 15, "'|' takes whole numbers"},
-      {"7 % 2.0", 3, "'%' takes whole numbers"},
-      {"~1.5", 1, "'~' takes whole numbers"},
-      {"(time * 0.5) % 1s", 14, "'%' takes whole numbers"},
+      {"a & 1.5", 3, "'&' requires whole numbers"},
+      {"1.5 << 2", 5, "'<<' requires whole numbers"},
+      {"(a + 1.5) | 1", 11, "'|' requires whole numbers"},
+      {"(a ? 1.5 : 2.5) & 1", 17, "'&' requires whole numbers"},
+      {"min(1.5, 2.5) | 1", 15, "'|' requires whole numbers"},
+      {"7 % 2.0", 3, "'%' requires whole numbers"},
+      {"~1.5", 1, "'~' requires whole numbers"},
+      {"(time * 0.5) % 1s", 14, "'%' requires whole numbers"},
   });
 }
 

@@ -149,7 +149,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"turn feeder.A in=2s", "turn: counts is missing; expected -1000000000 to 1000000000"},
            {"turn feeder.A counts=1 in=1500us",
             "turn: in: '1500us' is not valid; expected whole milliseconds"},
-           {"turn feeder.A counts=1 for=1s", "turn: for: this fault has no duration; expected none"},
+           {"turn feeder.A counts=1 for=1s", "turn: for: this fault has no duration; expected no `for`"},
            {"drop feeder station=248", "drop: station: 248 is out of range; expected 0 to 247"},
            {"drop feeder station=-1", "drop: station: -1 is out of range; expected 0 to 247"},
            {"drop feeder address=0x10000", "drop: address: 65536 is out of range; expected 0 to 65535"},
@@ -165,7 +165,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
             "drop: at: cannot be combined with from and to; expected one or the other"},
            {"drop feeder at=5ms times=2", "drop: at: happens only once; expected it without times"},
            {"drop feeder from=5ms to=5ms", "drop: to: is not after from; expected a later time"},
-           {"drop feeder seed=5", "drop: seed: has no effect without chance; expected chance as well"},
+           {"drop feeder seed=5", "drop: seed: has no effect without chance; expected both"},
            {"drop feeder chance=5",
             "drop: chance: '5' is not valid; expected more than 0% up to 100%, as in 0.5%"},
            {"drop feeder chance=0%",
@@ -177,7 +177,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"delay feeder", "delay: by is missing; expected a duration such as 250ms"},
            {"truncate feeder keep=257", "truncate: keep: 257 is out of range; expected 0 to 256"},
            {"exception feeder code=0", "exception: code: 0 is out of range; expected 1 to 255"},
-           {"noise feeder", "noise: before and after are missing; expected one of them"},
+           {"noise feeder", "noise: before and after are missing; expected at least one of them"},
            {"noise feeder before=F", "noise: before: 'F' is not valid; expected bytes such as \"FF 00\""},
            {"noise feeder before=GG", "noise: before: 'GG' is not valid; expected bytes such as \"FF 00\""},
            {"noise feeder before=",
@@ -186,7 +186,7 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
             "encoder_noise: period: '3ms' is not valid; expected an even number of milliseconds"},
            {"encoder_noise feeder.A counts=1 period=1ms",
             "encoder_noise: period: 1ms is out of range; expected 2ms to 8760h"},
-           {"slip feeder.A pulses=1 for=3ms", "slip: for: this fault has no duration; expected none"},
+           {"slip feeder.A pulses=1 for=3ms", "slip: for: this fault has no duration; expected no `for`"},
        }) {
     EXPECT_EQ(refusal(two(), fault_words(text)), why) << text;
   }

@@ -227,7 +227,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   const auto event = [&](const std::string& line) { return refusal(header + line + "\n"); };
   EXPECT_EQ(refusal(""), "a.jsonl:1: recording: is empty or cannot be read; expected a header");
   EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is damaged or not JSON; expected one object");
-  EXPECT_EQ(refusal("[]\n"), "a.jsonl:1: line: is not an object; expected one");
+  EXPECT_EQ(refusal("[]\n"), "a.jsonl:1: line: is not an object; expected an object");
   EXPECT_EQ(refusal("{\"understudy\":1,\"kind\":\"nv-image\"}\n"),
             "a.jsonl:1: kind: is missing or different; expected a recording");
   EXPECT_EQ(refusal(to_line(RecordingHeader{
@@ -236,8 +236,8 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
             "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
   EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': appears twice; expected it only once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
-            "a.jsonl:3: line: follows the end; expected nothing more");
-  EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected one");
+            "a.jsonl:3: line: follows the end; expected no further lines");
+  EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected a value");
   EXPECT_EQ(event(R"({"t":1,"do":"dance"})"),
             "a.jsonl:2: do: 'dance' is not an event; expected a recorded event");
   EXPECT_EQ(event(R"({"t":-1,"do":"end"})"),
@@ -251,7 +251,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(event(R"({"t":1,"do":"input","device":0,"terminal":99,"level":0})").substr(0, 22),
             "a.jsonl:2: terminal: i");
   EXPECT_EQ(event(R"({"t":1,"do":"power","device":0,"on":1})"),
-            "a.jsonl:2: on: is neither true nor false; expected one of the two");
+            "a.jsonl:2: on: is neither true nor false; expected true or false");
   EXPECT_EQ(event(R"({"t":1,"do":"program","device":0,"text":"Fly"})").substr(0, 20), "a.jsonl:2: mnemonic:");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"open\",\"line\":0}\n{\"t\":4,\"do\":\"end\"}\n"),
             "a.jsonl:3: t: goes back in time; expected the events in chronological order");
@@ -270,7 +270,7 @@ TEST(Replay, ARecordingNamesNoPaths) {
                 "\n"),
         "a.jsonl:1: bench: bench:1:" + std::to_string(bench.find("\"" + path) + 1) +
             ": lines.l.stations[0]." + key +
-            ": is a path; expected none, since a recording contains everything");
+            ": is a path; expected no path, because a recording contains everything");
   }
   const std::string linked =
       R"({"understudy":1,"lines":{"l":{"link":"/tmp/p","stations":[{"name":"d","model":"simple2-r3"}]}}})";

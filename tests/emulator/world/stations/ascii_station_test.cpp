@@ -157,9 +157,10 @@ TEST(AsciiStation, SharesItsLineWithItsLikeOnly) {
         ", address: 1 }\n      - { name: its, model: " + quoted_scalar(other) + ", address: 2 }\n");
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("'its' speaks Modbus, and the line Modbus ASCII; expected one protocol on a line"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what())
+            .find("'its' speaks Modbus, but the line speaks Modbus ASCII; expected one protocol on a line"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -89,7 +89,7 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsReportedWithItsLine) {
             "b.yaml:6: lines.a.stations[1]: 's' speaks text and must be alone on its line; expected no other "
             "station on it");
   EXPECT_EQ(refusal(with(robot + ", address: 1 }\n")),
-            "b.yaml:5: lines.a.stations[0].address: echo-box has no station number; expected none");
+            "b.yaml:5: lines.a.stations[0].address: echo-box has no station number; expected no `address`");
   EXPECT_EQ(refusal(with(robot + ", modules: 9 }\n")),
             "b.yaml:5: lines.a.stations[0].modules: '9' is not valid; expected 1 to 8");
   EXPECT_EQ(refusal(with(feeder + ", modules: 2 }\n")),
@@ -103,7 +103,8 @@ TEST(TextBench, WhatSuchADeviceCannotBeIsReportedWithItsLine) {
       refusal(with(robot + " }\nfaults: [ { busy: r } ]\n")),
       "b.yaml:6: faults[0]: busy: is a fault of Modbus frames, but r uses text; expected a different fault");
   EXPECT_EQ(refusal(with(robot + " }\nfaults: [ { drop: r, function: 3 } ]\n")),
-            "b.yaml:6: faults[0].function: r speaks text, which has none; expected none");
+            "b.yaml:6: faults[0].function: r speaks text, to which this field does not apply; expected no "
+            "such field");
 }
 
 TEST(TextBench, CommandsAreDescribed) {
