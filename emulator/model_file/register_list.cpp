@@ -171,9 +171,10 @@ class ListReader {
                      std::to_string(as_modicon->address) +
                      " on the wire (--addresses wire leaves the addresses unchanged)");
     } else if (!guessed) {
-      row.remark("addresses", Column::address,
-                 "read as addresses on the wire, although all of them may be Modicon numbers (`list: { addresses: "
-                 "modicon }`)");
+      row.remark(
+          "addresses", Column::address,
+          "read as addresses on the wire, although all of them may be Modicon numbers (`list: { addresses: "
+          "modicon }`)");
     } else if (evidence_.begins_a_block && not_modicon_ != nullptr && reading_.guesses_addresses) {
       not_modicon_->remark("addresses", Column::address,
                            "read as addresses on the wire, like all others of the list: " +
