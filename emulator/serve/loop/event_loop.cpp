@@ -67,7 +67,7 @@ void EventLoop::watch(int descriptor, std::uint32_t interest, std::function<void
                       Rank rank) {
   const int epoll = rank == Rank::first ? epoll_ : later_;
   watches_[descriptor] = {epoll, interest, interest,
-                          std::make_shared<std::function<void(std::uint32_t)>>(std::move(ready))};
+                          std::make_shared<std::function<void(std::uint32_t)>>(std::move(ready)), turn_};
   epoll_event event{};
   event.events = epoll_events(interest);
   event.data.fd = descriptor;
@@ -141,13 +141,14 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   update_interests();
   std::array<epoll_event, 32> events{};
   const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_looks ? 0 : -1);
+  ++turn_;
   if (puts_off) mute_later_ones(false);
   bool later_ones = false;
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = events[static_cast<std::size_t>(i)];
     if (event.data.fd == later_) {
       later_ones = true;
-    } else {
+    } else if (!is_new(event.data.fd)) {
       call(event.data.fd, event.events);
     }
   }
@@ -163,6 +164,13 @@ void EventLoop::wait(std::optional<WallTime> until, WallTime slice) {
   }
   has_put_off_ = false;
   call_later_ones(later_ones, slice);
+}
+
+/// Returns true if the watch began in this turn. An event of this turn then belongs to another descriptor
+/// that had the same number and was closed.
+bool EventLoop::is_new(int descriptor) const {
+  const auto it = watches_.find(descriptor);
+  return it != watches_.end() && it->second.turn == turn_;
 }
 
 void EventLoop::call(int descriptor, std::uint32_t events) {

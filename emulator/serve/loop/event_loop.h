@@ -57,9 +57,11 @@ class EventLoop {
     std::uint32_t interest = 0;
     std::uint32_t known = 0;                                    // the interest that the kernel knows of
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside the call
+    std::uint64_t turn = 0;                                     // the turn in which it began
   };
   void wake_at(WallTime moment);
   void update_interests();
+  bool is_new(int descriptor) const;
   void call(int descriptor, std::uint32_t events);
   void mute_later_ones(bool are_muted);
   void call_later_ones(bool are_ready, WallTime slice);
@@ -69,6 +71,7 @@ class EventLoop {
   int timer_ = -1;
   WallTime alarm_{0};  // the time for which the timer is or was last set
   std::map<int, Watch> watches_;
+  std::uint64_t turn_ = 0;
   std::vector<int> changed_;  // descriptors whose interest must still be passed to the kernel
   std::deque<std::function<bool()>> pieces_;
   bool are_pieces_next_ = false;

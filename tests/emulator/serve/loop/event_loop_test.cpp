@@ -50,6 +50,29 @@ TEST(EventLoop, CallsWhatIsReadableAndNothingElse) {
   EXPECT_EQ(calls, 1);
 }
 
+// The kernel reports both descriptors at once. The first call closes the other descriptor, and opens one that
+// gets its number.
+TEST(EventLoop, DropsTheEventsOfADescriptorThatWasClosed) {
+  EventLoop loop;
+  std::array<Pair, 2> pairs;
+  const Pair silent;
+  int calls = 0;
+  for (const std::size_t own : {0U, 1U}) {
+    const int other = pairs.at(1 - own).near();
+    loop.watch(pairs.at(own).near(), EventLoop::readable, [&, own, other](std::uint32_t) {
+      pairs.at(own).drain();
+      if (calls++ > 0) return;
+      loop.unwatch(other);
+      ASSERT_EQ(dup2(silent.near(), other), other);
+      loop.watch(other, EventLoop::readable, [](std::uint32_t) { ADD_FAILURE() << "nothing was sent"; });
+    });
+  }
+  for (const Pair& pair : pairs) pair.poke();
+  loop.wait(std::nullopt);
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 1);
+}
+
 TEST(EventLoop, WaitsNoShorterThanUntilTheMoment) {
   EventLoop loop;
   const WallTime until = wall_now() + 20ms;
