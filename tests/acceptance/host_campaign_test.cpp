@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -73,6 +75,13 @@ class HostCampaign : public testing::Test {
   std::string text_of(const std::string& name) const {
     std::ifstream file(folder_ / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// Returns how long the only case in rows.jsonl took.
+  double simulated_s() const {
+    const std::string text = text_of("rows.jsonl");
+    const std::string key = "\"simulated_s\":";
+    const std::size_t at = text.find(key);
+    return at == std::string::npos ? -1 : std::stod(text.substr(at + key.size()));
   }
   const PrivateFolder& folder() const { return folder_; }
 
@@ -204,6 +213,34 @@ TEST_F(HostCampaign, JudgesTheEndOfTheCommand) {
   }
 }
 
+// The host waits for long, and reacts to the signal before time advances.
+TEST_F(HostCampaign, StopsAHostInTheMiddleOfItsWait) {
+  const std::string handler = "import signal, sys, threading, time\n";
+  const std::string reacts =
+      "def stop(*_):\n  time.sleep(3)\n  sys.exit(0)\nsignal.signal(signal.SIGTERM, stop)\n";
+  const std::string threads =
+      "threading.Thread(target=time.sleep, args=[3600], daemon=True).start()\nthreading.Event().wait(3600)\n";
+  struct Row {
+    Words command;
+    double simulated_s;
+  };
+  const std::vector<Row> rows{
+      {{"sleep", "36000"}, 20.001},
+      {{"sh", "-c", "sleep 36000 & sleep 3600; :"}, 20.001},
+      {{"/usr/bin/python3", "-c", handler + reacts + "time.sleep(3600)\n"}, 23.001},
+      {{"/usr/bin/python3", "-c", handler + reacts + threads}, 23.001},
+      {{"sh", "-c", "trap 'sleep 4; exit 1' TERM; while :; do sleep 3600; done"}, 24.001},
+      {{"sleep", "5"}, 20.0},
+  };
+  for (const Row& row : rows) {
+    std::filesystem::remove(folder() / "rows.jsonl");
+    const Finished finished = exec("steps: [ advance: 20s, host: stop ]\n", row.command,
+                                   {"--host-time", "--results", folder() / "rows.jsonl"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+    EXPECT_NEAR(simulated_s(), row.simulated_s, 1e-6) << testing::PrintToString(row.command);
+  }
+}
+
 // Nothing waits for the end of the command, but the case has not ended before that.
 TEST_F(HostCampaign, ChecksConditionsUntilTheCommandHasEnded) {
   struct Row {
@@ -231,11 +268,7 @@ TEST_F(HostCampaign, ChecksConditionsUntilTheCommandHasEnded) {
     EXPECT_EQ(finished.exit_code, *row.message == '\0' ? 0 : 1)
         << row.steps << finished.output << finished.errors;
     EXPECT_TRUE(has(finished.output, row.message)) << row.steps << finished.output;
-    const std::string text = text_of("rows.jsonl");
-    const std::string key = "\"simulated_s\":";
-    ASSERT_TRUE(has(text, key)) << text;
-    EXPECT_NEAR(std::stod(text.substr(text.find(key) + key.size())), row.simulated_s, 1e-6)
-        << row.steps << text;
+    EXPECT_NEAR(simulated_s(), row.simulated_s, 1e-6) << row.steps << text_of("rows.jsonl");
   }
 }
 

@@ -284,8 +284,6 @@ void HostTime::take_from_host() {
 
 /// Gives the host the lines' output, and ends the waits for it. Returns true if one has ended.
 bool HostTime::give_to_host() {
-  const SimTime now = daemon_.world().now();
-  page_.set_now(now);
   bool has_ended = false;
   doors_.attend();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -303,7 +301,7 @@ bool HostTime::give_to_host() {
     if (port.line().save().input.empty()) has_ended = waits_.line_is_drained(terminal) || has_ended;
   }
   has_ended = doors_.report_news(waits_) || has_ended;
-  return waits_.time_is(now) || has_ended;
+  return waits_.time_is(daemon_.world().now()) || has_ended;
 }
 
 /// Sends the signals of timers that have expired. The threads that they wake will give up their waits.
@@ -349,7 +347,10 @@ void HostTime::consider() {
   patience_ = WallTime{0};
   const WallTime until = wall_now() + kSlice;
   while (true) {
+    page_.set_now(daemon_.world().now());
     if (task_ != nullptr) task_->act(daemon_.world().now());  // before the host, in every run
+    // The task has sent a signal: the host reacts to it before time advances.
+    if (must_poll_ && !is_host_over_) return poll_again();
     const bool continues = give_to_host();
     if (!may_time_go()) return;
     // A thread that continues may next wait for one that is already waiting, and no message would report
