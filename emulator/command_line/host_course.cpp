@@ -81,6 +81,12 @@ serve::ChildCommand command_for(const HostArguments& host, const serve::Daemon& 
   return command;
 }
 
+/// Returns the log of the daemon. In a campaign, the recording of a case has what its ports went through.
+std::function<void(const std::string&)> log_of(const CourseSetup& setup) {
+  if (setup.output >= 0) return [](const std::string&) {};
+  return log_line;
+}
+
 void share_ports(const serve::Daemon& daemon, gid_t group) {
   for (const auto& port : daemon.ports()) {
     if (port->terminal() != nullptr) serve::share_port(port->terminal()->path(), group);
@@ -93,7 +99,7 @@ class Course final : public play::HostCommand {
   Course(CourseSetup& setup, const ServeArguments& flags, serve::ParentSignals& signals)
       : setup_(setup),
         signals_(signals),
-        daemon_(setup.serving.bench, setup.serving.options, log_line),
+        daemon_(setup.serving.bench, setup.serving.options, log_of(setup)),
         coverage_(flags, daemon_) {
     if (setup.serving.group) share_ports(daemon_, *setup.serving.group);
     if (flags.lint) lint_.emplace(daemon_.world());

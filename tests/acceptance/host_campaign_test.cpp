@@ -302,6 +302,14 @@ TEST_F(HostCampaign, HuntsForWhatHappensAfterTheLastStep) {
   EXPECT_TRUE(has(finished.output, "never 'feeder.A.pulses > 50'")) << finished.output;
 }
 
+TEST_F(HostCampaign, SaysNothingAboutThePortsOfItsCases) {
+  const Finished finished =
+      exec("vary: { at: [ 10ms, 20ms ] }\nsteps:\n  - inject: { unplug: rs485, at: \"${at}\", for: 10ms }\n",
+           {"sleep", "1"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+  EXPECT_EQ(finished.errors, "");
+}
+
 TEST_F(HostCampaign, RunsInRealTimeToo) {
   const Finished finished =
       exec("vary: { seconds: [ 0.1, 0.2 ] }\nsteps:\n  - advance: 50ms\n  - host: { within: 30s }\n",
