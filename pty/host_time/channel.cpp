@@ -30,10 +30,12 @@ sockaddr_un bench_address = {};
 struct Connection {
   int descriptor;
   ino_t inode;
+  int32_t thread;  // whose it is: a child process begins with its parent's
   uint32_t sequence;
   const Message* outstanding;  // the wait that a signal handler interrupts
 };
-__thread Connection connection __attribute__((tls_model("initial-exec"))) = {-1, 0, 0, nullptr};
+constexpr Connection kNone = {-1, 0, 0, 0, nullptr};
+__thread Connection connection __attribute__((tls_model("initial-exec"))) = kNone;
 pthread_key_t at_end_of_thread;
 bool is_beginning = false;  // of this program, not of a thread or a child
 
@@ -104,44 +106,56 @@ int connect_to_bench() {
   return -1;
 }
 
+int32_t own_number() { return static_cast<int32_t>(UNDERSTUDY_REAL(syscall)(SYS_gettid)); }
+
 Message message_of(MessageKind what) {
   Message message = {};
   message.what = what;
   message.process = getpid();
-  message.thread = static_cast<int32_t>(UNDERSTUDY_REAL(syscall)(SYS_gettid));
+  message.thread = own_number();
   return message;
+}
+
+bool is_connected() {
+  struct stat status;
+  return connection.descriptor >= 0 && fstat(connection.descriptor, &status) == 0 &&
+         S_ISSOCK(status.st_mode) && status.st_ino == connection.inode;
+}
+
+void close_connection(void*) {
+  if (is_connected()) UNDERSTUDY_REAL(syscall)(SYS_close, connection.descriptor);
+  connection = kNone;
+}
+
+/// A child process has only the thread that forked. It needs a connection of its own.
+void forget_parent() {
+  close_connection(nullptr);
+  forget_timers();
 }
 
 /// Returns the connection of this thread. Connects first if it has none.
 int own_descriptor() {
+  // libc does not call begin_anew_in_child() in a child that the host has forked by a system call.
+  if (connection.descriptor >= 0 && connection.thread != own_number()) forget_parent();
+  if (is_connected()) return connection.descriptor;
   struct stat status;
-  if (connection.descriptor >= 0 && fstat(connection.descriptor, &status) == 0 && S_ISSOCK(status.st_mode) &&
-      status.st_ino == connection.inode)
-    return connection.descriptor;
   const int fresh = connect_to_bench();
   if (fresh < 0 || fstat(fresh, &status) != 0) give_up();
   connection.descriptor = fresh;
   connection.inode = status.st_ino;
   pthread_setspecific(at_end_of_thread, &connection);
   Message hello = message_of(MessageKind::hello);
+  connection.thread = hello.thread;
   hello.sequence = kVersion;
   hello.value = is_beginning ? 1 : 0;
   put(fresh, hello);
   return fresh;
 }
 
-void close_connection(void*) {
-  if (connection.descriptor >= 0) UNDERSTUDY_REAL(syscall)(SYS_close, connection.descriptor);
-  connection.descriptor = -1;
-}
-
-/// A child process has only the thread that forked. It gets a new connection.
 void begin_anew_in_child() {
   if (page == nullptr) return;
   const int error = errno;
-  if (connection.descriptor >= 0) UNDERSTUDY_REAL(syscall)(SYS_close, connection.descriptor);
-  connection = {-1, 0, 0, nullptr};
-  forget_timers();
+  forget_parent();
   own_descriptor();
   errno = error;
 }

@@ -1,6 +1,7 @@
 // Hosts in simulated time that die, fork, never wait again, or wait for nothing, and two hosts on two lines.
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,40 @@ os._exit(0)
   std::string expected;
   for (int run = 0; run < 10; ++run) expected += "[7, 6, 5] 5.0 15\n";
   EXPECT_EQ(host.output, expected) << host.errors;
+}
+
+// Libc, or a system call of the host's own, starts some of them. They greet the bench only when they wait.
+TEST_F(HostTime, FindsProcessesThatNobodyTellsItOf) {
+  const std::string spin = "while :; do :; done";
+  const Process load({"sh", "-c", spin});
+  for (const char* const threads : {"alone", "threads"}) {
+    for (int run = 0; run < 3; ++run) {
+      const Finished host = exec({FORKING_HOST, threads}, {"--timeout", "60s"});
+      EXPECT_EQ(host.exit_code, 0) << host.errors;
+      EXPECT_EQ(host.output, "11 ways\n") << threads;
+    }
+  }
+}
+
+TEST_F(HostTime, TellsOfAHostInTheBackground) {
+  const Finished host = exec({"sh", "-c", std::string(FORKING_HOST) + " background; sleep 5"});
+  EXPECT_EQ(host.exit_code, 0) << host.errors;
+  EXPECT_TRUE(std::regex_search(
+      host.errors,
+      std::regex("^understudy: forking_host \\(process [0-9]+\\) continues in the background although "
+                 "the command has ended, and simulated time ends with the command; expected a host that "
+                 "runs in the foreground\n$")))
+      << host.errors;
+}
+
+// The shell that became understudy had started it.
+TEST_F(HostTime, LeavesOtherChildrenOfItsProcessAlone) {
+  const std::string spin = "while :; do :; done";
+  const std::string command = std::string(UNDERSTUDY_BINARY) + " exec " + bench() +
+                              " --host-time --timeout 30s -- sh -c 'sleep 5; kill '$!'; date -u +%T'";
+  const Finished host = run({"sh", "-c", "timeout 60 sh -c '" + spin + "' & exec " + command});
+  EXPECT_EQ(host.output, "00:00:05\n") << host.errors;
+  EXPECT_EQ(host.errors, "");
 }
 
 // A host whose process becomes another program without the library ends soon, or sleeps.

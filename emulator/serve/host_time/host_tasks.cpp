@@ -2,19 +2,23 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/files/descriptor.h"
 #include "base/text/one_line.h"
@@ -56,6 +60,22 @@ std::uint64_t runs_in(std::string_view schedstat) {
 /// signal, or has ended.
 bool is_asleep(char state) { return state == 'S' || state == 'T' || state == 'Z' || state == 'X'; }
 
+Descriptor open_process(int process) {
+  return Descriptor(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
+}
+
+bool has_ended(const Descriptor& process) {
+  pollfd entry{.fd = process.get(), .events = POLLIN, .revents = 0};
+  return poll(&entry, 1, 0) > 0;
+}
+
+std::string name_of(int process) {
+  Buffer buffer{};
+  const std::string_view name =
+      read_small(open_to_read("/proc/" + std::to_string(process) + "/comm"), buffer);
+  return one_line(std::string(name.substr(0, name.find('\n'))));
+}
+
 template <class Act>
 void for_each_task(int process, Act act) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(folder_of(process).c_str()), closedir);
@@ -68,29 +88,99 @@ void for_each_task(int process, Act act) {
 
 }  // namespace
 
+HostTasks::HostTasks(EventLoop& loop, std::function<void(int)> ended)
+    : loop_(loop), ended_(std::move(ended)) {
+  for_each_task(::getpid(), [this](int task) {
+    for (const int child : children_of(task)) others_.insert(child);
+  });
+}
+
 HostTasks::~HostTasks() {
   for (const auto& [process, descriptor] : processes_) loop_.unwatch(descriptor.get());
 }
 
 void HostTasks::add(int process) {
   if (knows(process)) return;
-  Descriptor descriptor(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
-  if (!descriptor) return;  // it has ended already
+  Descriptor descriptor = open_process(process);
+  if (descriptor) watch_end(process, std::move(descriptor));  // otherwise it has ended already
+}
+
+void HostTasks::watch_end(int process, Descriptor descriptor) {
   loop_.watch(descriptor.get(), EventLoop::readable, [this, process](std::uint32_t) {
     const auto found = processes_.find(process);
     if (found == processes_.end()) return;
     loop_.unwatch(found->second.get());
     processes_.erase(found);
+    finds_orphans();
     ended_(process);
   });
   processes_.emplace(process, std::move(descriptor));
 }
 
+std::vector<int> HostTasks::children_of(int task) {
+  Descriptor& file = files_[task].children;
+  std::string numbers;
+  Buffer buffer{};
+  const auto read = [&] {
+    return ::pread(file.get(), buffer.data(), buffer.size(), static_cast<off_t>(numbers.size()));
+  };
+  ssize_t size = file ? read() : -1;
+  if (size < 0) {  // it is new, or the number was that of a thread that has ended
+    file = open_to_read(folder_of(task) + "/" + std::to_string(task) + "/children");
+    size = file ? read() : -1;
+  }
+  for (; size > 0; size = read()) numbers.append(buffer.data(), static_cast<std::size_t>(size));
+  std::vector<int> children;
+  const char* next = numbers.c_str();
+  for (char* end = nullptr;; next = end) {
+    const long number = std::strtol(next, &end, 10);
+    if (end == next) return children;
+    children.push_back(static_cast<int>(number));
+  }
+}
+
+/// Adds the children of a thread that are unknown and have not ended. Returns true if there were any.
+bool HostTasks::finds_children(int task) {
+  bool have_come = false;
+  for (const int child : children_of(task)) {
+    if (knows(child) || others_.contains(child)) continue;
+    Descriptor descriptor = open_process(child);
+    if (!descriptor || has_ended(descriptor)) continue;
+    watch_end(child, std::move(descriptor));
+    have_come = true;
+  }
+  return have_come;
+}
+
+/// Adds processes whose parent has ended, because they are our children now.
+bool HostTasks::finds_orphans() {
+  bool have_come = false;
+  for_each_task(::getpid(), [&](int task) { have_come = finds_children(task) || have_come; });
+  return have_come;
+}
+
+/// Adds unknown processes that these threads have started since all slept. Only a thread that has run can
+/// have started one, or has one that another thread has left behind.
+bool HostTasks::finds_strangers(const Tasks& tasks) {
+  const bool has_one_gone =
+      std::ranges::any_of(asleep_, [&](const auto& each) { return !tasks.contains(each.first); });
+  bool has_one_run = has_one_gone;
+  bool have_come = false;
+  for (const auto& [task, now] : tasks) {
+    const auto before = asleep_.find(task);
+    if (!has_one_gone && before != asleep_.end() && before->second == now) continue;
+    has_one_run = true;
+    have_come = finds_children(task) || have_come;
+  }
+  return (has_one_run && finds_orphans()) || have_come;
+}
+
 /// The folder of threads has two links, and one more for each thread.
-bool HostTasks::is_one_thread() const {
+bool HostTasks::is_one_thread() {
   if (processes_.size() != 1) return false;
+  const int process = processes_.begin()->first;
   struct stat status {};
-  return ::stat(folder_of(processes_.begin()->first).c_str(), &status) == 0 && status.st_nlink == 3;
+  return ::stat(folder_of(process).c_str(), &status) == 0 && status.st_nlink == 3 && !finds_children(process);
 }
 
 HostTasks::Task HostTasks::look_at(int process, int task) {
@@ -99,7 +189,7 @@ HostTasks::Task HostTasks::look_at(int process, int task) {
   std::string_view stat = files.stat ? read_small(files.stat, buffer) : "";
   if (stat.empty()) {  // it is new, or the number was that of a thread that has ended
     const std::string folder = folder_of(process) + "/" + std::to_string(task);
-    files = {open_to_read(folder + "/stat"), open_to_read(folder + "/schedstat")};
+    files = {open_to_read(folder + "/stat"), open_to_read(folder + "/schedstat"), {}};
     stat = read_small(files.stat, buffer);
   }
   const char state = state_in(stat);
@@ -132,19 +222,19 @@ bool HostTasks::are_all_asleep(std::optional<int> speaker) {
   const bool have_slept = before == asleep_;
   if (speaker) before[*speaker] = look_at(*speaker, *speaker);
   if (have_slept) {
+    if (speaker && finds_children(*speaker)) return false;
     // If something wakes the speaker later, it will have run more often than now.
     if (speaker) asleep_[*speaker] = {'S', before[*speaker].runs};
     return true;
   }
   Tasks after;
-  if (!read_tasks(after, std::nullopt) || before != after) return false;
+  if (!read_tasks(after, std::nullopt) || before != after || finds_strangers(after)) return false;
   std::erase_if(files_, [&](const auto& files) { return !after.contains(files.first); });
   asleep_ = std::move(after);
   return true;
 }
 
 std::optional<std::string> HostTasks::running_one() {
-  Buffer buffer{};
   std::optional<std::string> found;
   for (const auto& known : processes_) {
     const int process = known.first;
@@ -152,13 +242,19 @@ std::optional<std::string> HostTasks::running_one() {
     for_each_task(process, [&](int task) {
       ++number;
       if (found || look_at(process, task).state != 'R') return;
-      std::string_view name = read_small(open_to_read("/proc/" + std::to_string(process) + "/comm"), buffer);
-      name = name.substr(0, name.find('\n'));
-      found = "thread " + std::to_string(number) + " of " + one_line(std::string(name)) + " (process " +
+      found = "thread " + std::to_string(number) + " of " + name_of(process) + " (process " +
               std::to_string(process) + ")";
     });
   }
   return found;
+}
+
+std::optional<std::string> HostTasks::left_one() {
+  finds_orphans();
+  for (const auto& [process, descriptor] : processes_) {
+    if (!has_ended(descriptor)) return name_of(process) + " (process " + std::to_string(process) + ")";
+  }
+  return std::nullopt;
 }
 
 }  // namespace understudy::emulator::serve

@@ -2,13 +2,18 @@
 // one (a lock, a pipe, a child) without notifying the bench: the kernel knows that it sleeps. The kernel
 // wakes such a thread before the one that wakes it continues, so a host whose threads all sleep stays asleep.
 // A thread that has told the bench of its wait is no exception: a signal can end its wait, or its process.
+//
+// Our library tells the bench of most new processes. The kernel's lists of children have the others, such as
+// those that libc or a system call of the host's own has forked.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "base/files/descriptor.h"
 #include "emulator/serve/loop/event_loop.h"
@@ -17,9 +22,8 @@ namespace understudy::emulator::serve {
 
 class HostTasks {
  public:
-  /// `ended` is called when a process has ended.
-  HostTasks(EventLoop& loop, std::function<void(int process)> ended)
-      : loop_(loop), ended_(std::move(ended)) {}
+  /// `ended` is called when a process has ended. Children that this process has already are not the host's.
+  HostTasks(EventLoop& loop, std::function<void(int process)> ended);
   ~HostTasks();
   HostTasks(const HostTasks&) = delete;
   HostTasks& operator=(const HostTasks&) = delete;
@@ -27,7 +31,7 @@ class HostTasks {
   void add(int process);
   bool knows(int process) const { return processes_.contains(process); }
   /// Returns true if the host has a single thread.
-  bool is_one_thread() const;
+  bool is_one_thread();
   /// Returns true if no thread of any process can continue on its own. `speaker` is the only thread that has
   /// sent messages since the host was asleep, if the last of them tells that it waits: it may still be on its
   /// way to sleep.
@@ -39,6 +43,8 @@ class HostTasks {
 
   /// Describes a thread that the kernel runs: "thread 2 of my_host (1234)".
   std::optional<std::string> running_one();
+  /// Describes a process that has not ended: "my_host (process 1234)".
+  std::optional<std::string> left_one();
 
  private:
   struct Task {
@@ -52,14 +58,21 @@ class HostTasks {
   struct Files {
     Descriptor stat;
     Descriptor schedstat;
+    Descriptor children;
   };
 
+  void watch_end(int process, Descriptor descriptor);
+  std::vector<int> children_of(int task);
+  bool finds_children(int task);
+  bool finds_orphans();
+  bool finds_strangers(const Tasks& tasks);
   Task look_at(int process, int task);
   bool read_tasks(Tasks& tasks, std::optional<int> except);
 
   EventLoop& loop_;
   std::function<void(int)> ended_;
   std::map<int, Descriptor> processes_;  // each with a descriptor that reports its end
+  std::set<int> others_;                 // children of this process that are not the host's
   std::map<int, Files> files_;           // of threads
   Tasks asleep_;                         // threads that have not been told to continue since all slept
 };

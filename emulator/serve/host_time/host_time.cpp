@@ -384,6 +384,11 @@ void HostTime::host_ended() {
   is_host_over_ = true;
   receive_all();  // the end of a short-lived host may be noticed before its greeting
   judge_end_of(greetings_.first_process());
+  if (const auto left = tasks_.left_one()) {
+    report_(*left +
+            " continues in the background although the command has ended, and simulated time ends with the "
+            "command; expected a host that runs in the foreground");
+  }
   if (task_ != nullptr && !task_->next_act()) task_->act(daemon_.world().now());  // it may wait for this
   consider();
 }
