@@ -1,5 +1,6 @@
 // Reads that wait for a line of the bench according to the terminal's VMIN and VTIME, writes that wait until
 // the line has room, and tcdrain.
+#include <alloca.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -25,9 +26,8 @@ struct Patience {
   bool is_between_bytes = false;  // the length starts again with each byte
 };
 
-/// Returns false if the read does not wait, or does not read from a line.
-bool take_patience(int descriptor, size_t size, int* number, Patience& patience) {
-  if (size == 0 || !is_line(descriptor, number)) return false;
+/// Returns false if a read of the line does not wait.
+bool take_patience(int descriptor, size_t size, Patience& patience) {
   const int flags = fcntl(descriptor, F_GETFL);
   if (flags < 0 || (flags & O_NONBLOCK) != 0) return false;
   termios settings;
@@ -93,16 +93,23 @@ bool wait_for_timer(int descriptor) {
 
 }  // namespace
 
-UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
+ssize_t understudy::host_time::wait_to_read(int descriptor, size_t size) {
+  constexpr ssize_t kAll = SSIZE_MAX;
+  if (!is_active() || size == 0) return kAll;
+  if (size >= sizeof(uint64_t) && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
+  if (!wait_for_door(descriptor)) return -1;
   int number = -1;
   Patience patience;
-  const bool may_wait = is_active() && size > 0;
-  if (may_wait && size >= sizeof(uint64_t) && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
-  if (may_wait && !wait_for_door(descriptor)) return -1;
-  if (!may_wait || !take_patience(descriptor, size, &number, patience))
-    return UNDERSTUDY_REAL(read)(descriptor, place, size);
-  const ssize_t max = wait_for_bytes(descriptor, number, size, patience);
-  return max <= 0 ? max : UNDERSTUDY_REAL(read)(descriptor, place, static_cast<size_t>(max));
+  if (!is_line(descriptor, &number)) return kAll;
+  if (take_patience(descriptor, size, patience)) return wait_for_bytes(descriptor, number, size, patience);
+  return kAll;
+}
+
+UNDERSTUDY_EXPORT ssize_t read(int descriptor, void* place, size_t size) {
+  const ssize_t max = wait_to_read(descriptor, size);
+  if (max <= 0) return max;
+  const auto room = static_cast<size_t>(max);
+  return UNDERSTUDY_REAL(read)(descriptor, place, room < size ? room : size);
 }
 
 UNDERSTUDY_EXPORT ssize_t __read_chk(int descriptor, void* place, size_t size, size_t room) {
@@ -112,22 +119,20 @@ UNDERSTUDY_EXPORT ssize_t __read_chk(int descriptor, void* place, size_t size, s
 
 UNDERSTUDY_EXPORT ssize_t readv(int descriptor, const iovec* parts, int count) {
   size_t size = 0;
-  for (int i = 0; i < count && count <= IOV_MAX; ++i) size += parts[i].iov_len;
-  int number = -1;
-  Patience patience;
-  if (is_active() && size > 0 && !wait_for_door(descriptor)) return -1;
-  if (is_active() && take_patience(descriptor, size, &number, patience)) {
-    const ssize_t max = wait_for_bytes(descriptor, number, size, patience);
-    if (max <= 0) return max;
-    for (int i = 0; i < count; ++i) {  // fills only one part: terminals may return less
-      if (parts[i].iov_len > 0) {
-        const size_t part =
-            static_cast<size_t>(max) < parts[i].iov_len ? static_cast<size_t>(max) : parts[i].iov_len;
-        return UNDERSTUDY_REAL(read)(descriptor, parts[i].iov_base, part);
-      }
-    }
+  const bool is_good = is_active() && count > 0 && count <= IOV_MAX;
+  for (int i = 0; is_good && i < count; ++i) size += parts[i].iov_len;
+  const ssize_t max = wait_to_read(descriptor, size);
+  if (max <= 0) return max;
+  if (static_cast<size_t>(max) >= size) return UNDERSTUDY_REAL(readv)(descriptor, parts, count);
+  auto* const shorter = static_cast<iovec*>(alloca(static_cast<size_t>(count) * sizeof(iovec)));
+  size_t rest = static_cast<size_t>(max);
+  int used = 0;
+  for (; rest > 0; ++used) {
+    shorter[used] = parts[used];
+    if (shorter[used].iov_len > rest) shorter[used].iov_len = rest;
+    rest -= shorter[used].iov_len;
   }
-  return UNDERSTUDY_REAL(readv)(descriptor, parts, count);
+  return UNDERSTUDY_REAL(readv)(descriptor, shorter, used);
 }
 
 namespace {

@@ -5,7 +5,9 @@
 #include <dlfcn.h>
 #include <poll.h>
 #include <signal.h>
+#include <stddef.h>
 #include <stdint.h>
+#include <sys/types.h>
 #include <sys/un.h>
 #include <time.h>
 
@@ -61,6 +63,10 @@ bool wait_for_door(int descriptor);
 void address_of_door(int door, sockaddr_un* address);
 /// Returns the number of the door that has this address, or -1.
 int number_of_door(const sockaddr_un& address);
+
+/// Call this before a read of up to `size` bytes: waits, as the bench decides, until the kernel would not
+/// block it. Returns how many bytes it may ask for; 0: the time is up; -1, with errno set: a signal arrived.
+ssize_t wait_to_read(int descriptor, size_t size);
 
 enum class Woken : uint8_t { by_bench, by_descriptor, by_signal };
 

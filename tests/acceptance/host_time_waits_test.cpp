@@ -1,0 +1,120 @@
+// Waits of hosts in simulated time that end in less usual ways: loops that wait until a moment is past,
+// libc's streams, signals of a line, advances by hand, message queues. The same scripts in real time say what
+// is right.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/acceptance/host_time_rig.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace host_time_test {
+
+constexpr const char* kSlimBench =
+    "understudy: 1\nlines: { serial: { stations: [ { name: robot, model: slim } ] } }\n";
+
+// Every function of libc that reads a stream, with a buffer and without one.
+constexpr const char* kStreams = R"(
+import ctypes, os, signal, termios, time, tty
+libc = ctypes.CDLL(None, use_errno=True)
+libc.fdopen.restype = libc.fgets.restype = ctypes.c_void_p
+libc.fread.restype = ctypes.c_size_t
+libc.getline.restype = libc.getdelim.restype = ctypes.c_ssize_t
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+def settle(least, tenths):
+    settings = termios.tcgetattr(port)
+    settings[4] = settings[5] = termios.B9600
+    settings[6][termios.VMIN], settings[6][termios.VTIME] = least, tenths
+    termios.tcsetattr(port, termios.TCSANOW, settings)
+place = ctypes.create_string_buffer(200)
+line, room, number = ctypes.c_void_p(None), ctypes.c_size_t(0), ctypes.c_int(-1)
+def gets(size):
+    return libc.fgets(place, size, file) and place.value
+def characters(name):
+    text = b""
+    while not text.endswith(b"\n"):
+        text += bytes([getattr(libc, name)(file)])
+    return text
+def scan(name):
+    return getattr(libc, name)(file, b"%d", ctypes.byref(number)), number.value, characters("fgetc")
+def delimited(*end):
+    read = libc.getdelim if end else libc.getline
+    return read(ctypes.byref(line), ctypes.byref(room), *end, file), ctypes.string_at(line)
+def tell(name, read, asks=True):
+    began = time.monotonic()
+    if asks:
+        libc.fputs(b"?PE\r", file)
+    print(name, read(), libc.feof(file) != 0, libc.ferror(file) != 0, round(time.monotonic() - began, 1))
+for is_buffered in (True, False):
+    settle(1, 0)
+    file = ctypes.c_void_p(libc.fdopen(os.dup(port), b"r+"))
+    if not is_buffered:
+        libc.setbuf(file, None)
+    tell("fgets", lambda: gets(100))
+    tell("fgets in parts", lambda: [gets(2), gets(100)])
+    tell("getline", delimited)
+    tell("getdelim", lambda: [delimited(ord("\r")), characters("fgetc")])
+    for name in ("fgetc", "getc", "getc_unlocked", "fgetc_unlocked", "_IO_getc", "__uflow"):
+        tell(name, lambda: characters(name))
+    tell("ungetc", lambda: [libc.ungetc(libc.fgetc(file), file), gets(100)])
+    tell("fread", lambda: [libc.fread(place, 1, 3, file), place.raw[:3]])
+    for name in ("fscanf", "__isoc99_fscanf"):
+        tell(name, lambda: scan(name))
+    settle(0, 15)
+    tell("nothing", lambda: gets(100), False)
+    tell("still", lambda: gets(100), False)  # the end lasts until it is cleared
+    libc.clearerr(file)
+    tell("cleared", lambda: gets(100))
+    libc.fclose(file)
+)";
+
+TEST_F(HostTime, WaitsInEveryReadOfALibcStream) {
+  const std::string slim = folder().write("slim.yaml", kSlimBench);
+  const Words command{"--timeout", "60s", "--", kPython, "-c", kStreams};
+  const auto run = [&](Words words) {
+    words.insert(words.end(), command.begin(), command.end());
+    return understudy(words);
+  };
+  const Finished real = run({"exec", slim});
+  const Finished simulated = run({"exec", slim, "--host-time", "--twice"});
+  EXPECT_EQ(simulated.exit_code, 0) << simulated.errors;
+  EXPECT_EQ(simulated.output, real.output + real.output);
+  EXPECT_NE(real.output.find("fread [3, b'0\\r\\n'] False False"), std::string::npos) << real.output;
+  EXPECT_NE(real.output.find("nothing None True False 1.5"), std::string::npos) << real.output;
+}
+
+TEST_F(HostTime, ReadsALineForAShellScript) {
+  const std::string slim = folder().write("slim.yaml", kSlimBench);
+  const std::string script =
+      "exec 3<>$UNDERSTUDY_PORT; stty 9600 raw -echo <&3; printf '?PE\\r' >&3; sed -u 1q <&3; echo done";
+  const Finished host =
+      understudy({"exec", slim, "--host-time", "--timeout", "60s", "--", "sh", "-c", script});
+  EXPECT_EQ(host.exit_code, 0) << host.errors;
+  EXPECT_EQ(host.output, "0\r\ndone\n");
+}
+
+TEST_F(HostTime, FillsAllPartsOfAReadv) {
+  const Finished host = python_twice(R"(
+import os, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+for least, sizes in ((7, [3, 90]), (7, [0, 1, 2, 0, 4]), (3, [2, 1])):
+    settings[6][termios.VMIN], settings[6][termios.VTIME] = least, 0
+    termios.tcsetattr(port, termios.TCSANOW, settings)
+    os.write(port, bytes.fromhex("010300010001D5CA"))
+    parts = [bytearray(size) for size in sizes]
+    print(os.readv(port, parts), b"".join(parts)[:7].hex())
+    if least == 3:
+        time.sleep(0.1)
+        print(os.read(port, 4).hex())
+)");
+  EXPECT_EQ(host.output, "7 010302c0012984\n7 010302c0012984\n3 010302\nc0012984\n") << host.errors;
+}
+
+}  // namespace host_time_test
+}  // namespace understudy::acceptance
