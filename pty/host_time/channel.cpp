@@ -369,6 +369,7 @@ Woken wait_for(const Wait& wait) {
   message.sequence = ++connection.sequence;
   message.until_ns = wait.until_ns;
   message.is_for_drain = wait.is_for_drain ? 1 : 0;
+  message.is_check = wait.is_check ? 1 : 0;
   message.has_others = wait.other_count > 0 ? 1 : 0;
   message.line_count = wait.line_count;
   memcpy(message.lines, wait.lines, sizeof message.lines);
@@ -383,6 +384,7 @@ Woken wait_for(const Wait& wait) {
 }
 
 bool sleep_until(int64_t until_ns) {
+  if (now_ns() >= until_ns) check_again();
   while (now_ns() < until_ns) {
     Wait wait;
     wait.until_ns = until_ns;

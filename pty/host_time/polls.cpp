@@ -119,6 +119,14 @@ int wait_in_turn(int64_t length_ns, const Sorted& sorted, Wait& wait, Look look)
   }
 }
 
+/// Gives a wait of no length that has found nothing the length of a check. Returns false if that is none.
+bool take_check(int64_t& length_ns, Wait& wait) {
+  if (length_ns != 0) return true;
+  length_ns = length_of_check();
+  wait.is_check = true;
+  return length_ns != 0;
+}
+
 timespec real_length(int64_t length_ns) { return time_of(length_ns); }
 
 int poll_for(pollfd* entries, nfds_t count, int64_t length_ns, const sigset_t* mask) {
@@ -127,9 +135,9 @@ int poll_for(pollfd* entries, nfds_t count, int64_t length_ns, const sigset_t* m
     return UNDERSTUDY_REAL(ppoll)(entries, count, length == kNever ? nullptr : &time, mask);
   };
   const int ready = look(0);
-  if (ready != 0 || length_ns == 0) return ready;
-  Sorted sorted(count);
   Wait wait;
+  if (ready != 0 || !take_check(length_ns, wait)) return ready;
+  Sorted sorted(count);
   wait.mask = mask;
   for (nfds_t i = 0; i < count; ++i) sorted.add(entries[i].fd, entries[i].events, wait);
   return wait_in_turn(length_ns, sorted, wait, look);
@@ -188,9 +196,9 @@ int select_for(int count, fd_set* reads, fd_set* writes, fd_set* excepts, int64_
     return UNDERSTUDY_REAL(pselect)(count, reads, writes, excepts, length == kNever ? nullptr : &time, mask);
   };
   const int ready = look(0);
-  if (ready != 0 || length_ns == 0) return ready;
-  Sorted sorted(static_cast<nfds_t>(sets.count()));
   Wait wait;
+  if (ready != 0 || !take_check(length_ns, wait)) return ready;
+  Sorted sorted(static_cast<nfds_t>(sets.count()));
   wait.mask = mask;
   for (int i = 0; i < sets.count(); ++i) {
     if (sets.events(i) != 0) sorted.add(i, sets.events(i), wait);
@@ -206,9 +214,9 @@ int select_for(int count, fd_set* reads, fd_set* writes, fd_set* excepts, int64_
 int epoll_for(int descriptor, epoll_event* events, int count, int64_t length_ns, const sigset_t* mask) {
   const auto look = [&] { return UNDERSTUDY_REAL(epoll_pwait)(descriptor, events, count, 0, mask); };
   const int ready = look();
-  if (ready != 0 || length_ns == 0) return ready;
-  Sorted sorted(1);
   Wait wait;
+  if (ready != 0 || !take_check(length_ns, wait)) return ready;
+  Sorted sorted(1);
   wait.mask = mask;
   sorted.add(descriptor, POLLIN, wait);
   wait.line_count = kAnyLine;

@@ -10,9 +10,9 @@
 namespace understudy::host_time {
 
 /// The library and the bench must be of one version: the library's greeting has this number.
-inline constexpr uint32_t kVersion = 3;
+inline constexpr uint32_t kVersion = 4;
 /// The library has this text, so that the bench recognizes it before a host loads it. It has the version.
-#define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 3"
+#define UNDERSTUDY_HOST_TIME_MARK "understudy host time, version 4"
 
 /// The environment variable with the path of the socket. The page is next to it.
 inline constexpr const char* kVariable = "UNDERSTUDY_HOST_TIME";
@@ -83,6 +83,7 @@ struct Message {
   int32_t signal;  // of a timer: the signal that it sends; 0: it counts in the descriptor of the message
   uint32_t is_for_drain;           // the wait ends when what was written to the line has left the wire
   uint32_t is_on_word;             // the thread watches its word of the page, not its connection
+  uint32_t is_check;               // the thread asks again and again, without a wait of its own
   uint32_t has_others;             // the thread also waits for descriptors that are not lines
   uint32_t line_count;             // how many of `lines` it waits for, or kAnyLine
   int32_t lines[kLinesInMessage];  // numbers of pseudo-terminals and doors

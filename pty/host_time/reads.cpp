@@ -83,6 +83,19 @@ ssize_t wait_for_bytes(int descriptor, int number, size_t size, const Patience& 
 
 namespace {
 
+/// A read that does not wait only checks whether the line has anything.
+void check_line(int descriptor, int number) {
+  pollfd entry = {descriptor, POLLIN, 0};
+  if (UNDERSTUDY_REAL(poll)(&entry, 1, 0) != 0) return;
+  const int64_t length_ns = length_of_check();
+  if (length_ns == 0) return;
+  Wait wait;
+  wait.add_line(number);
+  wait.is_check = true;
+  wait.until_ns = after(length_ns);
+  wait_for(wait);
+}
+
 /// Waits until a timer has expired. Returns false if a signal arrived.
 bool wait_for_timer(int descriptor) {
   const int flags = fcntl(descriptor, F_GETFL);
@@ -102,6 +115,7 @@ ssize_t understudy::host_time::wait_to_read(int descriptor, size_t size) {
   Patience patience;
   if (!is_line(descriptor, &number)) return kAll;
   if (take_patience(descriptor, size, patience)) return wait_for_bytes(descriptor, number, size, patience);
+  check_line(descriptor, number);
   return kAll;
 }
 

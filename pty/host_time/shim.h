@@ -76,6 +76,7 @@ struct Wait {
   uint32_t line_count = 0;  // or kAnyLine
   int32_t lines[kLinesInMessage] = {};
   bool is_for_drain = false;
+  bool is_check = false;
   bool is_restartable = false;  // restarts after a signal with SA_RESTART; only without others and a mask
   pollfd* others = nullptr;     // descriptors that are not lines: they wake it too
   nfds_t other_count = 0;
@@ -93,8 +94,15 @@ struct Wait {
 /// Waits as the bench decides. After by_bench, check again: the time may be over, or a line may be ready.
 Woken wait_for(const Wait& wait);
 
-/// Waits until simulated time `until_ns`. Returns false if a signal has ended it.
+/// Waits until simulated time `until_ns`. Returns false if a signal has ended it. If that time has come
+/// already, this is a check_again().
 bool sleep_until(int64_t until_ns);
+
+/// Call this for each wait of no length that has found nothing. Returns how long it must wait nevertheless, 0
+/// at first: see checks.cpp.
+int64_t length_of_check();
+/// Sleeps for length_of_check(), for waits that no line can end.
+void check_again();
 
 /// Waits while the word has this value, until simulated time `until_ns`. Here by_descriptor means that
 /// another thread has woken it. Spurious wake-ups are possible.

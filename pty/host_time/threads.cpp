@@ -47,6 +47,7 @@ int wait_for_signal(pthread_cond_t* place, pthread_mutex_t* mutex, int64_t until
     return error;
   }
   Woken woken = Woken::by_signal;
+  if (now_ns() >= until_ns) check_again();
   while (woken == Woken::by_signal && now_ns() < until_ns &&
          __atomic_load_n(&condition.signals, __ATOMIC_ACQUIRE) == before)
     woken = wait_on_word(&condition.signals, before, condition.is_shared != 0, until_ns);
@@ -88,8 +89,11 @@ int wait_for_post(sem_t* place, clockid_t clock, const timespec* time) {
   while (true) {
     __atomic_fetch_add(&semaphore->value_and_waiters, kOneWaiter, __ATOMIC_ACQ_REL);
     Woken woken = Woken::by_descriptor;
-    if (now_ns() < until)
+    if (now_ns() < until) {
       woken = wait_on_word(reinterpret_cast<uint32_t*>(semaphore), 0, semaphore->is_shared != 0, until);
+    } else {
+      check_again();
+    }
     __atomic_fetch_sub(&semaphore->value_and_waiters, kOneWaiter, __ATOMIC_ACQ_REL);
     if (sem_trywait(place) == 0) return 0;
     if (woken == Woken::by_signal || now_ns() >= until) {
@@ -111,7 +115,10 @@ int try_until(clockid_t clock, const timespec* time, Try try_once) {
     if (error != EBUSY) return error;
     if (!has_end) return EINVAL;
     const int64_t now = now_ns();
-    if (now >= until) return ETIMEDOUT;
+    if (now >= until) {
+      check_again();
+      return ETIMEDOUT;
+    }
     sleep_until(until - now < between_ns ? until : now + between_ns);
     if (between_ns < kMaxBetween_ns) between_ns *= 2;
   }
@@ -265,9 +272,12 @@ long wait_on_futex(uint32_t* word, int operation, uint32_t value, const timespec
     errno = EAGAIN;
     return -1;
   }
-  const Woken woken = now_ns() >= until
-                          ? Woken::by_bench
-                          : wait_on_word(word, value, (operation & FUTEX_PRIVATE_FLAG) == 0, until);
+  Woken woken = Woken::by_bench;
+  if (now_ns() < until) {
+    woken = wait_on_word(word, value, (operation & FUTEX_PRIVATE_FLAG) == 0, until);
+  } else {
+    check_again();
+  }
   if (woken == Woken::by_descriptor) return 0;
   errno = woken == Woken::by_signal ? EINTR : ETIMEDOUT;
   return -1;

@@ -219,7 +219,11 @@ UNDERSTUDY_EXPORT int sigtimedwait(const sigset_t* set, siginfo_t* info, const t
   int result = -1;
   while (true) {
     result = UNDERSTUDY_REAL(sigtimedwait)(set, info, &nothing);
-    if (result >= 0 || errno != EAGAIN || now_ns() >= until) break;
+    if (result >= 0 || errno != EAGAIN) break;
+    if (now_ns() >= until) {
+      if (length == 0) check_again();
+      break;
+    }
     Wait wait;
     wait.until_ns = until;
     wait.others = &entry;

@@ -15,6 +15,112 @@ namespace host_time_test {
 constexpr const char* kSlimBench =
     "understudy: 1\nlines: { serial: { stations: [ { name: robot, model: slim } ] } }\n";
 
+// What each of these waits for does not come, or late. Each of them then checks without a wait until its
+// moment is past.
+TEST_F(HostTime, EndsLoopsThatWaitUntilAMomentIsPast) {
+  const Finished host = python_twice(R"(
+import multiprocessing, select, time
+def tell(name, wait):
+    began = time.monotonic()
+    result = wait()
+    print(name, result, round(time.monotonic() - began, 2))
+ends = multiprocessing.Pipe()
+def loop(wait, unit_ns, units):
+    now = lambda: time.monotonic_ns() // unit_ns
+    end = now() + units
+    while now() <= end:
+        wait(end - now())
+tell("pipe", lambda: ends[0].poll())
+tell("pipe", lambda: ends[0].poll(2))
+tell("milliseconds", lambda: loop(select.poll().poll, 1000000, 1000))
+for name, wait in {"poll": lambda left: select.poll().poll(0), "select": lambda left: select.select([], [], [], 0),
+                   "epoll": lambda left: select.epoll().poll(0), "sleep": lambda left: time.sleep(0)}.items():
+    time.sleep((1000000000 - time.monotonic_ns() % 1000000000) / 1000000000)
+    tell(name, lambda: loop(wait, 1000000000, 1))
+)",
+                                     {"--timeout", "60s"});
+  EXPECT_EQ(host.output,
+            "pipe False 0.0\npipe False 2.0\nmilliseconds None 1.0\npoll None 2.0\nselect None 2.0\nepoll "
+            "None 2.0\n"
+            "sleep None 2.0\n")
+      << host.errors;
+}
+
+// These have several threads or processes that check at the same time.
+TEST_F(HostTime, EndsTheTimedWaitsOfPythonsProcesses) {
+  const Finished host = python(R"(
+import multiprocessing, queue, subprocess, time
+from concurrent.futures import ProcessPoolExecutor
+def tell(name, wait):
+    began = time.monotonic()
+    result = wait()
+    print(name, result, round(time.monotonic() - began, 1), flush=True)
+def join():
+    child = multiprocessing.Process(target=time.sleep, args=[5])
+    child.start()
+    child.join(2)
+    was_alive = child.is_alive()
+    child.join()
+    return was_alive
+def communicate():
+    child = subprocess.Popen(["sleep", "5"], stdout=subprocess.PIPE)
+    try:
+        child.communicate(timeout=2)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.wait()
+        return "expired"
+def get():
+    try:
+        multiprocessing.Queue().get(timeout=2)
+    except queue.Empty:
+        return "empty"
+def pool():
+    with multiprocessing.Pool(2) as workers:
+        return workers.map(abs, [-1, -2])
+def executor():
+    with ProcessPoolExecutor(2) as workers:
+        return list(workers.map(abs, [-1, -2]))
+for wait in join, communicate, get, pool, executor:
+    tell(wait.__name__, wait)
+)",
+                               {"--timeout", "60s"});
+  EXPECT_EQ(host.output,
+            "join True 5.0\ncommunicate expired 2.0\nget empty 2.0\npool [1, 2] 0.0\nexecutor [1, 2] 0.0\n")
+      << host.errors;
+}
+
+// A reply takes as long as with a wait, although the host only checks for it.
+TEST_F(HostTime, GivesAHostThatOnlyChecksItsReplyInTime) {
+  const Finished host = python_twice(R"(
+import os, select, termios, time, tty
+port = os.open(os.environ["UNDERSTUDY_PORT"], os.O_RDWR | os.O_NOCTTY)
+tty.setraw(port)
+settings = termios.tcgetattr(port)
+settings[4] = settings[5] = termios.B19200
+termios.tcsetattr(port, termios.TCSANOW, settings)
+def check(timeout):
+    return os.read(port, 7) if select.select([port], [], [], timeout)[0] else b""
+def attempt():
+    try:
+        return os.read(port, 7)
+    except BlockingIOError:
+        return b""
+for read in (lambda: check(2)), (lambda: check(0)), attempt:
+    os.set_blocking(port, read != attempt)
+    began = time.monotonic()
+    os.write(port, bytes.fromhex("010300010001D5CA"))
+    answer = b""
+    while len(answer) < 7:
+        answer += read()
+    print(answer.hex(), round(time.monotonic() - began, 4))
+)",
+                                     {"--timeout", "60s"});
+  const std::string waiting = host.output.substr(0, host.output.find('\n') + 1);
+  EXPECT_EQ(host.output, waiting + waiting + waiting) << host.errors;
+  EXPECT_EQ(waiting.substr(0, 15), "010302c0012984 ");
+}
+
 // Every function of libc that reads a stream, with a buffer and without one.
 constexpr const char* kStreams = R"(
 import ctypes, os, signal, termios, time, tty

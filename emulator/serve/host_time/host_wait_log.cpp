@@ -29,6 +29,7 @@ HostWaitLog::Open HostWaitLog::open_for(const HostWaits::Thread& thread, const L
                                         SimTime now) const {
   const host_time::Message& wait = thread.wait;
   Open open{.until_ns = wait.until_ns, .sequence = wait.sequence, .begin = now, .end = now};
+  open.is_check = wait.is_check != 0;
   if (wait.line_count == host_time::kAnyLine) {
     open.lines.resize(lines.size());
     std::iota(open.lines.begin(), open.lines.end(), std::size_t{0});
@@ -75,10 +76,10 @@ void HostWaitLog::begin(const HostWaits& waits, const Lines& lines, SimTime now)
     // The wait for a reply lasts until the reply is complete: its first bytes do not end it.
     const bool is_same_reply =
         last.kind == Kind::reply && (open.kind == Kind::data || open.kind == Kind::other);
-    const bool is_same =
-        (open.kind == last.kind || is_same_reply) && open.lines == last.lines && open.asked == last.asked &&
-        last.end == now &&
-        (open.sequence == last.sequence || (open.kind != Kind::sleep && last.until_ns > now.count()));
+    const bool is_same = (open.kind == last.kind || is_same_reply) && open.lines == last.lines &&
+                         open.asked == last.asked && last.end == now &&
+                         (open.sequence == last.sequence || (open.is_check && last.is_check) ||
+                          (open.kind != Kind::sleep && last.until_ns > now.count()));
     if (is_same) {
       open.kind = last.kind;
       open.begin = last.begin;

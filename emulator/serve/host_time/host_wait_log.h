@@ -47,6 +47,7 @@ class HostWaitLog {
     std::uint64_t answered = 0;  // bytes that it had received from them
     std::int64_t until_ns = 0;
     std::uint32_t sequence = 0;
+    bool is_check = false;
     SimTime begin{0};
     SimTime end{0};
   };
