@@ -128,6 +128,25 @@ bool wait_for_socket(int descriptor, int number, int flags) {
   }
 }
 
+/// Waits until a read of a socket that is no door would not block, if the socket has a timeout (SO_RCVTIMEO):
+/// the kernel would count it in real time. Returns false, with errno set, if the read must not be tried.
+bool wait_for_peer(int descriptor, int flags) {
+  timeval length = {};
+  socklen_t size = sizeof length;
+  const int error = errno;
+  const int result = UNDERSTUDY_REAL(getsockopt)(descriptor, SOL_SOCKET, SO_RCVTIMEO, &length, &size);
+  errno = error;
+  const int64_t length_ns = result == 0 ? ns_of(length) : 0;
+  if (length_ns <= 0 || (flags & MSG_DONTWAIT) != 0) return true;
+  const int modes = fcntl(descriptor, F_GETFL);
+  if (modes < 0 || (modes & O_NONBLOCK) != 0) return true;
+  pollfd entry = {descriptor, POLLIN, 0};
+  const timespec time = time_of(length_ns);
+  const int ready = ppoll(&entry, 1, &time, nullptr);
+  if (ready == 0) errno = EAGAIN;
+  return ready > 0;
+}
+
 /// Receives bytes; with MSG_WAITALL, until all have arrived.
 ssize_t receive(int descriptor, int number, void* place, size_t size, int flags, sockaddr* from,
                 socklen_t* from_size) {
@@ -161,9 +180,9 @@ bool is_door(int descriptor, int* number) {
   return true;
 }
 
-bool wait_for_door(int descriptor) {
+bool wait_for_connection(int descriptor) {
   int number = -1;
-  return !is_door(descriptor, &number) || wait_for_socket(descriptor, number, 0);
+  return is_door(descriptor, &number) ? wait_for_socket(descriptor, number, 0) : wait_for_peer(descriptor, 0);
 }
 
 }  // namespace understudy::host_time
@@ -215,8 +234,9 @@ UNDERSTUDY_EXPORT int getsockopt(int descriptor, int level, int name, void* valu
 
 UNDERSTUDY_EXPORT ssize_t recv(int descriptor, void* place, size_t size, int flags) {
   int number = -1;
-  if (!is_active() || !is_door(descriptor, &number))
-    return UNDERSTUDY_REAL(recv)(descriptor, place, size, flags);
+  if (!is_active()) return UNDERSTUDY_REAL(recv)(descriptor, place, size, flags);
+  if (!is_door(descriptor, &number))
+    return wait_for_peer(descriptor, flags) ? UNDERSTUDY_REAL(recv)(descriptor, place, size, flags) : -1;
   return receive(descriptor, number, place, size, flags, nullptr, nullptr);
 }
 
@@ -228,8 +248,9 @@ UNDERSTUDY_EXPORT ssize_t __recv_chk(int descriptor, void* place, size_t size, s
 UNDERSTUDY_EXPORT ssize_t recvfrom(int descriptor, void* place, size_t size, int flags, sockaddr* from,
                                    socklen_t* from_size) {
   int number = -1;
-  if (!is_active() || !is_door(descriptor, &number))
-    return UNDERSTUDY_REAL(recvfrom)(descriptor, place, size, flags, from, from_size);
+  const bool is_ours = is_active() && is_door(descriptor, &number);
+  if (is_active() && !is_ours && !wait_for_peer(descriptor, flags)) return -1;
+  if (!is_ours) return UNDERSTUDY_REAL(recvfrom)(descriptor, place, size, flags, from, from_size);
   return receive(descriptor, number, place, size, flags, from, from_size);
 }
 
@@ -241,6 +262,8 @@ UNDERSTUDY_EXPORT ssize_t __recvfrom_chk(int descriptor, void* place, size_t siz
 
 UNDERSTUDY_EXPORT ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
   int number = -1;
-  if (is_active() && is_door(descriptor, &number) && !wait_for_socket(descriptor, number, flags)) return -1;
+  const bool is_ours = is_active() && is_door(descriptor, &number);
+  if (is_ours && !wait_for_socket(descriptor, number, flags)) return -1;
+  if (is_active() && !is_ours && !wait_for_peer(descriptor, flags)) return -1;
   return UNDERSTUDY_REAL(recvmsg)(descriptor, message, flags);
 }

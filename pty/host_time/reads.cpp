@@ -110,7 +110,7 @@ ssize_t understudy::host_time::wait_to_read(int descriptor, size_t size) {
   constexpr ssize_t kAll = SSIZE_MAX;
   if (!is_active() || size == 0) return kAll;
   if (size >= sizeof(uint64_t) && is_timer(descriptor) && !wait_for_timer(descriptor)) return -1;
-  if (!wait_for_door(descriptor)) return -1;
+  if (!wait_for_connection(descriptor)) return -1;
   int number = -1;
   Patience patience;
   if (!is_line(descriptor, &number)) return kAll;

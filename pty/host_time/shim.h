@@ -57,9 +57,9 @@ bool is_line(int descriptor, int* number);
 /// Returns true if the descriptor is a connection with a TCP address of the bench. `number`, which may be
 /// null, is that of its door in messages.
 bool is_door(int descriptor, int* number);
-/// Call this before a read. If the read would wait for such a connection, this waits as the bench decides.
-/// Returns false, with errno set, if the read must not be tried.
-bool wait_for_door(int descriptor);
+/// Call this before a read. If the read would wait for such a connection, or for another socket with a
+/// timeout, this waits as the bench decides. Returns false, with errno set, if the read must not be tried.
+bool wait_for_connection(int descriptor);
 void address_of_door(int door, sockaddr_un* address);
 /// Returns the number of the door that has this address, or -1.
 int number_of_door(const sockaddr_un& address);

@@ -222,5 +222,65 @@ for least, sizes in ((7, [3, 90]), (7, [0, 1, 2, 0, 4]), (3, [2, 1])):
   EXPECT_EQ(host.output, "7 010302c0012984\n7 010302c0012984\n3 010302\nc0012984\n") << host.errors;
 }
 
+TEST_F(HostTime, EndsWaitsForQueuesAndForSocketsWithATimeout) {
+  const Finished host = python_twice(R"(
+import ctypes, os, socket, struct, time
+libc = ctypes.CDLL(None, use_errno=True)
+class Time(ctypes.Structure):
+    _fields_ = [("s", ctypes.c_long), ("ns", ctypes.c_long)]
+class Attributes(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_long) for name in ("flags", "max", "size", "now", "a", "b", "c", "d")]
+libc.mq_timedreceive.restype = ctypes.c_ssize_t
+name = f"/understudy{os.getpid()}".encode()
+queue = libc.mq_open(name, os.O_CREAT | os.O_RDWR, 0o600, ctypes.byref(Attributes(0, 1, 16)))
+libc.mq_unlink(name)
+place = ctypes.create_string_buffer(16)
+def in_seconds(count):
+    return ctypes.byref(Time(int(time.time()) + count, int(time.time() % 1 * 1e9)))
+def receive(seconds):
+    size = libc.mq_timedreceive(queue, place, ctypes.c_size_t(16), None, in_seconds(seconds))
+    return os.strerror(ctypes.get_errno()) if size < 0 else place.raw[:size]
+def send(seconds):
+    sent = libc.mq_timedsend(queue, b"hello", ctypes.c_size_t(5), 0, in_seconds(seconds))
+    return os.strerror(ctypes.get_errno()) if sent < 0 else sent
+def tell(name, wait):
+    began = time.monotonic()
+    try:
+        result = wait()
+    except BlockingIOError:
+        result = "nothing"
+    print(name, result, round(time.monotonic() - began, 2), flush=True)
+tell("empty", lambda: receive(1))
+tell("send", lambda: send(1))
+tell("full", lambda: send(1))
+tell("receive", lambda: receive(1))
+if os.fork() == 0:
+    time.sleep(0.5)
+    send(1)
+    os._exit(0)
+tell("of a child", lambda: receive(2))
+os.wait()
+near, far = socket.socketpair()
+near.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("ll", 1, 0))
+if os.fork() == 0:
+    time.sleep(1.5)
+    far.send(b"x")
+    time.sleep(0.2)
+    far.send(b"y")
+    os._exit(0)
+tell("recv", lambda: near.recv(1))
+tell("recv", lambda: near.recv(1))
+tell("recvfrom", lambda: near.recvfrom(1)[0])
+tell("read", lambda: os.read(near.fileno(), 1))
+tell("recvmsg", lambda: near.recvmsg(1)[0])
+)");
+  EXPECT_EQ(
+      host.output,
+      "empty Connection timed out 1.0\nsend 0 0.0\nfull Connection timed out 1.0\nreceive b'hello' 0.0\n"
+      "of a child b'hello' 0.5\nrecv nothing 1.0\nrecv b'x' 0.5\nrecvfrom b'y' 0.2\nread nothing 1.0\n"
+      "recvmsg nothing 1.0\n")
+      << host.errors;
+}
+
 }  // namespace host_time_test
 }  // namespace understudy::acceptance
