@@ -1,5 +1,6 @@
-// Choices are decisions that a manual leaves open, kept as data. Each row is the only place that states its
-// decision: the code asks for its value, a bench can override it, and docs/fidelity/MODEL.md is made from it.
+// Choices are decisions that a manual leaves open. They are kept as data, and each row is the only place that
+// states its decision: the code reads the value from the row, a bench can override it, and
+// docs/fidelity/MODEL.md is generated from it.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,8 @@
 namespace understudy {
 
 enum class Confidence : std::uint8_t {
-  follows,   // follows from the manual's text elsewhere
-  likely,    // the cited standard says so, or such devices do so
+  follows,   // the manual implies it elsewhere
+  likely,    // the cited standard says so, or similar devices do so
   proposal,  // the manual is silent; the decision is ours
 };
 
@@ -56,13 +57,13 @@ constexpr std::size_t choice_number(std::span<const ChoiceRow> rows, std::string
   throw "no such choice";
 }
 
-/// One option of one row, for comparisons in a model's code.
+/// An option of a row, for comparisons in a model's code.
 struct Option {
-  std::size_t choice = 0;  // its row
+  std::size_t choice = 0;  // the index of its row
   std::uint8_t number = 0;
 };
 
-/// Returns the option. An unknown row or option does not compile in a constant expression.
+/// Returns the option. In a constant expression, an unknown row or option does not compile.
 constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id, std::string_view name) {
   const std::size_t row = choice_number(rows, id);
   std::string_view rest = rows[row].options;
@@ -74,7 +75,7 @@ constexpr Option option_of(std::span<const ChoiceRow> rows, std::string_view id,
   }
 }
 
-/// Returns the number that an option of a row begins with: 256 of "256_lines".
+/// Returns the number at the beginning of an option's name, such as 256 for "256_lines".
 constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
   std::string_view rest = row.options;
   for (; option_number > 0; --option_number) rest.remove_prefix(rest.find('|') + 1);
@@ -96,17 +97,17 @@ constexpr std::size_t numbers_row(std::span<const ChoiceRow> rows, std::string_v
   return row;
 }
 
-/// The options in effect of a table's rows, for the code of a part that knows only these rows, such as a
-/// language. By default it is the first option of each row.
+/// The selected options of a table, for code that has access to this table only, such as a language. By
+/// default, the first option of each row is selected.
 template <const auto& kRows>
 class OptionsOf {
  public:
-  /// One option of these rows. It is no Option: that counts the rows of the model's whole table.
+  /// An option in this table. It differs from Option, whose index refers to the model's whole table.
   struct Named {
     std::size_t row = 0;
     std::uint8_t number = 0;
   };
-  /// One of these rows, whose options are numbers.
+  /// A row in this table whose options are numbers.
   struct Numbers {
     std::size_t row = 0;
   };
@@ -116,8 +117,8 @@ class OptionsOf {
   constexpr OptionsOf(std::initializer_list<Named> options) {
     for (const Named& option : options) choose(option);
   }
-  /// Takes the numbers of the options in effect, and where to note with a 1 which rows the code asks for.
-  /// `asked` must outlive this and its copies.
+  /// `numbers` are the selected options. When the code reads a row, it sets the row's element of `asked` to
+  /// 1. `asked` must outlive this object and its copies.
   OptionsOf(std::span<const std::uint8_t> numbers, std::uint8_t* asked) : asked_(asked) {
     std::copy_n(numbers.begin(), kCount, numbers_.begin());
   }
@@ -127,7 +128,7 @@ class OptionsOf {
     return numbers_[option.row] == option.number;
   }
   constexpr void choose(const Named& option) { numbers_[option.row] = option.number; }
-  /// Returns the number that the option in effect begins with.
+  /// Returns the number at the beginning of the selected option's name.
   constexpr int number(const Numbers& of) const {
     if (asked_ != nullptr) asked_[of.row] = 1;
     return number_of(kRows[of.row], numbers_[of.row]);

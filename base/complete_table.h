@@ -1,5 +1,5 @@
-// A complete table holds exactly one handler for each key. As a constexpr variable it does not compile if a
-// key has no handler, or two. Tables of an interpreter's opcodes or a device's commands are built like this:
+// A complete table holds exactly one handler for each key. A constexpr table does not compile if a key has no
+// handler or more than one. Interpreters use such tables for their opcodes, and devices for their commands:
 //
 //   constexpr HandlerRow<Verb, Action> kOutputActions[] = {{Verb::set_port, set_port}, ...};
 //   constexpr CompleteTable<Verb, Action> kActions(kVerbs, kMotionActions, kOutputActions);
@@ -51,7 +51,7 @@ class CompleteTable {
     }
   }
 
-  // If a handler is missing, clang's message shows the number of its key; g++'s shows only the call.
+  // If a handler is missing, clang's error message contains the key's number. g++'s shows only the call.
   static constexpr void require_handler(Key /*key*/, bool has_one) {
     if (!has_one) throw "a key has no handler";
   }

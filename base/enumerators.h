@@ -1,5 +1,5 @@
-// Finds out which values of an enumeration have names, and what the names are, for tables that need a row for
-// each value.
+// Determines at compile time which values of an enumeration have names, and what those names are. Tables that
+// need a row for each value use this.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ constexpr bool has_name() {
          text.find_first_not_of("0123456789", bracket + 1) != std::string_view::npos;
 }
 
-/// Returns the name of a value that has one.
+/// Returns the name of an enumerator.
 template <auto value>
 constexpr auto name_of() {
   std::string_view text = __PRETTY_FUNCTION__;  // as above

@@ -1,13 +1,13 @@
-// Keeps memory in large pages. Many devices need some megabytes, and each tick reads a little from everywhere
-// in them. With 4 KiB pages the processor spends much of its time translating addresses.
+// Keeps memory in large pages. The state of many devices takes several megabytes, and each tick reads small
+// parts of all of it. With 4 KiB pages, the processor would spend much of its time translating addresses.
 #pragma once
 
 #include <cstddef>
 
 namespace understudy {
 
-/// Asks the kernel to back the addresses from `first` to `last` with large pages. The kernel may refuse;
-/// only speed depends on it.
+/// Asks the kernel to use large pages for the addresses from `first` to `last`. The kernel may refuse; this
+/// affects only speed.
 void ask_for_large_pages(const void* first, const void* last);
 
 }  // namespace understudy

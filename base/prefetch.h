@@ -1,5 +1,5 @@
-// Prefetches memory that is needed soon. With many devices, a device's state has left the processor's caches
-// by the time of its next tick. Requesting it while earlier devices run brings it back in time.
+// Prefetches memory that is needed soon. If there are many devices, the state of a device is no longer in the
+// processor's caches at its next tick. The prefetch loads it while earlier devices run.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace understudy {
 
 inline constexpr std::size_t kCacheLine = 64;  // bytes
 
-/// Prefetches the cache line of `address`. Only speed depends on it; any address is allowed.
+/// Prefetches the cache line of `address`. This affects only speed, and any address is allowed.
 inline void prefetch_line(const void* address) {
   __builtin_prefetch(address, 1);
   // Without this statement, the compiler considers a function that only prefetches to have no effect, and

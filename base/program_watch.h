@@ -1,5 +1,5 @@
-// An observer of the programs that interpreters run, which counts lines or stops at one. It never affects the
-// programs.
+// An observer of the programs that interpreters run. It counts lines or stops at a line, and never affects
+// the programs.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,18 @@ namespace understudy {
 class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
-  /// The following calls are about the device's present program. `mark` identifies the program.
+  /// The following calls refer to the device's current program, which `mark` identifies.
   virtual void program_loaded(std::uint64_t mark) = 0;
-  /// The instruction begins. This is reported once, however long the instruction waits. `times` is more than
-  /// 1 only for scans of a PLC that are skipped in bulk.
+  /// The instruction begins. This is reported once, even if the instruction waits. `times` is more than 1
+  /// only for PLC scans that are skipped in bulk.
   virtual void runs(int part, int line, std::int64_t times) = 0;
-  /// The instruction has decided: a jump is taken, a condition or contact holds, a wait is over at once.
+  /// The instruction has made a decision: a jump is taken, a condition or contact holds, or a wait is over at
+  /// once.
   virtual void decides(int part, int line, bool outcome, std::int64_t times) = 0;
 };
 
-/// Base class of everything that a watch can observe. The watch is not part of the state. It is null if there
-/// is no observer.
+/// Base class of everything that a watch can observe. The watch is not part of the state, and is null if
+/// there is no observer.
 class Watched {
  public:
   ProgramWatch* watch() const { return watch_; }
@@ -31,13 +32,12 @@ class Watched {
   ProgramWatch* watch_ = nullptr;
 };
 
-/// Several observers of one program. Each is notified, in the order in which they were added.
+/// Several observers of one program. They are notified in the order in which they were added.
 class ProgramWatches final : public ProgramWatch {
  public:
   void add(ProgramWatch& watch) { watches_.push_back(&watch); }
   void remove(const ProgramWatch& watch) { std::erase(watches_, &watch); }
-  /// Returns the watch to notify: null if there is no observer, and the observer itself if it is the only
-  /// one.
+  /// Returns the watch to notify: null if there is no observer, the observer itself if there is only one.
   ProgramWatch* watch() {
     if (watches_.size() > 1) return this;
     return watches_.empty() ? nullptr : watches_.front();

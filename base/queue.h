@@ -1,4 +1,4 @@
-// A queue with contiguous elements: a vector whose first elements may have been removed already.
+// A queue with contiguous elements: a vector whose first elements may already have been removed.
 #pragma once
 
 #include <cstddef>
@@ -57,8 +57,8 @@ class Queue {
   }
 
  private:
-  /// Reuses the space of removed elements once they are at least half of all, so each element is moved only a
-  /// few times.
+  /// Reuses the space of removed elements only when they are at least half of all elements, so each element
+  /// is moved only a few times.
   void make_room(std::size_t count) {
     if (values_.size() + count <= values_.capacity() || 2 * first_ < values_.size()) return;
     values_.erase(values_.begin(), begin());

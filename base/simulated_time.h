@@ -1,5 +1,5 @@
-// Simulated time: an integer count of nanoseconds since the world's power-up. Never a double, never the wall
-// clock.
+// Simulated time is an integer count of nanoseconds since the world's power-up. It is never a double, and
+// never the wall clock.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ constexpr Tick tick_at(SimTime time) { return time / kTickLength; }
 /// Parses a number of at least 0 with a unit: "250ms", "3s", "1.5s", "40us", "20ns", "2min", "1h". Returns
 /// nothing for any other text, or if the result is not a whole number of nanoseconds.
 std::optional<SimTime> parse_duration(std::string_view text);
-/// Returns the exact text in the largest unit up to seconds that is not larger than the duration: "3.05s",
+/// Returns the exact text in the largest unit, up to seconds, that does not exceed the duration: "3.05s",
 /// "250ms", "750us", "0s".
 std::string format_duration(SimTime duration);
 

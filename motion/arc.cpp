@@ -1,4 +1,5 @@
-// Functions that make lines and arcs: they check their arguments and compute begin, centre and sweep.
+// Functions that create lines and arcs: they check their arguments and compute the beginning, the centre and
+// the sweep.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,14 +18,14 @@ namespace {
 
 constexpr double kFarthest_u = 1e12;
 
-/// Directions from the centre that differ by less count as the same: a full circle's end that is off by
-/// rounding must not become an arc of no length.
+/// Directions from the centre that differ by less than this count as equal: if the end of a full circle is
+/// off by rounding, it must not become an arc of no length.
 constexpr double kSameDirection_rad = 1e-9;
 
-/// Radii that differ by less than this part of the coordinates differ only by rounding.
+/// Radii that differ by less than this fraction of the coordinates differ only by rounding.
 constexpr double kRounding = 1e-15;
 
-/// Three points whose triangle is lower than this part of its longest side are on one line.
+/// Three points are on one line if their triangle is lower than this fraction of its longest side.
 constexpr double kFlatTriangle = 1e-12;
 
 std::string text(double value) {
@@ -61,7 +62,8 @@ struct Flat {
 double cross(const Flat& a, const Flat& b) { return a.x * b.y - a.y * b.x; }
 double dot(const Flat& a, const Flat& b) { return a.x * b.x + a.y * b.y; }
 
-/// The common part of the functions that make arcs: the checked options, and the split into plane and rise.
+/// What all functions that create arcs have in common: the checked options, and the split into plane and
+/// rise.
 struct ArcDemand {
   std::string_view law;
   const ArcOptions& options;
@@ -102,7 +104,8 @@ struct ArcDemand {
   Point rise_to(const Point& end) const { return with(end - begin, {0, 0}); }
 };
 
-/// Performs the last step for all arcs. `path` already has its plane, begin, centre, sweep and rise.
+/// Performs the final step for all arcs. The plane, beginning, centre, sweep and rise of `path` are already
+/// set.
 Path finished(Path path, double growth_u, const ArcDemand& demand) {
   const double sweep = std::abs(path.sweep_rad);
   if (sweep > kFarthestAngle_rad) {
@@ -119,7 +122,8 @@ Path finished(Path path, double growth_u, const ArcDemand& demand) {
     path.length_u = length_by_vector(path);
     return path;
   }
-  // A difference within the tolerance is blended in; a true spiral has no such length in closed form.
+  // A difference within the tolerance is blended in, because a true spiral of this kind has no closed form
+  // for its length.
   if (std::abs(growth_u) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
     refuse(Refusal::out_of_range, demand.law,
            "growth of the radius must be 0 if the longest axis is the measure; it is " + text(growth_u));
@@ -139,7 +143,7 @@ Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep_rad,
   return path;
 }
 
-/// Sets the end of a sweep. Whole quarters of a turn are met exactly, so a circle ends exactly where it
+/// Sets the end of an arc from its sweep. Whole quarter turns are exact, so a circle ends exactly where it
 /// began.
 void set_end_by_sweep(Path& path) {
   Turned turned = turned_to_share(path, 1);
@@ -153,7 +157,7 @@ void set_end_by_sweep(Path& path) {
   path.end = place_on_arc(path, turned);
 }
 
-/// Returns where a chip ends an arc whose end point is not on the circle (all relative to the centre).
+/// Returns where the chip ends an arc whose end point is not on the circle (all relative to the centre).
 Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) {
   const bool x_is_shorter = std::abs(end.x) <= std::abs(end.y);
   const double shorter = std::abs(x_is_shorter ? end.x : end.y);
@@ -166,8 +170,9 @@ Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) 
   return x_is_shorter ? Flat{end.x, std::copysign(longer, end.y)} : Flat{std::copysign(longer, end.x), end.y};
 }
 
-/// Returns the sweep from one ray of a circle to another, > 0 for counter-clockwise. `chord` is their
-/// difference, computed from the points themselves: on a large circle it has more digits than the rays.
+/// Returns the sweep from one ray of a circle to another; it is > 0 for counter-clockwise. `chord` is the
+/// difference of the rays, computed from the points themselves, because on a large circle it has more digits
+/// than the rays.
 double sweep_between(const Flat& from, const Flat& to, const Flat& chord, Turn turn) {
   const double min = angle_of(cross(from, chord), dot(from, to));
   const double whole = turn == Turn::clockwise ? -2 * kPi : 2 * kPi;
@@ -193,9 +198,10 @@ CircleThrough circle_through(const Flat& middle, const Flat& end, std::string_vi
            "three points must not be on one line; they are within " +
                text(std::abs(doubled_area) / std::sqrt(longest_square)) + " of one");
   }
-  // The sweep is twice the difference of the angle at `middle` from a straight one, and the centre is off the
-  // middle of the chord by half its length times the cotangent: both from the same two numbers, so that they
-  // fit each other (and the end is met) even if a flat triangle leaves few digits.
+  // The sweep is twice the deviation of the angle at `middle` from a straight angle. The centre is away from
+  // the middle of the chord by half the chord's length times the cotangent of half the sweep. Both follow
+  // from the same two numbers, so they match (and the arc meets its end) even if a flat triangle leaves few
+  // digits.
   const double along = dot(middle, rest);
   const double sweep = 2 * angle_of(std::abs(doubled_area), along);
   const double side = along / (2 * doubled_area);
@@ -224,7 +230,7 @@ Path swept(const ArcDemand& demand, const Point& centre, double sweep_rad, doubl
   }
   double growth = growth_u_turn * (std::abs(sweep_rad) / (2 * kPi));
   if (radius + growth < 0) {
-    // A spiral that is meant to end at its centre does so.
+    // A spiral that should end at its centre ends exactly there.
     if (radius + growth < -kSameDirection_rad * radius) {
       refuse(Refusal::no_such_arc, demand.law,
              "radius must be 0 or above; it is " + text(radius + growth) + " at the end");
@@ -251,7 +257,7 @@ Path line(const Point& begin, const Point& end, Measure measure) {
   if (measure == Measure::longest_axis) {
     path.length_u = longest;
   } else {
-    // The squares of the shortest distances would be 0.
+    // The squares of the shortest distances would underflow to 0.
     path.length_u = longest < 1e-140 && longest > 0 ? longest * (travel / longest).norm() : travel.norm();
   }
   return path;
@@ -328,7 +334,7 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
     refuse(Refusal::no_such_arc, demand.law,
            "chord must be at most " + text(2 * radius) + ", twice the radius; it is " + text(2 * half));
   }
-  // For the shorter arc counter-clockwise, the centre is `height` to the left of the chord.
+  // For the shorter counter-clockwise arc, the centre is `height` to the left of the chord.
   const double height = radius > half ? std::sqrt((radius - half) * (radius + half)) : 0;
   const bool left = (turn == Turn::counter_clockwise) == (radius_u > 0);
   const double side = (left ? height : -height) / (2 * half);
@@ -368,8 +374,8 @@ Path arc_in_space(const Point& begin, const Point& middle, const Point& end) {
   Path path;
   path.begin = begin;
   path.end = end;
-  // A plane through the three points, with its first axis towards the end. If the points are nearly on one
-  // line, one step does not make the axes perpendicular enough; two do.
+  // The plane contains the three points, and its first axis points towards the end. If the points are nearly
+  // on one line, one step does not make the axes perpendicular enough, but two steps do.
   path.abscissa = to_end / to_end.norm();
   const Point off_chord = to_middle - to_middle.dot(path.abscissa) * path.abscissa;
   if (off_chord.norm() <= kFlatTriangle * std::max(to_middle.norm(), to_end.norm())) {

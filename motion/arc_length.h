@@ -1,7 +1,8 @@
 // Converts between the length travelled along an arc and the angle turned, for path.cpp and arc.cpp only.
 //
-// Share is the part of |sweep| done, 0..1. With radius(share) = r0 + growth * share, the speed over the share
-// (the pace) is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2). The length is its integral:
+// The share is the fraction of |sweep| done, 0..1. With radius(share) = r0 + growth * share, the length
+// travelled per share (the pace) is sqrt((|sweep| * radius)^2 + growth^2 + |rise|^2). The length is the
+// integral of the pace:
 //   circle, helix   the pace is constant, share = along / length
 //   spiral          closed form of the length; its inverse by Newton's method
 //   longest axis    within a sector of a quarter turn about an axis, the coordinate that moves most is linear
@@ -22,15 +23,15 @@ inline double growth_u(const Path& path) { return path.radius_slope_u_rad * std:
 
 // ---- true length -----------------------------------------------------------------------------------------
 
-/// Returns the mean of sqrt(x^2 + across_squared) for x between two values >= 0, one of them or `across`
-/// above 0. It is written to avoid cancellation, however near the two values are to each other.
+/// Returns the mean of sqrt(x^2 + across_squared) for x between two values >= 0. One of the values or
+/// `across` is above 0. The formula avoids cancellation, however close the two values are to each other.
 inline double mean_pace(double low, double high, double across_squared) {
   if (low > high) std::swap(low, high);
   if (across_squared == 0) return 0.5 * (low + high);
   const double first = std::sqrt(low * low + across_squared);
   const double last = std::sqrt(high * high + across_squared);
   const double slope = (low + high) / (first + last);  // (last - first) / (high - low)
-  // asinh(high / across) - asinh(low / across) = ln(1 + beyond); that over high - low:
+  // asinh(high / across) - asinh(low / across) = ln(1 + beyond), divided by high - low:
   const double rate = (1 + slope) / (low + first);
   const double beyond = 1 + (high - low) * rate;
   const double logarithms = beyond == 1 ? rate : rate * (natural_log(beyond) / (beyond - 1));
@@ -51,13 +52,13 @@ inline double length_by_vector(const Path& path) {
 inline double share_by_vector(const Path& path, double along) {
   const double growth = growth_u(path);
   if (growth == 0) return along / path.length_u;
-  constexpr int kMaxSteps = 8;  // millions of spirals needed at most four
+  constexpr int kMaxSteps = 8;  // millions of test spirals needed at most four
   const double turned = std::abs(path.sweep_rad);
   const double across_squared = growth * growth + path.rise.squaredNorm();
   const double from = turned * path.begin_radius_u;
   const double gain = turned * growth;
   const double to = std::max(0.0, from + gain);
-  // The first guess assumes that the pace changes evenly from begin to end.
+  // The first guess assumes that the pace changes linearly from begin to end.
   const double first = std::sqrt(from * from + across_squared);
   const double last = std::sqrt(to * to + across_squared);
   const double even = 0.5 * (first + last) * (along / path.length_u);
@@ -78,10 +79,10 @@ inline double share_by_vector(const Path& path, double along) {
   return share;
 }
 
-// ---- the length of the axis that moves most --------------------------------------------------------------
+// ---- the length along the axis that moves most -----------------------------------------------------------
 
-/// A place on the unit circle, relative to the nearest axis (a sector of +-45 degrees). There the other axis
-/// moves most, and its coordinate is the sine. A clockwise arc is mirrored.
+/// A place on the unit circle, relative to the nearest axis (in a sector of +-45 degrees). In this sector,
+/// the other axis moves most, and its coordinate is the sine. A clockwise arc is mirrored.
 struct SectorPlace {
   double sine = 0;
   double cosine = 1;
@@ -136,10 +137,10 @@ inline Turned turned_by_longest_axis(const Path& path, double along) {
   here.cosine = std::sqrt((1 - here.sine) * (1 + here.sine));
   Turned turned;
   double angle_in_sectors = 0;
-  // The angle itself is needed only for what depends on it: a spiral's radius and a rise.
+  // The angle itself is needed only by the quantities that depend on it: a spiral's radius and a rise.
   const bool angle_counts = path.radius_slope_u_rad != 0 || !path.rise.isZero(0);
   if (sectors == 0) {
-    // Within one sector, this calculates from the path itself, to keep the digits of short arcs.
+    // Within one sector, the turn is calculated from the path itself, to keep the digits of short arcs.
     const double slope = (begin.sine + here.sine) / (begin.cosine + here.cosine);
     turned = {way * (begin.cosine + begin.sine * slope), -0.5 * way * way * (1 + slope * slope)};
     if (angle_counts) angle_in_sectors = angle_of(turned.sine, 1 + turned.cosine_less_1);
@@ -168,20 +169,21 @@ inline Turned turned_at(const Path& path, double along) {
                                          : turned_by_longest_axis(path, along);
 }
 
-/// Returns the unit vector from the centre to the beginning; for a spiral that begins at its centre, the
-/// direction in which it leaves.
+/// Returns the unit vector from the centre to the beginning. For a spiral that begins at its centre, it is
+/// the direction in which the spiral leaves.
 inline Point first_ray(const Path& path) {
   if (path.begin_radius_u > 0) return (path.begin - path.centre) / path.begin_radius_u;
   const SineCosine angle = sine_cosine(path.begin_angle_rad);
   return angle.cosine * path.abscissa + angle.sine * path.ordinate;
 }
 
-/// Returns a vector of the path's plane, turned left by a right angle.
+/// Returns a vector in the path's plane, rotated left by a right angle.
 inline Point left_of(const Path& path, const Point& ray) {
   return ray.dot(path.abscissa) * path.ordinate - ray.dot(path.ordinate) * path.abscissa;
 }
 
-/// Calculates from the beginning, not from the centre, so a short path on a large circle loses no digits.
+/// The calculation starts from the beginning of the arc, not from the centre, so that a short path on a large
+/// circle loses no digits.
 inline Point place_on_arc(const Path& path, const Turned& turned) {
   const Point out = path.begin - path.centre;
   Point place = path.begin + turned.cosine_less_1 * out + turned.sine * left_of(path, out);

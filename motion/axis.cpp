@@ -12,12 +12,12 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// Commands and reactions; the tick is in axis_step.cpp and axis_tick.cpp.
+// The commands and reactions of an axis. The tick is in axis_step.cpp and axis_tick.cpp.
 namespace understudy::motion {
 
 namespace {
 
-/// Beyond this, a double no longer holds every pulse.
+/// Beyond this, a double cannot represent every pulse.
 constexpr std::int64_t kFarthestMove = std::int64_t{1} << 53;
 
 std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
@@ -30,13 +30,14 @@ void require_distance(std::int64_t distance_pulses) {
 
 int sign_of(std::int64_t pulses) { return pulses < 0 ? -1 : +1; }
 
-/// Returns true if the drive is still at its very beginning. A drive that was changed at this moment, and
-/// continues with a profile that begins now, is not.
+/// Returns true if the drive has not begun to move. A drive that was changed at this moment, and continues
+/// with a profile that begins now, has begun.
 bool not_begun(const PulseDrive& drive, Instant at) {
   return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }
 
-/// Returns the drive's position, but never behind a pulse already sent: moments are rounded.
+/// Returns the drive's position, but never one behind a pulse that was already sent, because moments are
+/// rounded.
 Sample forward_sample(const PulseDrive& drive, Instant at) {
   Sample here = drive.sample(at);
   here.position_u = std::max(here.position_u, static_cast<double>(drive.sent_pulses));
@@ -44,8 +45,8 @@ Sample forward_sample(const PulseDrive& drive, Instant at) {
   return here;
 }
 
-/// Plans a continuation to the target that never goes back, because a drive has one direction. If it can no
-/// longer stop there, it slows down as far as possible and ends there abruptly.
+/// Plans a continuation to the target that never reverses, because a drive has one direction. If the axis can
+/// no longer stop at the target, it slows down as far as possible and stops there abruptly.
 Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   Profile rest = change_target(here, target_u, law);
   if (rest.segment_count == 0) return rest;
@@ -57,8 +58,8 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   return rest;
 }
 
-/// Makes a stop decelerate at least as hard as the motion already does: with a ramp by time, the same ramp
-/// would start again from the present speed.
+/// Makes a stop decelerate at least as hard as the motion already does. Otherwise, a ramp by time would start
+/// again from the present speed.
 SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
   SpeedLaw stop = law;
   const double left_u_s = here.speed_u_s - law.start_speed_u_s;
@@ -133,8 +134,8 @@ Cause Axis::begin(Task what, int direction, std::int64_t distance_pulses, const 
   return Cause::none;
 }
 
-/// Returns how many pulses of backlash precede a motion in `direction`. Before the first motion it is
-/// unknown: 0.
+/// Returns how many pulses of backlash precede a motion in `direction`: 0 before the first motion, because
+/// the backlash is then unknown.
 std::int64_t Axis::backlash_before(int direction) const {
   if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
@@ -147,7 +148,7 @@ Profile Axis::planned(const SpeedLaw& speed) const {
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// Drops the running motion without an end event. A moment long before the present tick means "between
+/// Drops the running motion without an end event. A moment long before the present tick stands for "between
 /// ticks".
 void Axis::drop(Instant at) {
   if (constant_pps != 0) raise(Event::constant_ended, at);
@@ -181,7 +182,7 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   const Profile to_stop = slow_to_stop(here, speed);
   if (to_stop.segment_count == 0) return move(distance_pulses, speed, now);
   // As in change_distance(): a stop within half a pulse of the target reaches it, and an impossible return is
-  // refused now.
+  // refused immediately.
   const bool passes = to_stop.end_position_u > static_cast<double>(target) + 0.5;
   if (passes) plan(std::abs(std::floor(to_stop.end_position_u) - static_cast<double>(target)), speed);
   const Profile rest = passes ? to_stop : forward_to(here, static_cast<double>(target), speed);
@@ -228,7 +229,7 @@ Cause Axis::take_part() {
   homing.phase = -1;
   task = Task::coordinated;
   cause = Cause::none;
-  drive.direction = 0;  // until the first pulse: a limit behind the axis does not matter
+  drive.direction = 0;  // until the first pulse, a limit behind the axis does not matter
   events_between |= bit(Event::started);
   return Cause::none;
 }
@@ -249,7 +250,7 @@ Cause Axis::follow(const Follower& by) {
   homing.phase = -1;
   task = Task::following;
   cause = Cause::none;
-  drive.direction = 0;  // until the first pulse: a limit behind the axis does not matter
+  drive.direction = 0;  // until the first pulse, a limit behind the axis does not matter
   follower = Follower{.numerator = by.numerator,
                       .denominator = by.denominator,
                       .period_ticks = by.period_ticks,
@@ -264,7 +265,7 @@ void Axis::feed(std::int64_t counts) {
   if (task == Task::following) follower.feed(counts);
 }
 
-// ---- Changing what runs
+// ---- Changing a running motion
 
 void Axis::change_speed(const SpeedLaw& speed, Tick now) { change_speed(speed, Instant{.tick = now}); }
 
@@ -276,7 +277,7 @@ void Axis::change_speed(const SpeedLaw& speed, Instant at) {
 
 void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
   if (in_backlash || not_begun(drive, at)) {
-    // It has not begun yet, so it begins with the new speed.
+    // The motion has not begun yet, so it begins with the new speed.
     const Profile whole = planned(speed);
     law = speed;
     if (!in_backlash) drive.continue_with(whole, drive.beginning());
@@ -349,7 +350,7 @@ void Axis::slow(Instant at, Cause why) {
   if (task == Task::none || (slowing && !comes_back)) return;
   cause = why;
   comes_back = false;
-  if (slowing) return;  // a motion that was to reverse now only stops
+  if (slowing) return;  // a motion that was about to reverse now only stops
   if (settling || in_backlash || (task != Task::move && task != Task::endless) || not_begun(drive, at)) {
     end(why, at);
     return;
@@ -360,11 +361,11 @@ void Axis::slow(Instant at, Cause why) {
     end(why, at);
     return;
   }
-  // A stop while a move is slowing down anyway must not pass its target.
+  // If a move is already slowing down, a stop must not pass the move's target.
   if (task == Task::move) {
     const auto target = static_cast<double>(target_pulses);
     rest.cut_at(std::max(target, rest.segments[0].position_u));
-    // It ends there along the ramp that was already running, except for rounding errors.
+    // Except for rounding errors, the axis stops there along the ramp that is already running.
     constexpr double kRounding_pulses = 1e-5;
     if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }
@@ -402,7 +403,7 @@ void Axis::react(Reaction reaction, Cause why, Instant at) {
   if (reaction == Reaction::slow_down && !in_backlash && (task == Task::move || task == Task::endless)) {
     slow(at, why);
   } else if (reaction == Reaction::slow_down && task == Task::coordinated) {
-    // motion/coordinated.h slows the path down, with all its axes.
+    // motion/coordinated.h slows down the path with all its axes.
     if (!slowing) cause = why;
     slowing = true;
   } else {
@@ -425,7 +426,7 @@ void check(const AxisSettings& settings) {
 
 void Axis::set(const AxisSettings& changed) {
   check(changed);
-  // New backlash is taken up in the last direction as far as the old one was.
+  // New backlash is taken up in the last direction to the same extent as the old backlash.
   const bool is_positive = last_direction > 0;
   const std::int64_t before =
       is_positive ? settings.backlash_pulses - backlash_taken_pulses : backlash_taken_pulses;

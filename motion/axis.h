@@ -3,12 +3,12 @@
 //   commands ──> drive (profile on the clock) ──> travel ──> counters, comparators   <── environment
 //                   ^ reactions to limits, alarm, emergency, homing <──────────────────────┘
 //
-// Travel is the sum of the pulses that the user's coordinate counts, in 64 bits, from power-up. Soft limits,
+// Travel is the 64-bit sum, since power-up, of the pulses that count in the user's coordinate. Soft limits,
 // comparators and switches all refer to travel, so a window of two numbers determines how far the axis can
-// move before anything can happen. A tick inside the window is a cubic and two comparisons.
+// move before anything can happen. A tick inside the window costs a cubic and two comparisons.
 //
-// Edges are handled at their pulse, within the tick, as a chip handles them: motion/axis_tick.h. If axes act
-// on each other, motion/shared_tick.h brings them to the same moment.
+// Edges are handled at their pulse within the tick, as in a chip (motion/axis_tick.h). If axes act on each
+// other, motion/shared_tick.h brings them to the same moment.
 #pragma once
 
 #include <array>
@@ -43,9 +43,9 @@ enum class Cause : std::uint8_t {
   homing_failed,
 };
 
-/// What happened in a tick, or between it and the one before; one bit each. The first eight are the MCX314's
-/// factors of synchronous action, in its order, with comparators 0 to 3 as P>=C+, P<C+, P<C- and P>=C-. The
-/// last three are raised only if AxisSettings::raises asks for them.
+/// What happened in a tick, or between this tick and the previous one; one bit each. The first eight are the
+/// MCX314's factors of synchronous action, in its order, with comparators 0 to 3 as P>=C+, P<C+, P<C- and
+/// P>=C-. The last three are raised only if AxisSettings::raises includes them.
 enum class Event : std::uint8_t {
   comparator_0,
   comparator_1,
@@ -56,7 +56,7 @@ enum class Event : std::uint8_t {
   mark_on,
   mark_off,
   homed,
-  pulse,             // one or more pulses came out in the tick
+  pulse,             // one or more pulses were sent in the tick
   constant_started,  // C-STA: the first pulse at constant speed, and again after each change of speed
   constant_ended,    // C-END: the first pulse that is no longer at constant speed, or the last pulse
 };
@@ -64,13 +64,13 @@ inline constexpr std::size_t kEvents = 12;
 using Events = std::uint16_t;
 constexpr Events bit(Event event) { return static_cast<Events>(1U << static_cast<unsigned>(event)); }
 
-/// When in its tick an event happens. Events between two ticks belong to the beginning of the next one.
+/// When an event happens in its tick. Events between two ticks belong to the beginning of the second tick.
 enum class Moment : std::uint8_t {
   its_own,  // at the pulse, end or signal that raises it: Axis::event_at
-  end,      // at the tick's end, for a motion that begins between two ticks; also for PULSE
+  end,      // at the tick's end: for a motion that begins between two ticks, and for PULSE
 };
-/// The moment of each event. Within a tick, edges are handled in the order of their moments; at the same
-/// moment, axis by axis, with all events of an axis together.
+/// The moment of each event. Within a tick, edges are handled in the order of their moments. At the same
+/// moment, the axes are handled one by one, each with all its events.
 inline constexpr std::array<Moment, kEvents> kMoments{
     Moment::its_own,  // comparators
     Moment::its_own, Moment::its_own, Moment::its_own,
@@ -81,7 +81,7 @@ inline constexpr std::array<Moment, kEvents> kMoments{
     Moment::end,                       // pulse
     Moment::its_own, Moment::its_own,  // constant speed
 };
-/// Returns the mask of the events with this moment.
+/// Returns the mask of the events that have this moment.
 constexpr Events events_of(Moment moment) {
   Events mask = 0;
   for (std::size_t i = 0; i < kEvents; ++i) {
@@ -92,31 +92,32 @@ constexpr Events events_of(Moment moment) {
 
 enum class Count : std::uint8_t { command, encoder };
 
-/// A position comparator. It raises an event each time the relation becomes true, by motion or because a
-/// number was written. It compares the count itself, so the relation also changes where the count wraps.
+/// A position comparator. It raises an event each time the relation becomes true, either by motion or because
+/// a number was written. It compares the count itself, so the relation also changes where the count wraps
+/// around.
 struct Comparator {
-  /// The last two become true only when the count reaches the value by rising, or by falling.
+  /// The last two become true only when the count reaches the value while it rises or falls, respectively.
   enum class Relation : std::uint8_t { off, at_least, below, equal, equal_upwards, equal_downwards };
 
   Relation relation = Relation::off;
   Count count = Count::command;
   Reaction reaction = Reaction::ignore;  // of this axis only; other axes react through motion/synchronous.h
   bool was_true = false;
-  Counter counter{};  // the counter in whose numbers `value` is given
+  Counter counter{};  // the counter to which `value` refers
   std::int64_t value = 0;
 
   bool operator==(const Comparator&) const = default;
 
-  /// Returns the only direction of the count in which the relation can become true; 0 if it can in both, and
-  /// when a number is written.
+  /// Returns the only direction of the count in which the relation can become true. Returns 0 if it can
+  /// become true in both directions and by a written number.
   int sense() const {
     return relation == Relation::equal_upwards ? +1 : relation == Relation::equal_downwards ? -1 : 0;
   }
   bool asks_for_one_place() const { return relation == Relation::equal || sense() != 0; }
 
   bool holds(std::int64_t travel) const;
-  /// Returns how many pulses (1 or more) in `direction` it takes until the relation may change, or nothing if
-  /// it will not.
+  /// Returns how many pulses (1 or more) in `direction` are needed until the relation may change, or nothing
+  /// if it will not change.
   std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
 };
 
@@ -124,24 +125,24 @@ struct AxisSettings {
   Reaction at_limit_plus = Reaction::stop_at_once;
   Reaction at_limit_minus = Reaction::stop_at_once;
   Reaction at_soft_limit = Reaction::stop_at_once;
-  std::optional<Reaction> at_soft_limit_minus = std::nullopt;  // nothing: the same as at_soft_limit
+  std::optional<Reaction> at_soft_limit_minus = std::nullopt;  // nothing: as at_soft_limit
   Reaction at_alarm = Reaction::stop_at_once;
   Reaction at_emergency = Reaction::stop_at_once;
   Reaction at_mark_on = Reaction::ignore;  // the mark's edges; the cause is `stopped`
   Reaction at_mark_off = Reaction::ignore;
   bool needs_servo = true;             // true: commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
-  bool waits_beside_limits = false;    // true: a limit does not end a motion that only waits for in-position
-  // The last allowed position, in travel or in encoder counts; the pulse beyond it triggers. Nothing: no soft
-  // limit.
+  bool waits_beside_limits = false;    // true: a limit does not end a wait for in-position
+  // The last allowed position, in travel or in encoder counts. The next pulse triggers the limit. Nothing: no
+  // soft limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
   Count soft_limits_of = Count::command;
-  Events raises = 0;  // which of pulse, constant_started and constant_ended to raise; each costs time
-  // Extra pulses at the beginning of each reversal; they are output but do not count as travel.
+  Events raises = 0;  // which of pulse, constant_started and constant_ended to raise; each one costs time
+  // Extra pulses at the beginning of each reversal. They are sent but do not count as travel.
   std::int64_t backlash_pulses = 0;
-  double backlash_speed_pps = 0;  // > 0 if there is backlash
-  // True: the extra pulses make up for slip and come at every start of the drive, in either direction.
+  double backlash_speed_pps = 0;  // must be > 0 if there is backlash
+  // True: the extra pulses compensate for slip, and are sent at every start of the drive in either direction.
   bool slips = false;
 
   Reaction at_soft_limit_of_minus() const { return at_soft_limit_minus.value_or(at_soft_limit); }
@@ -149,32 +150,34 @@ struct AxisSettings {
   bool operator==(const AxisSettings&) const = default;
 };
 
-/// Throws BadMotion for settings that no axis can have. Settings from outside are also checked with it.
+/// Throws BadMotion for settings that no axis can have. Use it for settings from outside, too.
 void check(const AxisSettings& settings);
 
-/// What an axis was commanded to do.
+/// The command that an axis is executing.
 enum class Task : std::uint8_t {
   none,
   move,
   endless,
   hanging,
   following,
-  coordinated,  // carried along a path with others (motion/coordinated.h)
+  coordinated,  // carried along a path with other axes (motion/coordinated.h)
 };
 
 struct alignas(64) Axis {
-  // The members that every tick needs come first; with the beginning of `drive` they fill two cache lines.
+  // Every tick needs these members, so they come first; with the beginning of `drive` they fill two cache
+  // lines.
   std::int64_t travel_pulses = 0;
-  std::int64_t watch_low = 0;  // while travel stays within these, nothing can happen because of the position
+  std::int64_t watch_low = 0;  // while travel stays within these, no event can happen because of the position
   std::int64_t watch_high = 0;
   std::int64_t base_pulses = 0;  // travel where the drive's coordinate is 0
   std::uint32_t seen_version = 0;
   Events events = 0;          // events of the last tick
   bool must_recheck = true;   // true: check everything in the next tick
   bool inverted = false;      // true: pulses come out in the opposite direction
-  Signals signals = 0;        // signals as last seen
+  Signals signals = 0;        // the last known signals
   Events events_between = 0;  // events since the last tick
-  // The commanded motion. While backlash is taken up, the drive runs the backlash and this motion waits.
+  // The commanded motion. While backlash is taken up, the drive executes the backlash and this motion is
+  // waiting.
   Task task = Task::none;
   Cause cause = Cause::none;       // why the last motion ended, or why it is being stopped now
   std::int8_t last_direction = 0;  // direction of the last motion; 0 before the first
@@ -184,19 +187,19 @@ struct alignas(64) Axis {
   AxisSettings settings;
   std::array<Comparator, 4> comparators{};
   std::int64_t encoder_pulses = 0;          // set by set_encoder(), or computed within the tick (EncoderLine)
-  std::int64_t encoder_seen = 0;            // the count up to which comparators have been checked
+  std::int64_t encoder_seen = 0;            // the count up to which comparators are checked
   std::int64_t backlash_sent = 0;           // all extra pulses so far, signed by direction
-  std::int64_t backlash_taken_pulses = 0;   // 0 .. backlash_pulses: taken up towards plus
-  std::array<Instant, kEvents> event_at{};  // when each event with a moment of its own last happened
-  double constant_pps = 0;  // constant speed at the last pulse; 0: it was not at constant speed
+  std::int64_t backlash_taken_pulses = 0;   // 0 .. backlash_pulses: the part taken up towards plus
+  std::array<Instant, kEvents> event_at{};  // when each event with Moment::its_own last happened
+  double constant_pps = 0;  // the constant speed at the last pulse; 0: the speed was not constant
 
   // State of the commanded motion.
   bool in_backlash = false;
-  bool slowing = false;            // slowing down to a stop, for `cause`
-  bool comes_back = false;         // after stopping, returns to the target that it has passed
+  bool slowing = false;            // slowing down to a stop because of `cause`
+  bool comes_back = false;         // after stopping, the axis returns to the target that it has passed
   bool settling = false;           // all pulses are sent; the axis waits for in-position
-  bool encoder_is_known = false;   // the environment determines what the encoder counts along the travel
-  std::int64_t target_pulses = 0;  // whole distance of a move, in the drive's coordinate
+  bool encoder_is_known = false;   // the environment determines the encoder count along the travel
+  std::int64_t target_pulses = 0;  // the whole distance of a move, in the drive's coordinate
   SpeedLaw law;
   Follower follower;
   Homing homing;
@@ -204,53 +207,54 @@ struct alignas(64) Axis {
   bool operator==(const Axis&) const = default;
 
   // ---- Commands. Call them between ticks; `now` is the last tick that was stepped. A motion from rest
-  // begins in the next tick; a change acts from now on. All return Cause::none if accepted, otherwise the
-  // reason for the refusal; a refused command changes nothing. All throw BadMotion as motion/move.h does,
-  // also without changing anything.
+  // begins in the next tick, and a change takes effect immediately. All commands return Cause::none if
+  // accepted, otherwise the reason for the refusal. They throw BadMotion in the same cases as motion/move.h.
+  // A command that is refused or throws changes nothing.
 
-  /// Moves by `distance_pulses`, signed, from the present position; a running motion is dropped. A distance
-  /// of 0 ends a running motion at once.
+  /// Moves by `distance_pulses` (signed) from the present position. A running motion is dropped. A distance
+  /// of 0 ends a running motion immediately.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
-  /// Like move(), but from a signed speed that the axis already has from another generator. It continues to
-  /// the target; if that is too near or behind, it stops and comes back.
+  /// Like move(), but begins with a signed speed that the axis already has from another generator. The axis
+  /// continues to the target; if the target is too near or behind, the axis stops and returns to it.
   Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
   /// Runs without end in `direction` (+1 or -1).
   Cause run(int direction, const SpeedLaw& speed, Tick now);
   /// Begins a move at speed 0: the axis counts as moving, but sends no pulse (Simple2-R3).
   Cause move_at_zero_speed(int direction);
-  /// Follows the counts from feed() until stopped (motion/following.h).
+  /// Follows the counts passed to feed() until it is stopped (motion/following.h).
   Cause follow(const Follower& by);
   void feed(std::int64_t counts);
-  /// Joins a coordinated motion: carry() moves the axis, until arrive(), stop() or a reaction ends it.
+  /// Joins a coordinated motion: carry() moves the axis until arrive(), stop() or a reaction ends the motion.
   Cause take_part();
   void arrive(Instant at);
 
-  /// Changes the speed law from now on, for a move or an endless run. Does nothing if neither runs or the
-  /// axis is stopping.
+  /// Changes the speed law of a move or an endless run from now on. Does nothing if the axis does neither, or
+  /// is stopping.
   void change_speed(const SpeedLaw& speed, Tick now);
-  /// Changes the distance of the running move, counted from where it began, in its direction. A target that
-  /// is already passed or too near is overshot and returned to. With `stop_if_passed` (MCX314) the move ends
-  /// at once if the target is passed.
+  /// Changes the distance of the running move. The distance counts from where the move began, in its
+  /// direction. If the target is already passed or too near, the axis overshoots and returns. With
+  /// `stop_if_passed` (MCX314), the move ends at once if the target is passed.
   void change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now);
-  /// Slows down to a stop. An axis that follows or is carried stops at once, since another source sets its
-  /// speed (motion/coordinated.h slows a path down).
+  /// Slows down to a stop. An axis that follows or is carried stops at once, because its speed comes from
+  /// another source (motion/coordinated.h slows down paths).
   void slow_down(Tick now, Cause why = Cause::stopped);
-  /// The next three act within a tick, at the moment to which the axis has been brought
+  /// The next three functions act within a tick, at the moment to which the axis has been brought
   /// (motion/shared_tick.h).
   void slow_down(Instant at, Cause why = Cause::stopped) { slow(at, why); }
   void stop(Cause why, Instant at) {
     if (task != Task::none) end(why, at);
   }
   void change_speed(const SpeedLaw& speed, Instant at);
-  /// Cancels a commanded slow_down() while the axis still moves, and continues to the target or to the top
-  /// speed of `speed`. Returns false if there is none to cancel. Homing ends when it is slowed down.
+  /// Cancels a commanded slow_down() while the axis is still moving, and continues to the target or to the
+  /// top speed of `speed`. Returns false if there is nothing to cancel. Homing ends when it is slowed down,
+  /// so it cannot be resumed.
   bool resume(const SpeedLaw& speed, Tick now);
-  /// Stops at once: no pulse comes out from now on.
+  /// Stops at once: no further pulse is sent.
   void stop(Cause why = Cause::stopped);
   void switch_servo(bool on);
   /// Homes by a table of phases (motion/homing.h). Homing lasts until Event::homed, or until Event::ended
-  /// with Cause::homing_failed or stopped; homing.ended_by and ended_in say why and in which phase. Commands
-  /// for another kind of motion end it; changes of speed and distance do not affect it.
+  /// with Cause::homing_failed or stopped. homing.ended_by and ended_in contain the reason and the phase.
+  /// Commands for another kind of motion end homing; changes of speed and distance do not affect it.
   Cause home(const HomingProgram& program, Tick now);
 
   void set_comparator(std::size_t number, const Comparator& comparator);
@@ -260,22 +264,23 @@ struct alignas(64) Axis {
   // ---- State
 
   bool moving() const { return task != Task::none || homing.active(); }
-  /// Returns why a motion in `direction` would be refused now, or none if it may begin.
+  /// Returns why a motion in `direction` would be refused now, or none if it would be accepted.
   Cause forbidden(int direction) const { return forbidden(direction, 0); }
-  /// Like forbidden(), but only for what forbids both directions (servo, emergency, alarm).
+  /// Like forbidden(), but only for reasons that forbid both directions (servo, emergency, alarm).
   Cause forbidden_anywhere() const;
   /// Returns the count that the soft limits refer to.
   std::int64_t soft_limit_place() const {
     return settings.soft_limits_of == Count::command ? travel_pulses : encoder_pulses;
   }
-  /// Returns position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
+  /// Returns the position in the drive's coordinate, and the speed and acceleration along the motion, after
+  /// tick `now`.
   Sample sample(Tick now) const { return drive.sample({.tick = now}); }
-  /// Returns the pulses of the running move that are still to come.
+  /// Returns how many pulses of the running move are still to be sent.
   std::int64_t remaining_pulses() const {
     if (task != Task::move || settling) return 0;
     return in_backlash ? target_pulses : target_pulses - drive.sent_pulses;
   }
-  /// Like remaining_pulses(), signed as they come out; 0 if the move will not reach its target.
+  /// Like remaining_pulses(), but with the sign of the output; 0 if the move will not reach its target.
   std::int64_t pulses_to_come() const {
     if (slowing && !comes_back) return 0;
     return remaining_pulses() * drive.direction * (inverted ? -1 : +1);
@@ -283,23 +288,23 @@ struct alignas(64) Axis {
 
   // ---- The tick
 
-  /// Runs one tick, the next after the last one. Returns the pulses that come out, signed as they come out.
+  /// Runs the next tick. Returns the number of pulses sent, with the sign of the output.
   std::int64_t step(Tick tick, const Environment& environment) {
     QuietTick quiet;
     return step_quietly(tick, environment, quiet) ? quiet.pulses
                                                   : step_slow_path(tick, environment, quiet.followed);
   }
 
-  /// The result of a tick in which nothing can happen, and the state before it. Such a tick can be taken back
-  /// and stepped again the slow way.
+  /// The result of a tick in which nothing can happen, and the state before it. Such a tick can be undone and
+  /// stepped again in the general way.
   struct QuietTick {
-    std::int64_t pulses = 0;  // the pulses, signed as they come out
+    std::int64_t pulses = 0;  // the pulses, with the sign of the output
     std::int64_t travel = 0;  // the travel before the tick
     std::int64_t sent = 0;
-    // pulses that a follower asked for, even in a tick that is not quiet
+    // the pulses that the follower requested, even in a tick that is not quiet
     std::optional<std::int64_t> followed{};
   };
-  /// Runs a quiet tick, or returns false if something may happen in it.
+  /// Runs a quiet tick. Returns false if something may happen in the tick.
   bool step_quietly(Tick tick, const Environment& environment, QuietTick& quiet) {
     quiet.travel = travel_pulses;
     quiet.sent = drive.sent_pulses;
@@ -323,8 +328,8 @@ struct alignas(64) Axis {
     if (quiet.followed) base_pulses = travel_pulses;
   }
 
-  /// Runs one tick of an axis in a coordinated motion, instead of step(): the axis moves by `pulses`, evenly
-  /// over the tick. Pulses left over after a reaction are not sent.
+  /// Runs one tick of an axis in a coordinated motion, instead of step(). The axis moves by `pulses`, evenly
+  /// over the tick. Pulses that remain after a reaction are not sent.
   std::int64_t carry(std::int64_t pulses, Tick tick, const Environment& environment) {
     const std::int64_t travel = travel_pulses + pulses;
     if (carries_quietly(environment) && travel >= watch_low && travel <= watch_high) [[likely]] {
@@ -339,17 +344,17 @@ struct alignas(64) Axis {
     std::int64_t low = INT64_MIN;  // both ends included
     std::int64_t high = INT64_MAX;
   };
-  /// Returns the last tick up to which the axis continues along its plan within `range` and nothing happens
-  /// to it. `next` is the next tick, `limit` the latest to consider. Returns next - 1 if there is none.
+  /// Returns the last tick up to which the axis continues along its plan within `range` without any event.
+  /// `next` is the next tick, `limit` the last tick to consider. Returns next - 1 if there is no such tick.
   Tick quiet_until(Tick next, Tick limit, const Environment& environment, TravelRange range) const;
-  /// Returns the travel after `tick`, which is at most quiet_until().
+  /// Returns the travel after `tick`, which must not be later than quiet_until().
   std::int64_t travel_ahead(Tick tick) const {
     return base_pulses + drive.direction * drive.pulses_of_segment(tick);
   }
-  /// Runs all ticks up to `tick`, at most quiet_until(), at once. The state and the sum of the pulses are the
-  /// same as with single ticks.
+  /// Runs all ticks up to `tick` in one step; `tick` must not be later than quiet_until(). The state and the
+  /// sum of the pulses are the same as with single ticks.
   std::int64_t fast_forward_to(Tick tick);
-  /// Returns true if carry() only counts while travel stays within watch_low and watch_high.
+  /// Returns true if carry() does nothing but count while travel stays within watch_low and watch_high.
   bool carries_quietly(const Environment& environment) const {
     return task == Task::coordinated && is_undisturbed(environment);
   }
@@ -372,8 +377,8 @@ struct alignas(64) Axis {
   std::int64_t step_slow_path(Tick tick, const Environment& environment,
                               std::optional<std::int64_t> pulses = {});
   bool follow_quietly(const Environment& environment, QuietTick& quiet);
-  /// Returns true if nothing has changed since the last tick except the carried pulses, and all pulses sent
-  /// are travel.
+  /// Returns true if nothing but the carried pulses has changed since the last tick, and all pulses sent
+  /// count as travel.
   bool is_undisturbed(const Environment& environment) const {
     return environment.version == seen_version && !must_recheck && settings.backlash_pulses <= 0 &&
            backlash_taken_pulses == 0;
@@ -387,14 +392,13 @@ struct alignas(64) Axis {
   void know_encoder(const Environment& environment);
   void follow_encoder_count(Instant at);
   bool counts_by_encoder() const;
-  Profile planned(const SpeedLaw& speed) const;  // plans the task from its beginning
+  Profile planned(const SpeedLaw& speed) const;  // plans the whole task
   void drop(Instant at = {});
   void slow(Instant at, Cause why);
   void react(Reaction reaction, Cause why, Instant at);
   void end(Cause why, Instant at);
 
-  // Inside a tick.
-  // `direction`: direction in which the axis came here; 0: it has not moved
+  // These run within a tick. `direction` is the direction in which the axis arrived; 0: it has not moved.
   void update_signals(const Environment& environment, Instant at, int direction);
   void see(Signals now_on, Instant at);
   void compare(Count count, std::int64_t value, Instant at, int direction);
@@ -403,16 +407,16 @@ struct alignas(64) Axis {
   void check_speed(std::int64_t sent_before, Instant from, Instant until);
   bool waits_for_constant_speed() const;
 
-  // Homing: motion/homing_run.cpp.
-  // true if the phase handles this signal, so the axis does not react to it
+  // Homing: motion/homing_run.cpp. homing_takes() returns true if the phase handles this signal, so the axis
+  // does not react to it.
   bool homing_takes(Signal signal) const;
   void homing_sees(Signals changed, Instant at);  // `signals` contains the new signals
-  void homing_comes_to_its_place(Instant at);     // called at the place where a phase ends by its distance
+  void homing_comes_to_its_place(Instant at);     // called where a phase ends by its distance
   void homing_slows(Cause why);                   // slows down to a stop for `why`, unless it already does
   void homing_stands(Cause why, Instant at);      // called when the phase's motion has ended
   Cause enter_phase(std::int8_t number, Instant at, bool running);
   Cause begin_phase(Instant at);
-  /// Returns the travel at which the running phase ends, or nothing if it does not end at a place.
+  /// Returns the travel at which the current phase ends, or nothing if no position ends it.
   std::optional<std::int64_t> homing_place() const;
   void go_to_phase(std::int8_t number, Instant at, bool running);
   void mark_reference();

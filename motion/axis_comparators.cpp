@@ -7,7 +7,7 @@
 #include "motion/bad_motion.h"
 #include "motion/pulse_drive.h"
 
-// Position compare: the values that an axis's counts pass.
+// Position comparison: an axis's counts pass the values of its comparators.
 namespace understudy::motion {
 
 namespace {
@@ -33,8 +33,8 @@ bool Comparator::holds(std::int64_t travel) const {
 
 std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
   if (relation == Relation::off) return std::nullopt;
-  // Beyond the range of the count, or if the range has only one value, the relation never changes: a ring of
-  // one place would have an edge at each pulse.
+  // Outside the range of the count, or if the range has only one value, the relation never changes: a ring
+  // with only one value would have an edge at each pulse.
   const auto min = counter.min();
   const auto max = counter.max();
   if (min && (value > *max || *min == *max || (!asks_for_one_place() && value <= *min))) {
@@ -63,8 +63,8 @@ void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
   const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
   const bool was_true = mine.was_true;
   mine = comparator;
-  // A written number can make the relation true, which is an event. A relation that is true when the
-  // comparator is set waits for the next time it becomes true.
+  // A written number can make the relation true, which is an event. If the relation is already true when the
+  // comparator is set, the event comes the next time that it becomes true.
   mine.was_true =
       same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
   must_recheck = true;
@@ -80,23 +80,23 @@ bool Axis::counts_by_encoder() const {
 void Axis::set_encoder(std::int64_t pulses) {
   if (pulses == encoder_pulses) return;
   encoder_pulses = pulses;
-  if (encoder_is_known) return;  // the encoder has been followed within the tick
+  if (encoder_is_known) return;  // the encoder was already followed within the tick
   if (counts_by_encoder()) {
     must_recheck = true;
   } else {
-    encoder_seen = pulses;  // values in between are not compared
+    encoder_seen = pulses;  // the values in between are not compared
   }
 }
 
-/// Computes the encoder's count at this pulse, if the machine follows the axis.
+/// Computes the encoder count at this pulse, if the machine follows the axis.
 void Axis::know_encoder(const Environment& environment) {
   if (encoder_is_known) encoder_pulses = environment.encoder.at(travel_pulses);
 }
 
-/// Moves the encoder's count from its old value to its new one; comparators check everything in between.
+/// Moves the encoder count from its old value to the new one. The comparators check all values in between.
 void Axis::follow_encoder_count(Instant at) {
   const int direction = encoder_pulses == encoder_seen ? 0 : encoder_pulses < encoder_seen ? -1 : +1;
-  // A jump that far is not a motion: only its end counts.
+  // A longer jump is not a motion: only its end counts.
   constexpr std::int64_t kFarthestWalk = 100'000;
   while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
          encoder_seen <= encoder_pulses + kFarthestWalk) {

@@ -6,7 +6,7 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// Many ticks in one step, while an axis only continues along its plan.
+// Runs many ticks in one step, while an axis only continues along its plan.
 namespace understudy::motion {
 
 Tick Axis::quiet_until(Tick next, Tick limit, const Environment& environment, TravelRange range) const {
@@ -17,8 +17,8 @@ Tick Axis::quiet_until(Tick next, Tick limit, const Environment& environment, Tr
   const Tick last = std::min(limit, drive.next_check - 1);
   if (last < next || travel_pulses < low || travel_pulses > high) return none;
   if (drive.drive != Drive::running) return last;
-  // A segment has one direction, but rounding may send a pulse a tick early. So the last pulse before
-  // anything can happen is left to single ticks; all pulses before it are inside because the last one is.
+  // A segment has one direction, but rounding may send a pulse a tick early. So the last pulse before a
+  // possible event is left to single ticks. If that pulse is inside the range, all pulses before it are, too.
   const bool upwards = drive.direction > 0;
   const auto is_inside = [&](Tick tick) {
     const std::int64_t travel = travel_ahead(tick);

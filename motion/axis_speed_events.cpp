@@ -8,7 +8,7 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// C-STA and C-END: the pulses that an axis sends at constant speed.
+// C-STA and C-END: events at the pulses where constant speed begins and ends.
 namespace understudy::motion {
 
 namespace {
@@ -23,8 +23,8 @@ double constant_speed(const Segment& segment) {
   return is_constant && segment.speed_u_s > 0 ? segment.speed_u_s : 0;
 }
 
-/// Returns the last pulse sent before the profile is at `place_u`; a pulse exactly there belongs to what
-/// follows.
+/// Returns the last pulse sent before the profile is at `place_u`. A pulse exactly at that place belongs to
+/// the next segment.
 std::int64_t last_pulse_before(double place_u, double tolerance) {
   constexpr double kMax = 9e18;
   if (!(place_u < kMax)) return INT64_MAX;
@@ -40,8 +40,8 @@ void Axis::raise(Event event, Instant at) {
   event_at[static_cast<std::size_t>(event)] = at;
 }
 
-/// Finds the first and the last pulse at constant speed among those after `sent_before`, which were sent
-/// between the two moments. Homing raises no such events.
+/// Finds the first and the last pulse at constant speed between the two moments, among the pulses after
+/// `sent_before`. Homing does not raise these events.
 void Axis::check_speed(std::int64_t sent_before, Instant from, Instant until) {
   if ((settings.raises & kConstant) == 0 || homing.active() || drive.sent_pulses <= sent_before) return;
   const Profile& profile = drive.profile;
@@ -67,7 +67,7 @@ void Axis::check_speed(std::int64_t sent_before, Instant from, Instant until) {
   if (was_the_last) changes_to(0, drive.sent_pulses);
 }
 
-/// Returns true if the next pulse may be an event, although it lies in the middle of a segment.
+/// Returns true if the next pulse may raise an event although it lies in the middle of a segment.
 bool Axis::waits_for_constant_speed() const {
   if ((settings.raises & kConstant) == 0 || !drive.moving() || in_backlash || homing.active()) return false;
   const bool is_constant = drive.now.second == 0 && drive.now.third == 0 && drive.now.first > 0;

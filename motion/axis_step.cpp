@@ -9,12 +9,12 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// The tick of an axis in which something can happen.
+// The tick of an axis during which something may happen.
 namespace understudy::motion {
 
 namespace {
 
-/// The watch window ends at this distance; it is computed again there.
+/// The watch window never extends beyond this distance, where it is computed again.
 constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 
 }  // namespace
@@ -37,7 +37,7 @@ bool Axis::follow_quietly(const Environment& environment, QuietTick& quiet) {
   return true;
 }
 
-/// Handles everything that depends on the position, at the position that the axis has reached.
+/// Handles everything that depends on the position that the axis has reached.
 void Axis::update_signals(const Environment& environment, Instant at, int direction) {
   know_encoder(environment);
   compare(Count::command, travel_pulses, at, direction);
@@ -106,8 +106,8 @@ void Axis::watch(const Environment& environment) {
   if (const auto place = homing_place(); place && *place != travel_pulses) {
     consider(*place > travel_pulses ? up : down, std::abs(*place - travel_pulses));
   }
-  // Soft limits may be far out of reach, up to the largest number. If the encoder counts backwards, the axis
-  // moves away from its limits.
+  // Soft limits may be extremely far away. If the encoder counts backwards, the axis moves away from its
+  // limits.
   const auto& max = settings.soft_limit_plus;
   const auto& min = settings.soft_limit_minus;
   const Count of = settings.soft_limits_of;

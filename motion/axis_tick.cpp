@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTick_s = 1 / kTicksPerSecond;
 
-/// No drive is this fast. A restored state may claim to be, and must not keep its tick running forever.
+/// No drive is this fast. The speed in a restored state may be, and must not keep its tick running forever.
 constexpr std::int64_t kMaxInATick = 1'000'000;
 
 Instant later(const Instant& one, const Instant& other) { return is_before(one, other) ? other : one; }
@@ -40,7 +40,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   }
   axis_.encoder_is_known = environment.encoder.is_known();
   if (axis_.encoder_is_known) {
-    // Nothing has happened since the last check, unless the machine was moved or no longer follows.
+    // Nothing has happened since the last check, unless the machine was moved or has stopped following.
     if (axis_.seen_version == environment.version)
       axis_.encoder_seen = environment.encoder.at(axis_.travel_pulses);
   }
@@ -54,7 +54,7 @@ AxisTick::AxisTick(Axis& axis, const Environment& environment, Tick tick, std::o
   if (carried_ != 0 && !sets_out(carried_ < 0 ? -1 : +1, at_)) carried_ = 0;
 }
 
-/// Returns true if a profile sends its own pulses in this tick.
+/// Returns true if a profile sends pulses in this tick.
 bool AxisTick::drives() const {
   return axis_.drive.drive == Drive::running && !axis_.in_backlash && axis_.drive.elapsed_s(until_) >= 0;
 }
@@ -113,7 +113,7 @@ void AxisTick::find_next() {
   }
 }
 
-/// Returns the pulses that the drive has sent by `at`, in its own coordinate.
+/// Returns how many pulses the drive has sent by `at`, in its own coordinate.
 std::int64_t AxisTick::due_at(const Instant& at) {
   PulseDrive& drive = axis_.drive;
   const std::int64_t max = drive.pulses_at(tick_);
@@ -121,7 +121,7 @@ std::int64_t AxisTick::due_at(const Instant& at) {
   return std::clamp(drive.pulses_at_moment(at), drive.sent_pulses, std::max(max, drive.sent_pulses));
 }
 
-/// Returns the carried pulses that have come by `at`.
+/// Returns how many carried pulses have arrived by `at`.
 std::int64_t AxisTick::come_at(const Instant& at) const {
   const double part = is_before(at, until_) ? at.after_s * kTicksPerSecond : 1;
   return static_cast<std::int64_t>(part * static_cast<double>(std::abs(carried_)) + 1e-9);
@@ -203,7 +203,7 @@ void AxisTick::step_events() {
   }
 }
 
-/// Goes to the first pulse beyond the watch window, at the moment it is sent.
+/// Goes to the first pulse beyond the watch window, at the moment when it is sent.
 void AxisTick::go_to_edge() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t travel = axis_.base_pulses + drive.direction * drive.pulses_at(tick_);
@@ -219,7 +219,7 @@ void AxisTick::go_to_edge() {
   axis_.update_signals(here_, at_, static_cast<int>(drive.direction));
 }
 
-/// Sends the last of the backlash, and begins the motion itself, at that moment.
+/// Sends the last pulse of the backlash, and begins the motion itself at that moment.
 void AxisTick::end_backlash() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t come = (drive.pulses_at(tick_) - drive.sent_pulses) * drive.direction;
@@ -232,7 +232,7 @@ void AxisTick::end_backlash() {
   drive.start(rest, direction, at_);
 }
 
-/// Sends the last pulses of a drive. Whatever follows without a command begins at the tick's end.
+/// Sends the last pulses of a drive. Anything that follows without a command begins at the end of the tick.
 void AxisTick::end_drive() {
   PulseDrive& drive = axis_.drive;
   const std::int64_t sent_before = drive.sent_pulses;
@@ -265,7 +265,7 @@ void AxisTick::end_drive() {
 
 /// Returns why a carried axis may not continue in a direction.
 Cause AxisTick::against(int direction) const {
-  // The one pulse beyond a soft limit is sent, as in the drive's own motions: it triggers the limit.
+  // One pulse beyond a soft limit is sent, as in the drive's own motions, because it triggers the limit.
   const auto& soft_limit = direction > 0 ? axis_.settings.soft_limit_plus : axis_.settings.soft_limit_minus;
   const Cause why = axis_.forbidden(direction);
   const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
@@ -274,7 +274,8 @@ Cause AxisTick::against(int direction) const {
   return axis_.slowing && why != Cause::servo_off ? Cause::none : why;
 }
 
-/// Starts to move in `direction` by carried pulses. Backlash is sent at once: it has no time of its own.
+/// Begins to move in `direction` by carried pulses. Backlash is sent at once, because it has no time of its
+/// own.
 bool AxisTick::sets_out(int direction, Instant at) {
   if (const Cause why = against(direction); why != Cause::none) {
     // At a limit, a wheel has no effect; a path cannot continue.
@@ -324,7 +325,7 @@ void AxisTick::go_by(std::int64_t pulses, Instant at) {
 Events AxisTick::take_events() {
   const Events fresh = axis_.events_between;
   axis_.events_between = 0;
-  // Events caused by the axis's own reversal have their moment at the tick's end.
+  // Events that the axis's own reversal causes happen at the end of the tick.
   at_end_ = static_cast<Events>(at_end_ | (fresh & events_of(Moment::end)));
   const auto now = static_cast<Events>(fresh & ~events_of(Moment::end));
   taken_ = static_cast<Events>(taken_ | now);
@@ -339,7 +340,7 @@ void AxisTick::leave_start_to_next_tick() {
 std::int64_t AxisTick::finish() {
   take_events();
   axis_.watch(here_);
-  // A path or a wheel may reverse towards the limit that the axis is on, or may not move at first.
+  // A path or a wheel may reverse towards the limit at which the axis is, or may not move at first.
   const bool may_turn = axis_.task == Task::coordinated || axis_.task == Task::following;
   const bool at_a_limit =
       may_turn && (axis_.forbidden(+1) != Cause::none || axis_.forbidden(-1) != Cause::none);

@@ -1,4 +1,5 @@
-// One axis in a tick in which something can happen: it goes from moment to moment and handles each edge.
+// One axis in a tick during which something may happen. It proceeds from moment to moment and handles each
+// edge.
 //
 //   tick - 1 ├──────●───────────────●─────────────┤ tick       ● an edge at a pulse, the end of the drive
 //            begin  step_events     step_events   finish
@@ -28,11 +29,11 @@ struct AxisPlace {
 
 class AxisTick {
  public:
-  /// Begins the tick and handles at once what has changed since the last tick. `carried` is the number of
-  /// pulses that come from elsewhere, evenly over the tick, or those already taken from the axis's follower.
+  /// Begins the tick and handles what has changed since the last tick. `carried` is the number of pulses that
+  /// come from elsewhere, evenly over the tick, or that were already taken from the axis's follower.
   AxisTick(Axis& axis, const Environment& environment, Tick tick, std::optional<std::int64_t> carried = {});
 
-  /// Returns the next moment at which something can happen to the axis, or the tick's end if nothing can.
+  /// Returns the next moment at which something may happen to the axis, or else the end of the tick.
   const Instant& next();
   /// Goes to a moment that is not after next().
   void go_to(Instant at);
@@ -41,9 +42,9 @@ class AxisTick {
   /// Goes to next() and handles what happens there.
   void step_events();
   bool is_over() const { return is_over_; }
-  /// Recomputes how far the axis may go from here before anything can happen.
+  /// Recomputes how far the axis can go from here before anything can happen.
   void watch() { axis_.watch(here_); }
-  /// Moves by `pulses` and handles everything at the new position, for an axis that only its path moves.
+  /// Moves by `pulses` and handles everything at the new position. For an axis that only its path moves.
   void go_by(std::int64_t pulses, Instant at);
   /// Makes the axis check everything again at its present position. Call it after another object has changed
   /// the axis.
@@ -57,7 +58,7 @@ class AxisTick {
   Events take_events();
   /// Moves a start at this moment to the events of the next tick.
   void leave_start_to_next_tick();
-  /// Ends the tick. Returns its pulses, with their sign; Axis::events then holds all its events.
+  /// Ends the tick. Returns the signed number of pulses; Axis::events then contains all events of the axis.
   std::int64_t finish();
 
  private:
@@ -86,7 +87,7 @@ class AxisTick {
   What next_ = What::unknown;
   bool is_over_ = false;
   Task carried_by_ = Task::none;
-  std::int64_t carried_ = 0;  // pulses of this tick that come from elsewhere, and how many of them have come
+  std::int64_t carried_ = 0;  // external pulses of this tick, and how many of them have arrived
   std::int64_t come_ = 0;
   std::int64_t travel_before_;
   std::int64_t backlash_before_;

@@ -1,4 +1,4 @@
-// The reasons for which motion refuses a request, and the one error that planning throws.
+// The reasons why motion refuses a request, and the only error that planning throws.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 namespace understudy::motion {
 
 enum class Refusal : std::uint8_t {
-  not_finite,    // NaN or an infinity
-  not_positive,  // 0 or less, where the quantity must be above 0
-  negative,      // below 0, where 0 is allowed
-  out_of_range,  // beyond what the quantity can hold or the law can reach
-  no_such_arc,   // the points, centre or radius given do not lie on one circle
+  not_finite,    // NaN or infinity
+  not_positive,  // 0 or less, but the quantity must be above 0
+  negative,      // below 0, but the quantity must be 0 or more
+  out_of_range,  // outside the range of the quantity, or unreachable with the law
+  no_such_arc,   // the points, centre or radius do not lie on one circle
   no_room,       // a queue or a table of fixed size is full
 };
 
@@ -29,7 +29,7 @@ class BadMotion : public std::invalid_argument {
   Refusal refusal_;
 };
 
-/// Check a value that a law is given. `law` and `quantity` are words of the message.
+/// These check a value of a law. `law` and `quantity` appear in the message.
 void require_finite(double value, std::string_view law, std::string_view quantity);
 void require_positive(double value, std::string_view law, std::string_view quantity);      // finite and > 0
 void require_not_negative(double value, std::string_view law, std::string_view quantity);  // finite and >= 0

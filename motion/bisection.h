@@ -1,4 +1,5 @@
-// Finds where along a coordinate a condition becomes true: to the last bit, in a bounded number of steps.
+// Finds where a condition becomes true along a coordinate: exact to the last bit, in a bounded number of
+// steps.
 #pragma once
 
 #include <bit>
@@ -12,9 +13,9 @@ struct Turnover {
   double after = 0;
 };
 
-/// Halves [from, to], 0 <= from <= to, down to where `over` turns from false to true. `over` must be false at
-/// `from` and true at `to`. It halves the set of doubles between the two, not their difference, so 64 steps
-/// are enough however far apart they are.
+/// Bisects [from, to], 0 <= from <= to, to find where `over` changes from false to true. `over` must be false
+/// at `from` and true at `to`. It bisects the set of doubles between the two, not their difference, so 64
+/// steps are enough however far apart they are.
 template <class Over>
 Turnover turnover(double from, double to, const Over& over) {
   auto low = std::bit_cast<std::uint64_t>(from > 0 ? from : 0.0);  // -0.0 has different bits

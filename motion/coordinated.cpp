@@ -25,24 +25,25 @@ std::int64_t nearest(double value) {
   return value < 0 ? -whole : whole;
 }
 
-/// Rounds towards zero, but a value that misses a pulse only by rounding errors counts as that pulse.
+/// Rounds towards zero, but a value that is just below a whole pulse because of rounding errors counts as
+/// that pulse.
 std::int64_t whole(double value) {
   constexpr double kAlmost = 1e-6;
   const double size = std::min(std::abs(value) + kAlmost, 1e18);
   return static_cast<std::int64_t>(value < 0 ? -size : size);
 }
 
-/// Returns null for kNone, and for an axis that is not in the span.
+/// Returns null for kNone, and for an axis outside the span.
 template <class AnyAxis>
 AnyAxis* axis_at(std::int8_t number, std::span<AnyAxis> axes) {
   const bool there = number >= 0 && static_cast<std::size_t>(number) < axes.size();
   return there ? &axes[static_cast<std::size_t>(number)] : nullptr;
 }
 
-/// Within a tick, no path reverses further away than this.
+/// Within a tick, no path goes further than this before it reverses.
 constexpr double kFarthestTurn_pulses = 1'000'000;
 
-/// Returns true if an axis may go beyond its watch window and come back within the tick, at the turn of an
+/// Returns true if an axis may leave its watch window and return within the tick, at the turning point of an
 /// arc.
 bool may_turn_beyond(const Axis& axis, std::int64_t travel, double reach_pulses) {
   const auto reach = static_cast<std::int64_t>(std::min(reach_pulses, 1e15));
@@ -53,7 +54,7 @@ bool may_turn_beyond(const Axis& axis, std::int64_t travel, double reach_pulses)
 
 std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
   const UnitScale& by = scale[i];
-  // Most units are one pulse, and even a division by 1 takes time.
+  // Most units are one pulse, and even dividing by 1 takes time.
   if (by.multiplier == 1 && by.divider == 1) return zero_pulses[i] + nearest(place_u);
   const double pulses = place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider);
   return zero_pulses[i] + (by.truncates ? whole(pulses) : nearest(pulses));
@@ -124,7 +125,7 @@ Coordinated::Ahead Coordinated::look_ahead(Tick tick, std::span<const Axis> axes
   }
   if (!ahead.is_quiet || !has_edges_near) [[likely]]
     return ahead;
-  // If the longest axis is the measure, the path is up to 1.8 times as long.
+  // If the length is measured along the longest axis, the path is up to 1.8 times as long.
   const double length_u = 2 * std::max(0.0, ahead.gone.to_u - run.began_at(ahead.gone, tick));
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     const Axis* axis = axis_at(axis_of[i], axes);

@@ -7,7 +7,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// Returns the number of counts before they wrap; 0: they never do.
+/// Returns the number of counts before the counter wraps; 0: it never wraps.
 std::int64_t size_of(const Counter& counter) {
   switch (counter.range) {
     case Counter::Range::linear: break;
@@ -31,7 +31,8 @@ std::int64_t modulo(std::int64_t value, std::int64_t size) {
   return rest < 0 ? rest + size : rest;
 }
 
-/// Returns a + b or a - b modulo `size`. Both are reduced first, because a ring's size need not divide 2^64.
+/// Returns a + b or a - b modulo `size`. Both operands are reduced first, because a ring's size need not
+/// divide 2^64.
 std::int64_t sum_modulo(std::int64_t a, std::int64_t b, std::int64_t size) {
   const std::int64_t room = size - modulo(b, size);
   const std::int64_t reduced = modulo(a, size);
@@ -43,7 +44,7 @@ std::int64_t difference_modulo(std::int64_t a, std::int64_t b, std::int64_t size
   return rest < 0 ? rest + size : rest;
 }
 
-/// Converts a count of 0 .. size - 1 to a number of the range.
+/// Converts a count of 0 .. size - 1 to a number within the counter's range.
 std::int64_t of_range(const Counter& counter, std::int64_t count) {
   const std::int64_t max = *counter.max();
   return count > max ? count - size_of(counter) : count;

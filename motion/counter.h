@@ -1,8 +1,8 @@
 // Position counters: the values that a controller shows for an axis's travel.
 //
 // An axis counts its travel once, in 64 bits, from power-up; every counter of the device (logical position,
-// absolute position, RCUN1, a coordinate in a register) is that travel plus an offset, wrapped as the device
-// wraps. Counters therefore cost nothing while the axis moves.
+// absolute position, RCUN1, a coordinate in a register) is that travel plus an offset, wrapped as in the
+// device. Therefore, counters cost nothing while the axis moves.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ struct Counter {
   /// Sets the count at `travel` to `value`, wrapped into the range.
   void set(std::int64_t value, std::int64_t travel);
 
-  /// Returns how many steps (1 or more) in `direction` (+1 or -1) it takes until the count is `value`, or
-  /// nothing if it never will be.
+  /// Returns how many steps (1 or more) in `direction` (+1 or -1) are needed until the count is `value`, or
+  /// nothing if the count never reaches it.
   std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
 
   /// Return the minimum and the maximum count, or nothing for linear.

@@ -18,7 +18,7 @@ static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0,
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A number as the sum of two doubles, the second far below the first's last bit.
+/// A number as the sum of two doubles. The second is far smaller than the last bit of the first.
 struct Parts {
   double high = 0;
   double low = 0;
@@ -33,7 +33,7 @@ Parts exact_difference(double a, double b) {
 
 // ---- sine and cosine -------------------------------------------------------------------------------------
 
-// pi/2 in three parts of 33 bits and a rest (Cody and Waite): a part times a whole number of 20 bits is
+// pi/2 in three parts of 33 bits and a remainder (Cody and Waite): a part times a whole number of 20 bits is
 // exact.
 constexpr double kQuarter1 = 0x1.921fb544p+0;
 constexpr double kQuarter2 = 0x1.0b4611a6p-34;
@@ -42,11 +42,12 @@ constexpr double kQuarter4 = 0x1.b839a252049c1p-104;
 constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;
 static_assert(kFarthestAngle_rad * kQuartersPerRadian < (1 << 20));
 
-// Adding and subtracting it rounds to a whole number, which the last bits of the sum then hold.
+// Adding and subtracting this constant rounds to a whole number, which is then in the last bits of the sum.
 constexpr double kRounder = 0x1.8p52;
 
-/// The Taylor series for |r| <= pi/4; the first omitted term is below 1e-19. `low` is the angle's part below
-/// r's last bit. Even and odd terms are summed separately: two short chains are faster than a long one.
+/// The Taylor series for |r| <= pi/4; the first omitted term is below 1e-19. `low` is the part of the angle
+/// below the last bit of r. Even and odd terms are summed separately, because two short chains are faster
+/// than a long one.
 double sine_near_0(double r, double low) {
   const double z = r * r;
   const double w = z * z;
@@ -62,13 +63,13 @@ double cosine_near_0(double r, double low) {
   const double odd = -1.0 / 720 + w * (-1.0 / 3628800 - w * (1.0 / 87178291200));
   const double half = 0.5 * z;
   const double first = 1 - half;
-  // (1 - first) - half is what the rounding of `first` lost.
+  // (1 - first) - half is the rounding error of `first`.
   return first + (((1 - first) - half) + (w * (even + z * odd) - r * low));
 }
 
 // ---- arctangent ------------------------------------------------------------------------------------------
 
-// The arctangent of 0/8 .. 8/8.
+// The arctangents of 0/8 .. 8/8.
 constexpr std::array<Parts, 9> kArctangentOfEighths{{{0, 0},
                                                      {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
                                                      {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
@@ -81,8 +82,8 @@ constexpr std::array<Parts, 9> kArctangentOfEighths{{{0, 0},
 constexpr Parts kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Parts kWholePi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 
-/// For 0 <= y <= x with x > 0, adds the arctangent of an eighth near y/x and that of the rest, by its Taylor
-/// series.
+/// For 0 <= y <= x with x > 0: adds the arctangent of an eighth near y/x and the arctangent of the remainder,
+/// which is computed by its Taylor series.
 Parts angle_in_first_octant(double y, double x) {
   const int eighths = static_cast<int>(8 * (y / x) + 0.5);
   const double slope = eighths * 0.125;
@@ -103,7 +104,7 @@ Parts operator-(const Parts& whole, const Parts& part) {
 
 // ---- logarithm -------------------------------------------------------------------------------------------
 
-// ln 2: the first part has 32 bits, so that times an exponent it is exact.
+// ln 2. The first part has 32 bits, so its product with an exponent is exact.
 constexpr Parts kLn2{0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
 constexpr double kRootHalf = 0x1.6a09e667f3bcdp-1;
 

@@ -11,7 +11,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// No axis moves further, and no count is searched for beyond this.
+/// No axis moves further than this, and no count beyond it is searched for.
 constexpr std::int64_t kFarthestCount = std::int64_t{1} << 56;
 
 Wide floor_quotient(Wide value, std::int64_t by) {
@@ -35,7 +35,7 @@ std::int64_t EncoderLine::at(std::int64_t travel) const {
 
 std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int direction,
                                                      std::int64_t count_steps) const {
-  // Beyond one of the machine's stops nothing moves until the axis is at the stop again.
+  // Beyond a stop of the machine, nothing moves until the axis is back at the stop.
   if (direction > 0 ? travel < first : travel > last) {
     const std::int64_t stop = direction > 0 ? first : last;
     const auto steps = steps_until(stop, direction, count_steps);
@@ -45,7 +45,7 @@ std::optional<std::int64_t> EncoderLine::steps_until(std::int64_t travel, int di
   const auto is_present = [&](std::int64_t steps) {
     return std::abs(at(travel + direction * steps) - before) >= count_steps;
   };
-  // The slope alone gives the number of pulses to within a few.
+  // The slope alone gives the number of pulses to within a few pulses.
   const std::int64_t about =
       bounded(Wide{std::min(count_steps, kFarthestCount)} * divider * pulses / (Wide{counts} * factor));
   const std::int64_t leeway = pulses / counts + bounded(Wide{divider} * pulses / (Wide{counts} * factor)) + 2;

@@ -73,7 +73,7 @@ std::optional<std::int64_t> Environment::steps_until_change(std::int64_t travel,
   const auto consider_beyond = [&](std::int64_t last_steps) {
     if (last_steps >= 0 && last_steps < INT64_MAX) consider(last_steps + 1);
   };
-  // Consider the first pulse inside and the first one beyond, from either side.
+  // Consider the first pulse inside the zone and the first one beyond it, from either side.
   const auto consider_ends = [&](std::int64_t from, std::int64_t to) {
     if (direction > 0) {
       consider(bounded_difference(from, travel));
@@ -91,7 +91,8 @@ std::optional<std::int64_t> Environment::steps_until_change(std::int64_t travel,
     consider_ends(bounded_difference(zone.from, zone.slack), bounded_difference(zone.to, -zone.slack));
   }
   if (index_period > 0 && index_width > 0 && index_width < index_period) {
-    // Nothing changes until the index begins to depend on the position, nor beyond the other end.
+    // Nothing changes until the index begins to depend on the position, and nothing changes beyond the other
+    // end.
     const std::int64_t begin = std::clamp(travel, index_from, index_to);
     const std::int64_t phase = index_phase(*this, begin);
     const bool is_on = phase < index_width;

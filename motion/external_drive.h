@@ -1,6 +1,6 @@
 // External pulse drive: two inputs that make an axis move, as with EXP+ and EXP- of the MCX314.
 //
-// Levels are as at the pin: true is high. Source: RS-M8194H manual 3.17.
+// Levels are those at the pin: true is high. Source: RS-M8194H manual 3.17.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct ExternalDrive {
   bool operator==(const ExternalDrive&) const = default;
 };
 
-/// What an input requests of its axis.
+/// A request from an input to its axis.
 struct DriveOrder {
   enum class What : std::uint8_t { nothing, move, run, slow_down };
   What what = What::nothing;
@@ -36,7 +36,7 @@ struct DriveOrder {
   bool operator==(const DriveOrder&) const = default;
 };
 
-/// Returns the order that follows from the present inputs. Call it once per tick.
+/// Returns the order that follows from the present inputs. Call this once per tick.
 DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, bool axis_moving);
 
 }  // namespace understudy::motion

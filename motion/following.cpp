@@ -21,8 +21,8 @@ std::int64_t saturated(Wide value) {
   return static_cast<std::int64_t>(std::clamp<Wide>(value, INT64_MIN / 4, INT64_MAX / 4));
 }
 
-/// Returns the most pulses to catch up in this period if each following period catches up `change` fewer and
-/// the sum must not exceed `missing`.
+/// Returns the maximum number of pulses to catch up in this period, if each following period catches up
+/// `change` fewer and the sum must not exceed `missing`.
 std::int64_t stoppable(std::int64_t missing, std::int64_t change) {
   const Wide size = missing < 0 ? -Wide{missing} : Wide{missing};
   const auto sum_of = [&](Wide steps) { return change * steps * (steps + 1) / 2; };
@@ -63,7 +63,7 @@ std::int64_t Follower::step() {
       wanted = std::clamp(wanted, period_pulses - change, period_pulses + change);
     }
     if (top_speed_pps > 0) {
-      // The bound is met on average: its remainder in thousandths is carried into the next period.
+      // The limit is met on average: its remainder in thousandths is carried into the next period.
       const std::int64_t milli = top_speed_pps * period_ticks + speed_left_over;
       const std::int64_t bound = milli / 1000;
       speed_left_over = milli % 1000;

@@ -1,6 +1,6 @@
 // Following: an axis follows another source of counts (a hand wheel, an encoder) by a ratio.
 //
-// All numbers are whole. The remainder of each division is kept, so nothing is lost however long the axis
+// All numbers are integers. The remainder of each division is kept, so nothing is lost, however long the axis
 // follows.
 #pragma once
 
@@ -9,15 +9,16 @@
 namespace understudy::motion {
 
 struct Follower {
-  // pulses = counts * numerator / denominator; the numerator's sign is the direction, 0 does not move.
+  // pulses = counts * numerator / denominator. The sign of the numerator is the direction; with 0, the axis
+  // does not move.
   std::int64_t numerator = 1;
   std::int64_t denominator = 1;
-  // Counts are gathered for this many ticks; their pulses come out evenly over the next period of the same
+  // Counts are gathered for this many ticks. Their pulses are sent evenly over the next period of the same
   // length.
   std::int32_t period_ticks = 1;
-  std::int64_t top_speed_pps = 0;  // no faster than this; 0: no bound
-  std::int64_t slope_pps = 0;      // largest change of speed from period to period; 0: no bound
-  // True: pulses held back by the bounds are sent later, and the axis slows down in time to stop at its
+  std::int64_t top_speed_pps = 0;  // 0: no limit
+  std::int64_t slope_pps = 0;      // the largest change of speed from period to period; 0: no limit
+  // True: pulses held back by the limits are sent later, and the axis slows down in time to stop at its
   // position. False: they are dropped.
   bool catches_up = false;
 
@@ -25,14 +26,14 @@ struct Follower {
   std::int64_t gathered = 0;         // counts of this period so far
   std::int64_t left_over = 0;        // remainder of the division, in counts * numerator: 0 .. denominator - 1
   std::int64_t behind_pulses = 0;    // pulses still to be caught up
-  std::int64_t period_pulses = 0;    // pulses that come out in this period
+  std::int64_t period_pulses = 0;    // pulses to be sent in this period
   std::int32_t phase = 0;            // ticks of this period that are done
-  std::int64_t speed_left_over = 0;  // remainder of the bound's division, in pulses / 1000
+  std::int64_t speed_left_over = 0;  // remainder of the speed limit's division, in pulses / 1000
 
   bool operator==(const Follower&) const = default;
 
   /// Throws BadMotion unless the denominator is 1 .. 2^31-1, the numerator within +-(2^31-1), the period 1 ..
-  /// 1000 and the bounds not negative.
+  /// 1000 and the limits not negative.
   void check() const;
 
   void feed(std::int64_t counts) { gathered += counts; }
@@ -40,7 +41,7 @@ struct Follower {
   /// Returns the pulses of the next tick, signed.
   std::int64_t step();
 
-  /// Returns true if no counts are gathered and no pulses are to come.
+  /// Returns true if no counts are gathered and no pulses remain.
   bool quiet() const;
 };
 

@@ -1,5 +1,5 @@
-// Homing as a table of phases: each phase defines what the axis searches for, in which direction, how fast,
-// and what it does when it has found it.
+// Homing as a table of phases. Each phase defines what the axis searches for, in which direction, how fast,
+// and what it does when it finds it.
 //
 //   phase 0  search +, fast, until home on, slow down      ──────────╮ home
 //   phase 1  search -, creep, until home off, stop            ╭──────╯
@@ -22,52 +22,52 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 /// One row of a homing table.
 struct HomingPhase {
   enum class Does : std::uint8_t {
-    search,  // goes in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
-    // Moves by `distance_pulses`, repeatedly while a signal of `again_while` is on, if any is given. If it
-    // runs on, it ends at the speed of the next phase, or has that speed from the start if the distance is
-    // too short to decelerate in.
+    search,  // moves in `direction` until `until` turns `until_on`, as a fresh edge, `count` times
+    // Moves by `distance_pulses`, and repeats this while a signal of `again_while` is on. If it runs on, it
+    // ends at the speed of the next phase. If the distance is too short to decelerate, it has that speed from
+    // the start.
     go,
-    go_back,             // goes to the travel that an earlier phase marked
-    move_at_zero_speed,  // goes in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
+    go_back,             // returns to the travel that an earlier phase marked
+    move_at_zero_speed,  // moves in `direction` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
   enum class Then : std::uint8_t {
     stop_at_once,
     slow_down,
-    run_on,  // continues into the next phase, a search in the same direction; before any other phase it stops
-             // at once
+    run_on,  // continues into the next phase if that is a search in the same direction; otherwise stops at
+             // once
   };
 
-  // Where homing goes: the number of a row, or one of these.
-  static constexpr std::int8_t kRowBelow = -1;  // the row below; below the last row, home is found
+  // The row that follows: the number of a row, or one of these.
+  static constexpr std::int8_t kRowBelow = -1;  // the row below; home is found if this is the last row
   static constexpr std::int8_t kFail = -2;
-  static constexpr std::int8_t kNext = -3;   // continues with `next`
-  static constexpr std::int8_t kAwait = -4;  // stays in the row: the signal must go off and come on again
+  static constexpr std::int8_t kNext = -3;   // as `next` says
+  static constexpr std::int8_t kAwait = -4;  // stays in this row: the signal must go off and come on again
 
   Does does = Does::search;
-  std::int8_t direction = +1;  // +1 or -1; go and go_back take the sign of their distance
+  std::int8_t direction = +1;  // +1 or -1; go and go_back use the sign of their distance
   std::int8_t speed = 0;       // index into HomingProgram::speeds
   Signal until = Signal::home;
   bool until_on = true;
   Then then = Then::slow_down;
   bool marks = false;     // true: the travel at the edge becomes the reference
-  std::uint8_t code = 0;  // what the controller shows during this phase; the engine does not use it
+  std::uint8_t code = 0;  // the number that the controller shows during this phase; motion does not use it
   std::int32_t count = 1;
   Signals again_while = 0;
   std::int64_t distance_pulses = 0;
-  std::int64_t within_pulses = 0;  // distance after which a search stops at once; 0: no bound
+  std::int64_t within_pulses = 0;  // distance after which a search stops at once; 0: no limit
   Signals ignores = 0;             // signals that the axis does not react to during this phase
 
-  // The row that follows:
-  // After the signal is met and, unless the phase runs on, the axis has stopped.
+  // The row that follows in each of these cases.
+  // The signal is met and the axis has stopped (unless the phase runs on).
   std::int8_t next = kRowBelow;
-  // If `until` is in the state that is sought when the phase begins; kNext: it counts as met.
+  // `until` already has the required state when the phase begins. kNext: it counts as met.
   std::int8_t if_already = kNext;
-  // If, once the axis is at rest, `until` is no longer in the state that was sought.
+  // The axis is at rest, but `until` no longer has the required state.
   std::int8_t if_gone = kNext;
-  // If a limit ahead stops the phase, or keeps it from starting, before the signal is met. Unless this is
-  // kFail, a limit after the signal is met does no harm.
+  // A limit ahead stops the phase or keeps it from starting, before the signal is met. Unless this is kFail,
+  // a limit after the signal is met has no effect.
   std::int8_t if_limit = kFail;
-  std::int8_t if_far = kFail;  // if the phase stopped after `within_pulses`
+  std::int8_t if_far = kFail;  // the phase stopped after `within_pulses`
 
   bool operator==(const HomingPhase&) const = default;
 };
@@ -77,29 +77,29 @@ struct HomingProgram {
   static constexpr std::size_t kMaxSpeeds = 2;
 
   std::array<HomingPhase, kMaxPhases> phases{};
-  std::int8_t phase_count = 0;  // 0: home is the axis's present position
+  std::int8_t phase_count = 0;  // 0: home is the present position of the axis
   std::array<SpeedLaw, kMaxSpeeds> speeds{};
   bool soft_limits_lead_on = false;  // true: soft limits lead to `if_limit`; false: homing fails at them
 
   bool operator==(const HomingProgram&) const = default;
 
-  /// Adds a row below the others. Throws BadMotion(no_room) beyond kMaxPhases.
+  /// Appends a row. Throws BadMotion(no_room) if there are already kMaxPhases.
   void add(const HomingPhase& phase);
 };
 
-/// Throws BadMotion for a table that cannot run: a missing row or speed, a count below 1, or a used speed law
-/// that motion/move.h refuses.
+/// Throws BadMotion for a table that cannot run: a row or a speed is missing, a count is below 1, or
+/// motion/move.h refuses a speed law that is used.
 void check(const HomingProgram& program);
 
-/// The state of a homing while it runs, and its result afterwards.
+/// The state of a running homing, and its result afterwards.
 struct Homing {
   HomingProgram program;
-  std::int8_t phase = -1;     // the row that runs; -1: not homing
-  std::int8_t ended_in = -1;  // the row that ran when the last homing ended
-  // `arrived` means that home is found. If homing has failed and the axis decelerates, this is set before it
-  // stops.
+  std::int8_t phase = -1;     // the current row; -1: not homing
+  std::int8_t ended_in = -1;  // the row in which the last homing ended
+  // `arrived` means that home was found. If homing has failed and the axis decelerates, this is set before
+  // the axis stops.
   Cause ended_by{};
-  bool met = false;               // true: the row has met its signal and comes to a stop
+  bool met = false;               // true: the signal of the row is met, and the axis is stopping
   std::int32_t counted = 0;       // edges of the row's signal so far
   std::int64_t began_pulses = 0;  // travel where the row began
   bool reference_known = false;
@@ -109,8 +109,8 @@ struct Homing {
 
   bool active() const { return phase >= 0; }
   const HomingPhase& row() const { return program.phases[static_cast<std::size_t>(phase)]; }
-  /// Returns the speed law of the next row if the current row is a distance that passes into it without
-  /// stopping; otherwise null.
+  /// Returns the speed law of the next row if the current row is a distance that runs on into it. Otherwise
+  /// returns null.
   const SpeedLaw* runs_on_by() const;
   /// Returns the profile of the current row. Call it only if runs_on_by() is not null.
   Profile plan_to_run_on() const;

@@ -11,7 +11,7 @@
 #include "motion/pulse_drive.h"
 #include "motion/tick.h"
 
-// Runs a homing table. Phases begin and end inside ticks, at the edges that separate them.
+// Runs a homing table. Phases begin and end within ticks, at the edges that separate them.
 namespace understudy::motion {
 
 namespace {
@@ -23,7 +23,7 @@ void require(bool holds, const char* what) {
   if (!holds) throw BadMotion(Refusal::out_of_range, "homing table", what);
 }
 
-/// Returns the row number that `where` means in row `phase`.
+/// Returns the row number to which `where` refers in row `phase`.
 std::int8_t row_number(const Homing& homing, std::int8_t where) {
   if (where == HomingPhase::kNext) where = homing.row().next;
   return where == HomingPhase::kRowBelow ? static_cast<std::int8_t>(homing.phase + 1) : where;
@@ -33,7 +33,7 @@ bool as_sought(const HomingPhase& row, Signals signals) {
   return ((signals & bit(row.until)) != 0) == row.until_on;
 }
 
-/// Returns true if a row may continue after this limit.
+/// Returns true if a row can continue after this limit.
 bool is_limit(const HomingProgram& program, Cause why) {
   if (why == Cause::soft_limit_plus || why == Cause::soft_limit_minus) return program.soft_limits_lead_on;
   return why == Cause::limit_plus || why == Cause::limit_minus;
@@ -53,7 +53,7 @@ void check(const HomingProgram& program) {
       program.phase_count >= 0 && static_cast<std::size_t>(program.phase_count) <= HomingProgram::kMaxPhases,
       "phases must be 0 to 8");
   const auto is_row = [&](std::int8_t where) {
-    return where <= program.phase_count && where >= HomingPhase::kFail;  // one past the end: home is found
+    return where <= program.phase_count && where >= HomingPhase::kFail;  // one past the last row: found
   };
   for (std::int8_t i = 0; i < program.phase_count; ++i) {
     const HomingPhase& row = program.phases[static_cast<std::size_t>(i)];
@@ -166,7 +166,8 @@ void Axis::mark_reference() {
   homing.reference_pulses = travel_pulses;
 }
 
-/// A stop in progress may get a worse cause: a limit, or a stop command while it decelerates for home.
+/// A stop in progress may get a more serious cause: a limit, or a stop command while the axis decelerates for
+/// home.
 void Axis::homing_slows(Cause why) {
   const bool continues =
       why == Cause::arrived || (is_limit(homing.program, why) && homing.row().if_limit != HomingPhase::kFail);
@@ -196,15 +197,16 @@ void Axis::go_to_phase(std::int8_t number, Instant at, bool running) {
   try {
     failed = enter_phase(number, at, running);
   } catch (const BadMotion&) {
-    // The speed law cannot plan the way back: that is known only here, and a tick does not throw.
+    // The speed law cannot plan the return. This is detected only here, and a tick must not throw.
   }
   if (failed != Cause::none) end_homing(failed, at);
 }
 
-/// Begins phase `number`, or the first one after it that has anything to do. Returns none if it runs or home
-/// is found. `running`: the axis continues in motion.
+/// Begins phase `number`, or the first phase after it that has anything to do. Returns none if the phase runs
+/// or home is found. `running`: the axis continues to move.
 Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
-  // A table may contain a circle of phases with nothing to do, so the number of phases entered is limited.
+  // A table may contain a cycle of phases that have nothing to do, so the number of phases entered is
+  // limited.
   for (std::size_t entered = 0; entered <= HomingProgram::kMaxPhases; ++entered) {
     if (number < 0) return Cause::homing_failed;  // kFail
     if (number >= homing.program.phase_count) {

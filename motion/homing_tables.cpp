@@ -47,8 +47,8 @@ enum class Direction : std::uint8_t { on, back };
 enum class Law : std::uint8_t { fast, creep };
 
 struct Mode {
-  At at;      // searched at Vh
-  Then then;  // what it does there
+  At at;      // the target of the search at Vh
+  Then then;  // how the axis stops there
   After after;
   Direction direction;
   Law law;
@@ -104,7 +104,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   }
   const std::int8_t search = program.phase_count;
   const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
-  // Beyond the switch, an index search would start in a wrong place (《X32.》 note); modes 0 and 9 have none.
+  // Beyond the switch, an index search would start in the wrong place (note of 《X32.》; not modes 0 and 9).
   const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
   program.add({.direction = on,
                .speed = kFast,
@@ -142,7 +142,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   if (mode.zero) program.add({.does = Does::go_back, .speed = last});
   program.add({.does = Does::go, .speed = last, .distance_pulses = how.offset_pulses});
   if (mode.at != At::dog || !how.turns_at_limit) return program;
-  // A row below the last one passes the DOG and repeats the search. It is skipped if home is found.
+  // An extra row after the last one passes the DOG and repeats the search. It is skipped if home is found.
   const std::int8_t past = program.phase_count;
   program.phases[static_cast<std::size_t>(search)].if_limit = past;
   program.phases[static_cast<std::size_t>(past - 1)].next = static_cast<std::int8_t>(past + 1);
@@ -164,7 +164,7 @@ HomingProgram super40nc_mark(const Super40ncMark& how) {
   HomingProgram program{.speeds = {how.fast, how.creep}};
   const std::int64_t search = std::abs(how.search_pulses);
   const bool continues = how.distance_pulses * direction > 0;
-  std::int64_t behind = 0;  // the distance beyond the target in which it slows down
+  std::int64_t behind = 0;  // the distance beyond the target within which the axis slows down
   if (how.slows_behind && continues && how.fast.top_speed_u_s > how.creep.top_speed_u_s) {
     const double braking = ramp_distance(how.fast.down, how.creep.top_speed_u_s, how.fast.top_speed_u_s);
     behind = std::min(static_cast<std::int64_t>(std::ceil(braking)), search - 1);
@@ -204,7 +204,7 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
   if (direction_2 != 0) {
     const Signal home = how.limit_is_home ? limit_towards(direction_2) : Signal::home;
     const std::int8_t search = program.phase_count;
-    const auto leave = static_cast<std::int8_t>(search + 1);      // irregular (a): home is on already
+    const auto leave = static_cast<std::int8_t>(search + 1);      // irregular (a): home is already on
     const auto come_back = static_cast<std::int8_t>(search + 2);  // irregular (b) and (c): the limit is on
     const auto step_3 = static_cast<std::int8_t>(search + 3);
     program.add({.direction = sign(direction_2),
@@ -252,13 +252,13 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
 
 HomingProgram simple2_homing(const Simple2Homing& how) {
   if (how.speed.top_speed_u_s == 0) {
-    // At a limit it turns back, even at speed 0.
+    // At a limit, it reverses, even at speed 0.
     HomingProgram both_ways;
     both_ways.add({.does = Does::move_at_zero_speed, .direction = sign(how.direction), .if_limit = 1});
     both_ways.add({.does = Does::move_at_zero_speed, .direction = opposite(how.direction)});
     return both_ways;
   }
-  // The numbers of the rows that other rows lead to.
+  // The numbers of the rows to which other rows refer.
   constexpr std::int8_t kLeave = 1;
   constexpr std::int8_t kOtherWay = 2;
   constexpr std::int8_t kBeyond = 3;

@@ -24,7 +24,7 @@ const RampLaw& reckoned(const SpeedLaw& law) {
 
 double start_speed(const SpeedLaw& law) { return std::min(law.start_speed_u_s, law.top_speed_u_s); }
 
-/// Returns the remaining distance at which slowing down from `speed_u_s` begins.
+/// Returns the remaining distance at which the deceleration from `speed_u_s` begins.
 double slow_down_distance(const SpeedLaw& law, double speed_u_s) {
   const double start = start_speed(law);
   const double reckoned_u = law.slow_down_at_u  ? *law.slow_down_at_u
@@ -33,14 +33,15 @@ double slow_down_distance(const SpeedLaw& law, double speed_u_s) {
   return reckoned_u + law.slow_down_offset_u;
 }
 
-/// A distance below this is a rounding error, not a distance to be covered.
+/// A smaller distance is a rounding error, not a distance to cover.
 double rounding_of(double target_u) { return 1e-9 + 1e-14 * std::abs(target_u); }
 
 bool slows_down_by_chip_rules(const SpeedLaw& law) {
   return law.slow_down_at_u || law.slow_down_reckoned_by || law.slow_down_offset_u != 0;
 }
 
-/// Slows down from `speed_u_s` and ends on `target_u`: the profile creeps the rest of the way, or is cut off.
+/// Slows down from `speed_u_s` and ends at `target_u`: the profile covers the rest at creep speed, or is cut
+/// off.
 void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double target_u) {
   const double start = start_speed(law);
   if (speed_u_s > start) append_ramp(profile, law.down, speed_u_s, start);
@@ -69,7 +70,7 @@ void append_move(Profile& profile, const Profile& move, double sign) {
   }
 }
 
-/// Accelerates as far as slowing down allows, and breaks the ramp off there.
+/// Accelerates as long as the later deceleration permits, and breaks off the ramp there.
 Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   Profile profile;
   append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
@@ -84,7 +85,7 @@ Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   return profile;
 }
 
-/// Even if each quantity is valid, the ramp may last 1e400 s.
+/// Even if each quantity is valid, the ramp may take 1e400 s.
 void require_doubles_hold(const Profile& profile, bool endless = false) {
   bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
   for (std::int32_t i = 0; i < profile.segment_count; ++i) {
@@ -127,7 +128,7 @@ Profile plan(double distance_u, const SpeedLaw& law) {
     const double rise = rise_within(room, start, law.up, reckoned(law), whole_rise);
     if (rise < whole_rise) {
       top = start + rise;
-      // Next to a large start speed, a small rise might be rounded up to more than there is room for.
+      // If the start speed is large, a small rise might be rounded up to more than the available room.
       if (top - start > rise) top = std::nextafter(top, start);
     }
     if (top > start) append_ramp(profile, law.up, start, top);
@@ -249,21 +250,22 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   const double start = start_speed(law);
   const double top = std::max(start, law.top_speed_u_s);
 
-  // Returns the distance up to `peak` and from there to the point where slowing down begins.
+  // Returns the distance to `peak` and on to the point where slowing down begins.
   const auto needed = [&](double peak) {
     Profile change;
     append_change(change, now, peak, law);
     return change.end_position_u + slow_down_distance(law, peak);
   };
   const double room = target_u - now.position_u;
-  // The present acceleration brings the speed at least to this value.
+  // The present acceleration raises the speed at least to this value.
   const double faded = speed_without_acceleration(now, law);
   Profile stop = slow_to_stop(now, law);
   if (std::abs(stop.end_position_u - target_u) <= rounding_of(target_u)) {
     stop.end_exactly_at(target_u);
     return stop;
   }
-  // A law that assumes too short a ramp does not pass a target ahead: the move is cut off at the target.
+  // With a law that assumes too short a ramp, the move does not pass a target ahead: it is cut off at the
+  // target.
   if (stop.end_position_u > target_u && (room < 0 || needed(faded) > room)) {
     append_move(stop, plan(stop.end_position_u - target_u, law), -1);
     stop.end_exactly_at(target_u);
@@ -272,15 +274,15 @@ Profile change_target(const Sample& state, double target_u, const SpeedLaw& law)
   }
   double peak = top;
   if (needed(top) > room) {
-    // Slowing down after reaching `faded` takes longer than slowing down at once; so if it continues from
-    // `faded`, the peak is above that.
+    // Slowing down after reaching `faded` takes longer than slowing down at once. So if the motion can
+    // continue from `faded`, the peak is above that.
     const double low = faded < top && needed(faded) <= room ? faded : start;
     peak = turnover(low, top, [&](double middle) { return needed(middle) > room; }).before;
   }
   Profile profile = Profile::from(now.position_u);
   append_change(profile, now, peak, law);
   const double cruise = target_u - profile.end_position_u - slow_down_distance(law, peak);
-  // A rounding error would take a long time to cover.
+  // It would take a long time to cover a rounding error.
   if (cruise > rounding_of(target_u) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
   finish(profile, law, peak, target_u);
   require_doubles_hold(profile);

@@ -10,8 +10,8 @@ namespace understudy::motion {
 
 namespace {
 
-/// Returns a vector's direction, or zero for the zero vector. It is scaled first: the square of 1e-200 would
-/// be 0.
+/// Returns the direction of a vector, or zero for the zero vector. The vector is scaled first, because the
+/// square of 1e-200 would be 0.
 Point direction_of(const Point& travel) {
   const double largest = travel.cwiseAbs().maxCoeff();
   if (largest == 0) return Point::Zero();
@@ -25,8 +25,8 @@ Point Path::at(double along_u) const {
   if (!(along_u > 0)) return begin;
   if (along_u >= length_u) return end;
   if (kind == Kind::arc) return place_on_arc(*this, turned_at(*this, along_u));
-  // Multiply before dividing: at a whole pulse of the longest axis, that axis is at a whole pulse. The bounds
-  // keep the last bits of a very uneven sum from passing the end.
+  // Multiply before dividing, so that at a whole pulse of the longest axis, that axis is at a whole pulse.
+  // The bounds prevent the last bits of a very uneven sum from passing the end.
   const Point place = begin + (end - begin) * along_u / length_u;
   return place.cwiseMax(begin.cwiseMin(end)).cwiseMin(begin.cwiseMax(end));
 }
@@ -53,7 +53,7 @@ double corner_deg(const Path& first, const Path& next) {
   const Point before = first.direction_at(first.length_u);
   const Point after = next.direction_at(0);
   if (before.isZero(0) || after.isZero(0)) return 0;
-  // Kahan's form: exact for small and for nearly straight-back angles alike.
+  // Kahan's form: exact both for small angles and for angles near a half turn.
   return 2 * angle_of((before - after).norm(), (before + after).norm()) * (180 / kPi);
 }
 

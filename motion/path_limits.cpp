@@ -21,7 +21,8 @@ bool passes(const Path& arc, double angle_rad) {
 }
 
 Point of_circle(const Path& path) {
-  // Along a circle the part of axis i is |cos * ordinate_i - sin * abscissa_i|, times what the rise leaves.
+  // Along a circle, the component of axis i is |cos * ordinate_i - sin * abscissa_i|, times the fraction that
+  // the rise leaves.
   const double turn = path.begin_radius_u * std::abs(path.sweep_rad);
   const double whole = std::sqrt(turn * turn + path.rise.squaredNorm());
   Point greatest = Point::Zero();
@@ -31,7 +32,7 @@ Point of_circle(const Path& path) {
     const double a = path.abscissa[i];
     const double o = path.ordinate[i];
     if (!passes(path, angle_of(-a, o))) continue;
-    // The rise adds to the same axis only if the plane is oblique; then this is an upper bound.
+    // The rise affects the same axis only if the plane is oblique; then this is an upper bound.
     greatest[i] = std::min(1.0, (std::sqrt(a * a + o * o) * turn + std::abs(path.rise[i])) / whole);
   }
   return greatest;

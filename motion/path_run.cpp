@@ -30,13 +30,13 @@ bool is_smooth(const Path& first, const Path& next, Joint joint) {
   return false;
 }
 
-/// Returns true for the same place, except for rounding errors.
+/// Returns true if the places are equal, except for rounding errors.
 bool meets(const Point& end, const Point& begin) {
   const double size = 1 + end.cwiseAbs().maxCoeff();
   return (end - begin).cwiseAbs().maxCoeff() <= 1e-6 * size;
 }
 
-/// A law that cannot be planned with must be refused when it is given, not in the tick in which a chain
+/// A law that makes planning impossible must be refused when it is set, not in the tick in which a chain
 /// begins.
 void require_plans(SpeedLaw law, double override_factor) {
   if (override_factor > 0) law.top_speed_u_s *= override_factor;
@@ -60,7 +60,7 @@ void require_plans(SpeedLaw law, double override_factor) {
 
 }  // namespace
 
-/// Returns the path whose end counts for the joint with the next one. Paths of no length have no direction,
+/// Returns the path whose end determines the joint with the next path. Paths of no length have no direction,
 /// so they cannot hide a corner.
 const Path& PathRun::path_before(std::size_t number) {
   std::size_t before = number - 1;
@@ -86,7 +86,7 @@ void PathRun::append(const Path& path, Joint joint, Tick now) {
   } else if (running_ && chain_count_ == 0) {
     lay_out_chain(now + 1);
   } else if (chain_count_ + 1 == count_) {
-    added.joined = false;                // the previous chain will have ended
+    added.joined = false;                // by then, the previous chain will have ended
     if (open_ && running_) replan(now);  // the run must now stop at its end
   }
 }
@@ -181,10 +181,10 @@ double PathRun::elapsed_s(Tick now) const { return seconds(now - begin_tick_) - 
 
 Sample PathRun::sample(Tick now) const {
   if (chain_count_ == 0) return {.position_u = chain_end_u_};
-  // It has not begun yet, so it does not have the start speed yet.
+  // The run has not begun yet, so it does not have the start speed yet.
   if (elapsed_s(now) < 0) return {.position_u = profile_.sample(0).position_u};
   Sample here = profile_.sample(elapsed_s(now));
-  // A path cannot go back, but the last digits of an S-curve's end may go below 0.
+  // A path cannot reverse, but the last digits of an S-curve's end may be below 0.
   here.speed_u_s = std::max(0.0, here.speed_u_s);
   return here;
 }
@@ -201,7 +201,7 @@ Point PathRun::velocity(Tick now) const {
   const Path& path = piece->path;
   const Point direction = path.direction_at(here.position_u - piece->begin_u);
   if (path.measure == Measure::vector) return here.speed_u_s * direction;
-  // The axis that moves most has the speed; the rise of an arc does not count.
+  // The speed is that of the axis that moves most; the rise of an arc does not count.
   double max = 0;
   for (Eigen::Index i = 0; i < kPathAxes; ++i) {
     const bool counts = path.kind == Path::Kind::line || path.abscissa[i] != 0 || path.ordinate[i] != 0;
@@ -219,7 +219,7 @@ bool PathRun::slowing_for_the_end(Tick now) const {
   return stop.end_position_u >= chain_end_u_ - 1e-9 * (1 + chain_end_u_);
 }
 
-/// Makes a chain of the joined paths at the queue's front, and begins it.
+/// Makes a chain from the joined paths at the front of the queue, and begins it.
 void PathRun::lay_out_chain(Tick begin_at) {
   chain_count_ = 0;
   chain_end_u_ = 0;
@@ -242,7 +242,7 @@ void PathRun::lay_out_chain(Tick begin_at) {
   }
 }
 
-/// Cuts the profile of a run that keeps its speed to the end.
+/// Cuts off the profile of a run that keeps its speed to the end.
 Profile PathRun::cut_at_end(Profile profile) const {
   profile.cut_at(chain_end_u_);
   profile.end_exactly_at(chain_end_u_);
@@ -255,8 +255,8 @@ void PathRun::replan(Tick now) {
   Tick from = std::max(now, begin_tick_);
   const Sample here = sample(from);
   if (here.position_u >= chain_end_u_) return;
-  // From standstill, a motion begins in the next tick, as everywhere. A motion that is at its beginning
-  // already stays there; otherwise commands in every tick would keep it from ever starting.
+  // A motion from rest begins in the next tick, as everywhere. A motion that is already at its beginning does
+  // not wait again; otherwise commands in every tick would keep it from ever starting.
   const bool stands = elapsed_s(from) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {
@@ -268,7 +268,7 @@ void PathRun::replan(Tick now) {
   } else {
     const SpeedLaw law = effective();
     const Profile stop = slow_to_stop(here, law);
-    // A path cannot go back: if it can no longer stop in time, it ends at the end.
+    // A path cannot reverse: if the run can no longer stop in time, it ends at the end of the chain.
     if (stop.end_position_u > chain_end_u_) {
       profile_ = stop;
       profile_.cut_at(chain_end_u_);
@@ -285,7 +285,7 @@ bool PathRun::pause_within(Tick tick, double along_u, const SpeedLaw& by, Stretc
   const Instant at = moment_at(gone, tick, along_u);
   Sample here = profile_.sample(elapsed_s(tick - 1) + at.after_s + (at.tick == tick ? kTick_s : 0));
   here.speed_u_s = std::max(0.0, here.speed_u_s);
-  // The run may have entered further paths in this tick; it goes back before them.
+  // The run may have entered further paths in this tick; it must return to the path of `along_u`.
   while (along_u < piece(0).begin_u && completed_ > 0) {
     head_ = (head_ + kMaxPaths - 1) % kMaxPaths;
     ++count_;
@@ -358,7 +358,7 @@ Instant PathRun::moment_at(const Stretch& gone, Tick tick, double along_u) const
 }
 
 const PathRun::Piece& PathRun::piece_on(const Stretch& gone, double along_u) const {
-  // Completed paths stay in the ring until others are appended.
+  // Completed paths stay in the ring until other paths are appended.
   std::size_t number = gone.last_piece;
   for (std::size_t i = 0; i < kMaxPaths && pieces_[number].begin_u > along_u; ++i) {
     number = (number + kMaxPaths - 1) % kMaxPaths;
@@ -412,7 +412,7 @@ const Point& PathRun::step(Tick tick, Stretch* gone) {
   while (chain_count_ > 0) drop_front();
   if (count_ > 0) {
     lay_out_chain(tick);
-    // Paths of no length are over as soon as they begin.
+    // Paths of no length end as soon as they begin.
     while (chain_count_ > 0 && chain_end_u_ == 0) {
       while (chain_count_ > 0) drop_front();
       if (count_ > 0) lay_out_chain(tick);

@@ -51,14 +51,14 @@ void PathTick::find_next() {
   moment_ = is_before(found, at_) ? at_ : found;
 }
 
-/// Returns the place on the rest of the path at which an axis first leaves its watch window.
+/// Returns the first place on the rest of the path at which an axis leaves its watch window.
 std::optional<double> PathTick::first_beyond(std::size_t i) const {
   const Axis* const mine = axis(i);
   if (mine == nullptr || mine->task != Task::coordinated || mine->settling) return std::nullopt;
   parts_[i]->watch();
   for (double from_u = along_u_; from_u < gone_.to_u;) {
     const double to_u = path_.run.end_of_span(gone_, from_u);
-    // Within a span a coordinate may reverse once.
+    // Within a span, a coordinate may reverse once.
     const auto axis_number = static_cast<Eigen::Index>(i);
     const double direction = path_.run.direction_at(gone_, from_u, axis_number);
     const double before_u = std::nextafter(to_u, 0.0);
@@ -80,7 +80,7 @@ std::optional<double> PathTick::first_beyond(std::size_t i) const {
 std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, double to_u) const {
   const Axis& mine = *axis(i);
   const auto travel = [&](double along_u) {
-    // At the tick's end the axis is where the run puts it.
+    // At the end of the tick, the axis is where the run puts it.
     if (along_u >= gone_.to_u) return target_[i];
     return path_.travel_at(i, path_.run.place_on(gone_, along_u)[static_cast<Eigen::Index>(i)]);
   };
@@ -92,7 +92,7 @@ std::optional<double> PathTick::first_beyond(std::size_t i, double from_u, doubl
   return is_beyond(from_u) ? from_u : turnover(from_u, to_u, is_beyond).after;
 }
 
-/// Moves all axes to their places at `along_u`; they handle everything in between.
+/// Moves all axes to their places at `along_u`. The axes handle everything in between.
 void PathTick::carry_to(double along_u, Instant at) {
   along_u_ = along_u;
   at_ = at;
@@ -107,8 +107,8 @@ void PathTick::carry_to(double along_u, Instant at) {
   is_found_ = false;
 }
 
-/// Handles what has happened to the axes. An axis that is stopped stops all of them here; an axis that is to
-/// slow down slows the path.
+/// Handles what has happened to the axes. An axis that is stopped stops all axes here; an axis that must slow
+/// down slows down the path.
 void PathTick::check_axes() {
   if (!path_.engaged) return;
   for (std::size_t i = 0; i < parts_.size(); ++i) {

@@ -1,5 +1,5 @@
-// A path and the axes that it carries, in a tick in which something can happen to one of them. It goes from
-// edge to edge along the path, as motion/axis_tick.h does for one axis.
+// A path and the axes that it carries, in a tick during which something may happen to one of them. It
+// proceeds from edge to edge along the path, as motion/axis_tick.h does for a single axis.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace understudy::motion {
 
 class PathTick {
  public:
-  // the tick of each coordinate's axis, already begun; null if it has no axis
+  // the tick of each coordinate's axis, which has already begun; null if the coordinate has no axis
   using Parts = std::array<AxisTick*, kPathAxes>;
 
-  /// Begins the tick. If one of the axes has ended since the last tick, all of them end.
+  /// Begins the tick. If an axis has ended since the last tick, all axes end.
   PathTick(Coordinated& path, const Coordinated::Ahead& ahead, Tick tick, std::span<Axis> axes,
            const Parts& parts, bool stays_engaged);
 
-  /// Returns the next moment at which something can happen, or the tick's end if nothing can.
+  /// Returns the next moment at which something may happen, or else the end of the tick.
   const Instant& next();
   /// Goes to next() and handles what happens there.
   void step_events();
@@ -34,9 +34,9 @@ class PathTick {
   void go_to(Instant at);
   /// Returns the travel to which go_to(at) would bring the axis of coordinate `i`.
   std::int64_t travel_at(std::size_t i, const Instant& at) const;
-  /// Slows the path down from the present moment on, by the ramps of `by`.
+  /// Slows down the path from the present moment on, by the ramps of `by`.
   void slow_down(Cause why, const SpeedLaw& by);
-  /// Checks the axes again, after another object has changed them.
+  /// Checks the axes again after another object has changed them.
   void rearm() {
     check_axes();
     is_found_ = false;

@@ -32,7 +32,7 @@ void PulseDrive::start(const Profile& move, int move_direction, Instant begin) {
 void PulseDrive::continue_with(const Profile& rest, Instant begin) {
   drive = Drive::running;
   profile = rest;
-  tolerance = std::max(tolerance, tolerance_for(rest));  // a pulse already sent stays sent
+  tolerance = std::max(tolerance, tolerance_for(rest));  // pulses already sent stay sent
   begin_tick = begin.tick;
   begin_after_s = begin.after_s;
   look_up_segment(begin.tick);
@@ -45,7 +45,7 @@ void PulseDrive::move_at_zero_speed(int move_direction) {
 }
 
 void PulseDrive::stop() {
-  // The direction stays: a reversal is detected by it.
+  // The direction does not change here, because it is used to detect a reversal.
   const std::int64_t last = direction;
   *this = PulseDrive{};
   direction = last;
@@ -54,7 +54,7 @@ void PulseDrive::stop() {
 void PulseDrive::look_up_segment(Tick tick) {
   const double t_s = elapsed_s(tick);
   if (profile.segment_count == 0 || over_at(tick)) {
-    // The drive is over: it is exactly at its end, and stays there.
+    // The drive has ended: it is exactly at its end, and stays there.
     now = TickSegment{.place = profile.end_position_u + tolerance};
     next_check = kNoTick;
     return;
@@ -90,7 +90,7 @@ Instant PulseDrive::time_of_pulse(std::int64_t pulse, Instant from, Instant unti
   const double base_s = elapsed_s(from);
   const double reached_s = time_of(profile, static_cast<double>(pulse) - tolerance, base_s, elapsed_s(until));
   Instant at{.tick = from.tick, .after_s = from.after_s + (reached_s - base_s)};
-  // Advance by whole seconds at once, because a state from elsewhere may have begun long ago.
+  // Advance by whole seconds at once, because the drive of a restored state may have begun long ago.
   const double whole_s = std::floor(at.after_s);
   at.after_s -= whole_s;
   at.tick += static_cast<Tick>(whole_s * kTicksPerSecond);

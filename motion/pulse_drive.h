@@ -1,7 +1,7 @@
-// A pulse generator, as a value: a profile that runs on the clock, in whole pulses.
+// A pulse generator as a value: a profile that follows the clock, in whole pulses.
 //
-// It has one direction and sends pulses. Its owner decides what a pulse means (a coordinate, a direction pin)
-// and when a move is allowed (servo, alarm, limit): motion/axis.h, or another device.
+// It has one direction and sends pulses. Its owner, such as motion/axis.h, decides what a pulse means (a
+// coordinate, a direction pin) and when a move is allowed (servo, alarm, limit).
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct Instant {
 enum class Drive : std::uint8_t {
   idle,
   running,  // runs a profile
-  hanging,  // a move at speed 0: it counts as moving, sends nothing, and ends only by stop()
+  hanging,  // a move at speed 0: it counts as moving, sends no pulses, and ends only by stop()
 };
 
 /// A segment in ticks: position = place + k (first + k (second + k third)), k ticks after its beginning.
-/// Counting in ticks keeps k exact where it is whole, and needs no division.
+/// Counting in ticks keeps whole values of k exact and needs no division.
 struct TickSegment {
-  double begin_ticks = 0;  // the beginning, counted from the drive's begin_tick
-  double place = 0;        // the place plus the tolerance, so only the fraction remains to be dropped
+  double begin_ticks = 0;  // the beginning, relative to the drive's begin_tick
+  double place = 0;        // the place plus the tolerance, so rounding down gives the pulse
   double first = 0;
   double second = 0;
   double third = 0;
@@ -39,10 +39,10 @@ struct TickSegment {
 struct PulseDrive {
   // The members that every tick needs come first: the current segment.
   TickSegment now{};
-  Tick begin_tick = 0;           // the tick at which the profile is at its beginning
+  Tick begin_tick = 0;           // the tick in which the profile begins
   Tick next_check = kNoTick;     // from this tick on, `now` is no longer the current segment
   std::int64_t sent_pulses = 0;  // pulses sent, counted from the beginning of the profile's coordinate
-  std::int64_t direction = +1;   // +1 or -1: the direction of a rising position; an owner may set 0 at rest
+  std::int64_t direction = +1;   // +1 or -1: where the position increases; an owner may set 0 at rest
   Drive drive = Drive::idle;
   double begin_after_s = 0;  // the profile begins this long after `begin_tick`
   double tolerance = 0;      // pulse_tolerance of the distance
@@ -52,22 +52,22 @@ struct PulseDrive {
   bool operator==(const PulseDrive&) const = default;
 
   /// Begins `move` in `move_direction` (+1 or -1) from standstill, at `first_tick` (the first tick to be
-  /// stepped) or at a moment between ticks. A running profile is dropped where it is. An empty profile ends
-  /// the motion at once.
+  /// stepped) or at a moment between ticks. A running profile is dropped at its present place. An empty
+  /// profile ends the motion at once.
   void start(const Profile& move, int move_direction, Tick first_tick);
   void start(const Profile& move, int move_direction, Instant begin);
-  /// Continues with another profile, of the same coordinate and direction, that begins at `begin`.
+  /// Continues with another profile of the same coordinate and direction, which begins at `begin`.
   void continue_with(const Profile& rest, Instant begin);
   /// Begins a move that never sends a pulse.
   void move_at_zero_speed(int move_direction);
-  /// Stops the drive: no pulse comes out after this.
+  /// Stops the drive: no further pulse is sent.
   void stop();
 
   bool moving() const { return drive != Drive::idle; }
   Instant beginning() const { return {.tick = begin_tick, .after_s = begin_after_s}; }
 
-  /// Returns the tick's pulses, signed. Ticks must come in order but may be skipped; the pulses of skipped
-  /// ticks then come together. When the profile is over, the drive is idle again.
+  /// Returns the signed number of pulses in the tick. Ticks must come in order but may be skipped; the result
+  /// then includes the pulses of the skipped ticks. When the profile ends, the drive becomes idle.
   std::int64_t step(Tick tick) {
     const std::int64_t total = pulses_at(tick);
     const std::int64_t now_pulses = (total - sent_pulses) * direction;
@@ -76,14 +76,14 @@ struct PulseDrive {
     return now_pulses;
   }
 
-  /// Returns the whole pulses sent by `tick`, from the beginning of the coordinate. Looks up the segment when
-  /// necessary.
+  /// Returns the number of whole pulses sent by `tick`, counted from the beginning of the coordinate. Looks
+  /// up the segment if necessary.
   std::int64_t pulses_at(Tick tick) {
     if (tick >= next_check) look_up_segment(tick);
     return pulses_of_segment(tick);
   }
 
-  /// Like pulses_at(), but only within a segment, before `next_check`: one cubic and one rounding.
+  /// Like pulses_at(), but only within a segment, before `next_check`. It costs one cubic and one rounding.
   std::int64_t pulses_of_segment(Tick tick) const {
     const double k = static_cast<double>(tick - begin_tick) - now.begin_ticks;
     return whole(now.place + k * (now.first + k * (now.second + k * now.third)));
@@ -94,16 +94,17 @@ struct PulseDrive {
            elapsed_s(tick) * kTicksPerSecond >= profile.duration_s * kTicksPerSecond - kTickTolerance;
   }
 
-  /// Returns position (not rounded), speed and acceleration at a moment; at rest when nothing runs.
+  /// Returns the position (not rounded), speed and acceleration at a moment; the state is at rest if nothing
+  /// runs.
   Sample sample(Instant at) const;
-  /// Returns the whole pulses at a moment.
+  /// Returns the number of whole pulses at a moment.
   std::int64_t pulses_at_moment(Instant at) const;
   /// Returns the moment at which pulse number `pulse` is sent, after `from` and until `until` (less than two
   /// ticks apart).
   Instant time_of_pulse(std::int64_t pulse, Instant from, Instant until) const;
 
-  /// Returns the next tick whose step can send a pulse or end the move, when `done` is the last one stepped,
-  /// or kNoTick when nothing runs.
+  /// Returns the next tick whose step may send a pulse or end the move, or kNoTick if nothing runs. `done` is
+  /// the last tick stepped.
   Tick next_active_tick(Tick done) const { return drive == Drive::running ? done + 1 : kNoTick; }
 
   double elapsed_s(Tick tick) const {
@@ -114,7 +115,7 @@ struct PulseDrive {
   }
 
  private:
-  /// Floor, without a library call; beyond 9e18 it returns 9e18.
+  /// Rounds down, without a library call. Returns 9e18 for larger values.
   static std::int64_t whole(double place) {
     constexpr std::int64_t kMax = 9'000'000'000'000'000'000;
     if (place >= 0 && place < 9e18) [[likely]]

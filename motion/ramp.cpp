@@ -13,21 +13,21 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Returns the part of the acceleration that the law can have built up from standstill. Any excess, as after
-/// a change to a softer law, drops at once. So fading at most doubles the speed.
+/// Returns the part of the acceleration that the law can have built up from standstill. Any excess, such as
+/// after a change to a softer law, drops at once. So fading the acceleration at most doubles the speed.
 double own_acceleration(const Sample& now, const RampLaw& up) {
   if (now.acceleration_u_s2 <= 0 || up.kind != RampLaw::Kind::jerk) return now.acceleration_u_s2;
   return std::min(now.acceleration_u_s2, std::sqrt(2 * up.jerk_u_s3 * now.speed_u_s) * (1 + 1e-12));
 }
 
-/// Returns the jerk by which a law brings the acceleration to 0, or 0 for laws that let it drop at once.
+/// Returns the jerk with which a law brings the acceleration to 0, or 0 for laws that let it drop at once.
 double usual_jerk(const RampLaw& law, const Sample& now) {
   switch (law.kind) {
     case RampLaw::Kind::jerk: return law.jerk_u_s3;
     case RampLaw::Kind::sections:
       if (law.section_u_s <= 0) return 0;
-      // A small change has sections smaller than S, and so a greater jerk. It has no straight part, on which
-      // the jerk would be 0.
+      // A small change has sections smaller than S, and therefore a greater jerk. It has no straight part,
+      // where the jerk would be 0.
       if (now.jerk_u_s3 != 0) return std::abs(now.jerk_u_s3);
       return law.acceleration_u_s2 * law.acceleration_u_s2 / (2 * law.section_u_s);
     case RampLaw::Kind::slope:
@@ -36,7 +36,7 @@ double usual_jerk(const RampLaw& law, const Sample& now) {
   return 0;
 }
 
-/// Returns the usual jerk, or more if that would leave the range of speeds.
+/// Returns the usual jerk, or a greater one if the usual jerk would leave the speed range.
 double jerk_within(const SpeedRange& range, const Sample& now, double acceleration_u_s2, const RampLaw& up,
                    const RampLaw& down) {
   if (acceleration_u_s2 == 0) return 0;
@@ -47,7 +47,7 @@ double jerk_within(const SpeedRange& range, const Sample& now, double accelerati
   return room > 0 ? std::max(usual, acceleration_u_s2 * acceleration_u_s2 / (2 * room)) : 0;
 }
 
-/// A change below this is a rounding error, not a change to be made by a ramp.
+/// A smaller change is a rounding error, not a change that needs a ramp.
 double rounding_of_change(double from_u_s, double to_u_s) { return 1e-12 * std::max(from_u_s, to_u_s); }
 
 }  // namespace
@@ -162,11 +162,11 @@ void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double t
   const double sign = to_u_s < from_u_s ? -1 : 1;
   const double a = sign * shape.acceleration_u_s2;
   const double j = sign * shape.jerk_u_s3;
-  const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed in each end
+  const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed in each of the two ends
   profile.append(shape.ends_s, from_u_s, 0, j);
   profile.append(shape.middle_s, from_u_s + at_ends, a, 0);
   profile.append(shape.ends_s, to_u_s - at_ends, a, -j);
-  // The sum of the parts may miss the speed by a rounding error.
+  // The sum of the parts may differ from the speed by a rounding error.
   if (profile.segment_count > 0 && shape.duration_s() > 0) profile.end_speed_u_s = to_u_s;
 }
 
@@ -189,7 +189,8 @@ void append_change(Profile& profile, const Sample& now, double to_u_s, const Ram
     const double size = std::abs(acceleration);
     const double faded = speed_without_acceleration(now, up, down, range);
     if (sign * (to_u_s - faded) > rounding_of_change(faded, to_u_s)) {
-      // Continues in the same direction: up to the maximum acceleration, along it, and back to 0.
+      // The speed continues to change in the same direction: up to the maximum acceleration, at it, and back
+      // to 0.
       const double further = sign * (to_u_s - speed);
       const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
       const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr Events kAtEnd = events_of(Moment::end);
 
-/// Actions can cause each other at one moment; after this many rounds the rest waits for the next tick.
+/// Actions can cause each other at one moment. After this many rounds, the rest waits for the next tick.
 constexpr int kMaxAtOnce = 64;
 
 }  // namespace
@@ -28,7 +28,7 @@ void step_together(const TickOfAxes& all, std::uint32_t singles, Coordinated* pa
                    bool stays_engaged) {
   if (path != nullptr && !path->engaged) path = nullptr;
   std::array<Axis::QuietTick, SharedTick::kMax> quiet;
-  std::uint32_t restless = 0;  // mask of the singles that are not quiet
+  std::uint32_t restless = 0;  // mask of the single axes that are not quiet
   std::size_t count = 0;
   for (std::uint32_t left = singles; left != 0; left &= left - 1) {
     const auto axis = static_cast<std::size_t>(std::countr_zero(left));
@@ -71,7 +71,7 @@ SharedTick::Member* SharedTick::member_of(std::size_t axis) {
   return nullptr;
 }
 
-/// Takes a member whose tick was quiet back to the beginning of the tick.
+/// Returns a member whose tick was quiet to the beginning of the tick.
 void SharedTick::open(Member& member) {
   if (member.part) return;
   Axis& axis = all_.axes[member.axis];
@@ -111,7 +111,8 @@ void SharedTick::run(bool stays_engaged) {
   finish();
 }
 
-/// Moves the member whose next moment is the earliest to that moment. Returns false if no member has one.
+/// Moves the member with the earliest next moment to that moment. Returns false if no member has a next
+/// moment.
 bool SharedTick::step_first() {
   Member* first = nullptr;
   for (Member& member : std::span(members_).first(count_)) {
@@ -153,7 +154,7 @@ void SharedTick::handle_events() {
   }
 }
 
-/// Goes to the owner's next moment, if it comes before the next edge.
+/// Goes to the owner's next moment if that comes before the next edge.
 bool SharedTick::step_owner(const Instant& until) {
   const auto found = owner_->next_moment(*this, until);
   if (!found) return false;

@@ -11,9 +11,9 @@ namespace understudy::motion {
 
 namespace {
 
-// Both ramps cover (2 start + x) / 2 times their duration; so x solves
+// Both ramps cover (2 start + x) / 2 times their duration, so x is the solution of
 //   (2 start + x) * (a x + b + c sqrt x) = 2 distance,
-// with the sums of the two laws' coefficients, in the form that holds at x.
+// where a, b and c are the sums of the two laws' coefficients, in the form that applies at x.
 struct Sum {
   double a = 0;
   double b = 0;
@@ -32,10 +32,10 @@ Sum sum_at(const RampLaw& up, const RampLaw& down, double x) {
           .c = first.per_root + second.per_root};
 }
 
-/// Returns the cube root of a value > 0, slightly too large rather than too small, as a start for Newton's
-/// method.
+/// Returns the cube root of a value > 0, as a start for Newton's method. The result is slightly too large
+/// rather than too small.
 double above_cube_root(double value) {
-  // Start from a third of the exponent; three Newton steps then come down from above.
+  // Start from a third of the exponent. Three Newton steps then approach the root from above.
   const auto bits = std::bit_cast<std::uint64_t>(value);
   double y = std::bit_cast<double>(bits / 3 + 0x2A9F789300000000ULL);
   for (int step = 0; step < 3; ++step) y = (2 * y + value / (y * y)) / 3;
@@ -43,7 +43,8 @@ double above_cube_root(double value) {
 }
 
 double solve_quadratic(const Sum& sum, double start_u_s, double twice_distance_u) {
-  // a x^2 + (b + 2 start_u_s a) x + 2 start_u_s b - 2 distance = 0, in the form that does not cancel.
+  // a x^2 + (b + 2 start_u_s a) x + 2 start_u_s b - 2 distance = 0, solved in the form that avoids
+  // cancellation.
   const double linear = sum.b + 2 * start_u_s * sum.a;
   const double missing = twice_distance_u - 2 * start_u_s * sum.b;
   if (missing <= 0) return 0;
@@ -52,11 +53,11 @@ double solve_quadratic(const Sum& sum, double start_u_s, double twice_distance_u
 }
 
 double solve_with_root(const Sum& sum, double start_u_s, double twice_distance_u) {
-  // y = sqrt x: (2 start_u_s + y^2) (a y^2 + c y + b) = 2 distance; convex and rising, so Newton's method
-  // from above comes down to the root and never passes it.
+  // y = sqrt x: (2 start_u_s + y^2) (a y^2 + c y + b) = 2 distance. The left side is convex and increasing,
+  // so Newton's method approaches the root from above and never passes it.
   const double missing = twice_distance_u - 2 * start_u_s * sum.b;
   if (missing <= 0) return 0;
-  // Each power of y alone gives a bound; the smallest of them is at most four times too large.
+  // Each power of y alone gives a bound. The smallest bound is at most four times too large.
   double y = above_cube_root(missing / sum.c);
   if (start_u_s > 0) y = std::min(y, missing / (2 * start_u_s * sum.c));
   if (const double square = 2 * start_u_s * sum.a + sum.b; square > 0)
@@ -84,14 +85,15 @@ double rise_within(double distance_u, double start_u_s, const RampLaw& up, const
   if (!(distance_u > 0) || !(limit_u_s > 0)) return 0;
   const double limit_needs = sum_at(up, down, limit_u_s).distance(start_u_s, limit_u_s);
   if (limit_needs <= distance_u) return limit_u_s;
-  // Find the form of each law that holds at the solution: try the points at which they change.
+  // Find the form of each law that applies at the solution: try the points at which the forms change.
   double low = 0;
   double high = limit_u_s;
   for (const double change : {form_changes_at(up), form_changes_at(down)}) {
     if (change <= low || change >= high) continue;
     (sum_at(up, down, change).distance(start_u_s, change) <= distance_u ? low : high) = change;
   }
-  // A form holds up to and including its change, so the form that holds below `high` also holds at `high`.
+  // A form applies up to and including its change, so the form that applies below `high` also applies at
+  // `high`.
   const Sum sum = sum_at(up, down, high);
   const double x = sum.c > 0 ? solve_with_root(sum, start_u_s, 2 * distance_u)
                              : solve_quadratic(sum, start_u_s, 2 * distance_u);

@@ -1,7 +1,7 @@
-// The state of motion as bytes: saved, restored, hashed.
+// Motion state as bytes: saved, restored, hashed.
 //
-// Every value of this folder can be saved. The bytes are the same on every machine: numbers in little endian,
-// doubles by their bits, no padding. state_fields.h defines once what a value consists of.
+// Every value of this folder can be saved. The bytes are the same on every machine: little-endian numbers,
+// the bit patterns of doubles, no padding. state_fields.h is the only definition of the parts of each value.
 #pragma once
 
 #include <cstddef>
@@ -25,13 +25,14 @@ struct Environment;
 struct SyncTable;
 struct UnitScale;
 
-/// Saves `value` as bytes. T is one of the types above; others do not link.
+/// Saves `value` as bytes. T must be one of the types above; other types do not link.
 template <class T>
 std::vector<std::byte> save(const T& value);
 
-/// Restores `value` from the front of `bytes`, and returns how many bytes that took. Throws
-/// BadMotion(out_of_range) for bytes that are too few or hold what the type cannot (a bool of 7, an
-/// enumeration's value that does not exist, a count beyond its table); `value` is then unchanged.
+/// Restores `value` from the first bytes of `bytes`, and returns how many bytes it used. Throws
+/// BadMotion(out_of_range) if there are too few bytes, or if they contain values that the type cannot have (a
+/// bool of 7, an enumerator that does not exist, a count beyond its table). In that case, `value` does not
+/// change.
 template <class T>
 std::size_t restore(T& value, std::span<const std::byte> bytes);
 

@@ -1,5 +1,5 @@
-// Checks of restored values, for state_fields.h. Saved bytes may be anything, and a few numbers have more bit
-// patterns than valid values. The checks make sure that later ticks neither index beyond a table nor run
+// Checks of restored values, for state_fields.h. Saved bytes may be arbitrary, and some types have more bit
+// patterns than valid values. The checks ensure that later ticks neither index beyond a table nor run
 // forever.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace understudy::motion {
 
-/// Checks pulses and ticks: sums with what a drive can send must still fit 64 bits.
+/// Checks pulses and ticks: their sums with what a drive can send must still fit in 64 bits.
 inline void require_reach(std::int64_t value) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 56;
   require_within(value, -kFarthest, kFarthest);
@@ -29,7 +29,7 @@ void require_all_finite(Doubles... values) {
   require_state((std::isfinite(values) && ...), "a quantity must be finite");
 }
 
-/// Turns a BadMotion of the types' own checks into a refusal of the state.
+/// Converts a BadMotion from the types' own checks into a refusal of the state.
 void require_accepted(auto check) {
   try {
     check();
@@ -38,7 +38,7 @@ void require_accepted(auto check) {
   }
 }
 
-/// Types without checks: any bits are valid.
+/// Types without checks: all bits are valid.
 template <class T>
 void check_restored(const T&) {}
 
@@ -128,7 +128,7 @@ inline void check_restored(const Axis& axis) {
        {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses}) {
     require_reach(pulses);
   }
-  // Plan with the law now, as a later tick will: it must be a law that a command would accept.
+  // Plan with the law now, as a later tick will: a command must be able to accept it.
   const bool has_law = axis.task == Task::move || axis.task == Task::endless;
   if (has_law) {
     require_accepted([&] {

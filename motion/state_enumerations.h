@@ -1,4 +1,4 @@
-// The last value of each enumeration that is a part of motion's state (base/state/fields.h).
+// The last value of each enumeration that is part of the motion state (base/state/fields.h).
 #pragma once
 
 #include "base/state/fields.h"

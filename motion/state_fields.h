@@ -1,4 +1,4 @@
-// The fields of each value of motion (base/state/fields.h), in the order of the bytes.
+// The fields of the motion types (base/state/fields.h), in the order of the saved bytes.
 #pragma once
 
 #include <string>
@@ -245,7 +245,7 @@ struct StateOf<motion::AxisSettings> {
 
 template <>
 struct StateOf<motion::Axis> {
-  // In the order of the bytes; in memory the members that a tick needs come first.
+  // In the order of the bytes. In memory, the members that a tick needs come first.
   static constexpr auto fields = FieldList{field<&motion::Axis::travel_pulses>(),
                                            field<&motion::Axis::watch_low>(),
                                            field<&motion::Axis::watch_high>(),
@@ -372,7 +372,7 @@ struct StateOf<motion::Coordinated> {
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
 
-// The functions for values that other folders hold are instantiated once, in state.cpp.
+// The functions for values that other folders contain are instantiated once, in state.cpp.
 #define UNDERSTUDY_STATE_ELSEWHERE(Type)                        \
   extern template void StateWriter::write(const motion::Type&); \
   extern template void StateReader::read(motion::Type&);        \

@@ -1,4 +1,4 @@
-// Synchronous actions between axes: events on one axis make others start, stop or latch their positions.
+// Synchronous actions between axes: events on one axis make other axes start, stop or latch their positions.
 //
 // As on the MCX314, a trigger axis has factors (a mask of its events) and a mask of the axes it activates.
 // Each axis has one action, which it performs when any trigger activates it. Source: RS-M8194H manual 7.3.
@@ -16,7 +16,7 @@ namespace understudy::motion {
 struct SyncAction {
   enum class Drive : std::uint8_t {
     none,
-    fixed_plus,  // a move by `distance_pulses`; these four only while the axis is at rest
+    fixed_plus,  // a move by `distance_pulses`; this and the next three require that the axis is at rest
     fixed_minus,
     endless_plus,
     endless_minus,
@@ -30,13 +30,14 @@ struct SyncAction {
   bool latch_encoder = false;
   Preset preset = Preset::none;
   std::int64_t preset_value = 0;  // a count, pulses, or pulses per second
-  bool output = false;            // reported to the owner, which has the pin
+  bool output = false;            // reported to the owner, which controls the pin
   bool interrupt = false;         // reported to the owner
 
   bool operator==(const SyncAction&) const = default;
 };
 
-/// The actions that up to four axes do for each other. Axes are numbered 0 .. 3; masks have one bit per axis.
+/// The actions that up to four axes perform for each other. Axes are numbered 0 .. 3; masks have one bit per
+/// axis.
 struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 
@@ -55,7 +56,7 @@ struct SyncTable {
   std::array<Trigger, kAxes> triggers{};
   std::array<SyncAction, kAxes> actions{};
   std::array<Latch, kAxes> latches{};
-  // Distance and speed of a drive action: set by the owner, and by presets.
+  // Distance and speed of a drive action, set by the owner and by presets.
   std::array<std::int64_t, kAxes> distance_pulses{};
   std::array<SpeedLaw, kAxes> speeds{};
 
@@ -73,10 +74,10 @@ struct SyncOutcome {
   bool operator==(const SyncOutcome&) const = default;
 };
 
-/// Acts on events of the axis `trigger` at this moment; the activated axes are brought here, in order.
-/// Latches, stops and speeds have the values of this moment. A drive begins in the next tick, like one
-/// commanded between ticks, and throws for speeds and distances that Axis::move() does not accept. Axes that
-/// do not exist are omitted. Counters belong to the owner: latches give travel.
+/// Acts on events of the axis `trigger` at this moment. The activated axes are brought to this moment, in
+/// order. Latches, stops and speeds have the values of this moment. A drive begins in the next tick, like a
+/// drive that is commanded between ticks, and throws for speeds and distances that Axis::move() does not
+/// accept. Axes that do not exist are omitted. Counters belong to the owner, so latches contain travel.
 SyncOutcome act(SyncTable& table, std::size_t trigger, Events events, SharedTick& tick);
 
 }  // namespace understudy::motion

@@ -48,7 +48,7 @@ BackgroundWriter::Outcome BackgroundWriter::append(std::string_view piece) {
     is_first = before == 0;
     is_half_full = before < capacity_ / 2 && waiting_.bytes.size() >= capacity_ / 2;
   }
-  // The thread sleeps while the queue is empty, and gathers pieces for a while once there are some.
+  // The thread sleeps while the queue is empty. After the first piece, it waits a while for more.
   if (is_first || is_half_full) changed_.notify_one();
   return Outcome::taken;
 }
@@ -75,7 +75,7 @@ void BackgroundWriter::run() {
     changed_.wait(lock, [this] { return !waiting_.sizes.empty() || is_finishing_; });
     changed_.wait_for(lock, kGathering,
                       [this] { return waiting_.bytes.size() >= capacity_ / 2 || is_finishing_; });
-    if (waiting_.sizes.empty()) return;  // finishing, and everything is written
+    if (waiting_.sizes.empty()) return;  // finish() was called, and everything is written
     std::swap(waiting_, writing);
     lock.unlock();
     int error = 0;

@@ -1,5 +1,5 @@
-// Writes to a slow destination, such as a file, without making its owner wait: a helper thread writes, and
-// the queue is bounded.
+// Writes to a slow destination, such as a file, without blocking the caller: a helper thread writes the
+// contents of a bounded queue.
 #pragma once
 
 #include <condition_variable>
@@ -16,26 +16,26 @@ namespace understudy {
 
 class BackgroundWriter {
  public:
-  /// Writes one whole piece. Returns 0, or an error number; after an error nothing more is written. Called
-  /// on the helper thread.
+  /// Writes one whole piece. Returns 0 or an error number. After an error, nothing more is written. It is
+  /// called on the helper thread.
   using Write = std::function<int(std::string_view piece)>;
 
-  /// At most `capacity` bytes wait in the queue; at most the same number is being written.
+  /// At most `capacity` bytes are queued, and at most as many are being written.
   BackgroundWriter(std::size_t capacity, Write write);
-  ~BackgroundWriter();  // finishes
+  ~BackgroundWriter();  // calls finish()
   BackgroundWriter(const BackgroundWriter&) = delete;
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
   enum class Outcome { taken, full, failed };
-  /// Takes the whole piece, or none of it. Never waits for the disk.
+  /// Queues the whole piece, or nothing if there is no room. It never waits for the disk.
   Outcome append(std::string_view piece);
 
-  /// Waits until every piece taken is written, then ends the thread. Nothing may be appended afterwards.
+  /// Waits until every queued piece is written, then ends the thread. Do not append anything afterwards.
   void finish();
 
   struct Failure {
-    int error = 0;           // the error of the write that failed; 0: none has
-    std::uint64_t lost = 0;  // pieces that were taken, but not written because of the error
+    int error = 0;           // the error of the write that failed; 0: no write has failed
+    std::uint64_t lost = 0;  // pieces that were queued but not written because of the error
   };
   Failure failure() const;
 
@@ -46,7 +46,7 @@ class BackgroundWriter {
   };
 
   void run();
-  /// Writes pieces until one fails; returns how many were written.
+  /// Writes pieces until a write fails. Returns the number of pieces written.
   std::size_t write(const Pieces& pieces, int& error) const;
 
   const std::size_t capacity_;

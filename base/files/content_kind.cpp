@@ -12,8 +12,8 @@ namespace understudy {
 
 namespace {
 
-/// A file is of a kind if it begins with one of the marks and contains `within` in its head. White space in
-/// JSON is ignored, because a tool may have reformatted the file.
+/// A file has this kind if it begins with one of the marks and its first bytes contain `within`. White space
+/// in JSON is ignored, because a tool may have reformatted the file.
 struct KindRow {
   ContentKind kind;
   std::string_view name;
@@ -32,7 +32,7 @@ constexpr std::array kKinds{
             "a capture",
             {"\x0a\x0d\x0d\x0a", "# simulated seconds, in (from the host) or out, line"}},
     KindRow{ContentKind::capture, "a capture", {"# seconds since 1970, one or other (side of the line)"}},
-    // pcap, in either byte order, with microseconds and nanoseconds.
+    // pcap in either byte order, with microseconds or nanoseconds.
     KindRow{ContentKind::capture, "a capture", {"\xd4\xc3\xb2\xa1", "\xa1\xb2\xc3\xd4"}},
     KindRow{ContentKind::capture, "a capture", {"\x4d\x3c\xb2\xa1", "\xa1\xb2\x3c\x4d"}},
     KindRow{ContentKind::trace, "a trace", {"time_ms", "$version Understudy $end"}},
@@ -52,7 +52,7 @@ struct NamedKind {
   ContentKind kind;
   std::string_view name;
 };
-/// Kinds that people write. play::kind_of_file() distinguishes the YAML ones more carefully.
+/// Kinds of files that people write. play::kind_of_file() distinguishes the YAML kinds more precisely.
 constexpr std::array kYamlKinds{
     NamedKind{ContentKind::bench, "a bench"},
     NamedKind{ContentKind::scenario, "a scenario"},
@@ -80,7 +80,7 @@ bool fits(const KindRow& row, std::string_view head) {
   return begins && text.find(row.within) != std::string_view::npos;
 }
 
-/// Returns true if `head` is a cut-off beginning of what our writers write first.
+/// Returns true if `head` is a truncated form of the first bytes that our writers write.
 bool is_torn(const KindRow& row, std::string_view head) {
   const std::string dense = row.is_json ? without_spaces(head) : std::string();
   const std::string_view text = row.is_json ? dense : head;
@@ -90,7 +90,7 @@ bool is_torn(const KindRow& row, std::string_view head) {
   return written_first.starts_with(text) || (!row.marks[1].empty() && row.marks[1].starts_with(text));
 }
 
-/// Decides by the top-level keys.
+/// Determines the kind from the top-level keys.
 ContentKind yaml_kind_of(std::string_view head) {
   bool is_ours = false;
   bool has_lines = false;

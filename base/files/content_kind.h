@@ -1,6 +1,6 @@
 // Recognizes the kind of a file from its first bytes. An output replaces only a file of its own kind, so a
-// mistyped path does not destroy another file. A reader that is given the wrong kind of file can name the
-// kind it found.
+// mistyped path does not destroy another file. A reader that receives the wrong kind of file can name the
+// kind that it found.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ enum class ContentKind : std::uint8_t {
   photograph,  // the state of a real controller
   evidence,    // measurements on real controllers
   certificate,
-  // Kinds from here on are files that people write.
+  // The following kinds are files that people write.
   bench,
   scenario,
   steps,
@@ -45,8 +45,8 @@ std::string the(ContentKind kind);
 
 /// Returns the kind of a file. `head` is the whole file, or at least its first kSniffedBytes.
 ContentKind content_of(std::string_view head);
-/// Returns true if `head` begins a file of `kind`, or could do so after more is written: it is empty, or was
-/// cut off within its first words.
+/// Returns true if `head` is the beginning of a file of `kind`, or could become one: it is empty, or ends
+/// within the first words.
 bool is_of_kind(ContentKind kind, std::string_view head);
 
 /// Returns why a file of `kind` may not replace a file that begins with `head`: "it is a bench; expected a

@@ -1,6 +1,6 @@
-// Records which files a command reads and which it writes. An output may be neither another output nor a file
-// that is read; otherwise a typing error would destroy a file. Commands check this before they open anything.
-// base/files/output_file.h has the other rules about outputs.
+// Records which files a command reads and which it writes. An output must differ from all other outputs and
+// from all files that are read. Otherwise, a typing error would destroy a file. Commands check this before
+// they open anything. base/files/output_file.h has the other rules about outputs.
 #pragma once
 
 #include <sys/types.h>
@@ -18,9 +18,9 @@ struct FileClaim {
   std::string what;
 };
 
-/// Recognizes paths of the same file however they are spelled, through symbolic and hard links, and even
-/// before the file exists. Special files are ignored: they have no content to lose. For a link or a socket
-/// that the program creates, the path itself is claimed, because replacing it would cut off its users.
+/// Recognizes when two paths lead to the same file, through symbolic and hard links, and even before the file
+/// exists. Special files are ignored, because they have no content to lose. For a link or a socket that the
+/// program creates, the path itself is claimed, because replacing it would disconnect its users.
 class FileClaims {
  public:
   /// Claims a file. If it is already claimed, the first claim stays.

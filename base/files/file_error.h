@@ -6,7 +6,7 @@
 
 namespace understudy {
 
-/// A place in a file: line and column count from 1. A place without a line is the whole file.
+/// A place in a file. Lines and columns are counted from 1. Without a line, it is the whole file.
 struct FilePlace {
   std::string file;
   int line = 0;

@@ -24,13 +24,13 @@ class GrowingFile {
   /// Opens and locks the file. Its old content stays until the first line is written. Throws
   /// GrowingFileError.
   GrowingFile(const std::string& path, ContentKind kind, std::function<void(const std::string&)> log);
-  ~GrowingFile();  // finishes
+  ~GrowingFile();  // calls finish()
 
-  /// Appends whole lines. The first call writes at once and replaces the old content; it throws
-  /// GrowingFileError if that fails. If a later line cannot be written (the disk is full, or too slow), the
-  /// file ends there and the log says so: a file with a gap would be worthless.
+  /// Appends whole lines. The first call writes immediately and replaces the old content; it throws
+  /// GrowingFileError if that fails. If a later line cannot be written (the disk is full or too slow), the
+  /// file ends there and the log reports it, because a file with a gap would be worthless.
   void take(std::string_view line);
-  /// Waits until everything is written. Returns why the file ended early, or an empty string.
+  /// Waits until everything is written. Returns why the file ended early, or an empty string if it did not.
   std::string finish();
   /// Returns the path with links resolved.
   const std::string& target() const { return file_.target(); }

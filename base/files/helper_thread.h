@@ -1,5 +1,5 @@
-// A thread for work that may take long, such as reading a user's files, on behalf of a thread that must not
-// wait.
+// A thread for work that may take long, such as reading a user's files. The thread that requests the work
+// does not wait.
 #pragma once
 
 #include <condition_variable>
@@ -13,12 +13,12 @@ namespace understudy {
 class HelperThread {
  public:
   HelperThread() = default;
-  /// Waits for the piece of work in progress. Pieces that have not begun are dropped.
+  /// Waits for the running job. Jobs that have not begun are dropped.
   ~HelperThread();
   HelperThread(const HelperThread&) = delete;
   HelperThread& operator=(const HelperThread&) = delete;
 
-  /// Queues a piece of work. Pieces run one after another, in order. They must not throw.
+  /// Queues a job. Jobs run one after another, in order. They must not throw.
   void give(std::function<void()> work);
 
  private:
@@ -28,7 +28,7 @@ class HelperThread {
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   bool is_ending_ = false;
-  std::thread thread_;  // started with the first piece of work
+  std::thread thread_;  // started by the first job
 };
 
 }  // namespace understudy

@@ -29,7 +29,7 @@ constexpr mode_t kPermissions = 0777;
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// Decides as Linux does if fs.protected_symlinks and fs.protected_regular are set.
+/// Decides as Linux does when fs.protected_symlinks and fs.protected_regular are set.
 bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   struct stat folder = {};
   if (::stat(place.parent_path().c_str(), &folder) != 0) return true;
@@ -37,7 +37,7 @@ bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
 
-/// Throws if a folder on the way to a file is another user's link in a folder that everyone can write to.
+/// Throws if the path contains another user's link in a folder that everyone can write to.
 void require_own_path(const fs::path& absolute) {
   fs::path so_far;
   for (const fs::path& step : absolute.parent_path()) {
@@ -85,7 +85,7 @@ std::string output_target(const std::string& path) {
     require_own_path(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
-      if (errno == ENOENT) return target.string();  // free; if a folder is missing, open() fails
+      if (errno == ENOENT) return target.string();  // free; if a folder is missing, open() reports it
       throw OutputError(error_text(errno));
     }
     if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {
@@ -101,7 +101,7 @@ std::string output_target(const std::string& path) {
       throw OutputError(
           "it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
-    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces it all
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute link replaces everything
     if (error) throw OutputError(error.message());
   }
   throw OutputError(error_text(ELOOP));
@@ -144,7 +144,7 @@ void give_access(int file, const FileAccess& access) {
   const bool is_same = status.st_uid == access.owner && status.st_gid == access.group;
   const bool has_owner = is_same || ::fchown(file, access.owner, access.group) == 0 ||
                          ::fchown(file, static_cast<uid_t>(-1), access.group) == 0;
-  // Permissions for the old group must not apply to another group.
+  // Permissions of the old group must not apply to a different group.
   const mode_t mode = has_owner ? access.mode : access.mode & ~static_cast<mode_t>(S_IRWXG);
   [[maybe_unused]] const int ignored = ::fchmod(file, mode);
 }

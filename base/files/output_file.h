@@ -1,14 +1,14 @@
-// The rules for every file that the program writes, whether it grows (a recording, a trace, a capture) or is
-// replaced as a whole (a memory, a snapshot, a picture):
+// The rules for every file that the program writes, whether the file grows (a recording, a trace, a capture)
+// or is replaced as a whole (a memory, a snapshot, a picture):
 // - The program writes only to a regular file or a free path, never to a pipe, a device, a socket or a
 //   folder.
-// - It follows a symbolic link and keeps it: the target is written. In a folder that everyone can write to
+// - It follows a symbolic link and writes the target; the link stays. In a folder that everyone can write to
 //   (/tmp), it refuses another user's link or file.
 // - It never replaces another kind of file (content_kind.h), because the path may be a typing error.
 // - It keeps the old content until the first bytes are written, so all outputs can be opened before any is
-//   emptied.
+//   truncated.
 // - A new file that replaces an old one has the same owner and permissions.
-// - It locks a file that grows, so two programs never write the same one.
+// - It locks a file that grows, so two programs never write to the same file.
 #pragma once
 
 #include <sys/types.h>
@@ -24,8 +24,8 @@
 
 namespace understudy {
 
-/// Thrown if a file cannot be written. The message has the reason and what was expected; the caller adds the
-/// path.
+/// Thrown if a file cannot be written. The message contains the reason and what was expected; the caller adds
+/// the path.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -40,14 +40,14 @@ std::string output_target(const std::string& path);
 /// Throws OutputError if the file at `target` is of another kind or cannot be read.
 void require_replaceable(const std::string& target, ContentKind kind);
 
-/// Returns why contents of that kind cannot be written to `path`. Empty if they can, or if only opening the
-/// file shows that.
+/// Returns why contents of that kind cannot be written to `path`. The string is empty if they can, or if only
+/// opening the file would reveal the reason.
 std::string why_not_writable(const std::string& path, ContentKind kind);
-/// The same, and also returns why opening would fail: a missing folder, or a missing permission. It creates
-/// nothing, so it suits a command that may fail before it has anything to write.
+/// Like why_not_writable(), but also returns why opening would fail: a missing folder or a missing
+/// permission. It creates nothing, so it suits commands that may fail before they have anything to write.
 std::string why_not_openable(const std::string& path, ContentKind kind);
 
-/// The owner, group and permissions of a file.
+/// A file's owner, group and permissions.
 struct FileAccess {
   uid_t owner = 0;
   gid_t group = 0;
@@ -69,13 +69,13 @@ class OutputFile {
 
   /// Returns the path with links resolved.
   const std::string& target() const { return target_; }
-  /// Replaces the old content with these first bytes. Throws OutputError if they cannot be written, so that a
-  /// run does not start with an output that fails.
+  /// Replaces the old content with these first bytes. Throws OutputError if they cannot be written, so a run
+  /// does not start with an output that fails.
   void begin(std::string_view head);
-  /// Keeps the first `size` bytes of the old content and continues after them. Throws OutputError.
+  /// Keeps the first `size` bytes of the old content and appends to them. Throws OutputError.
   void continue_at(std::uint64_t size);
-  /// Writes the whole piece and returns 0, or writes none of it and returns the error number: half a packet
-  /// would spoil the packets before it.
+  /// Writes the whole piece and returns 0, or writes nothing and returns the error number: half a packet
+  /// would corrupt the packets before it.
   int write(std::string_view piece);
 
  private:

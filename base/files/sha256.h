@@ -1,4 +1,4 @@
-// The digest SHA-256 (FIPS 180-4) of bytes. It identifies the contents of a file.
+// Computes SHA-256 digests (FIPS 180-4), which identify the contents of files.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace understudy {
 class Sha256 {
  public:
   void add(std::string_view bytes);
-  /// Returns the digest of everything that was added, in hexadecimal. Nothing may be added afterwards.
+  /// Returns the digest of all data added, in hexadecimal. Do not add anything afterwards.
   std::string finish();
 
  private:
@@ -21,7 +21,7 @@ class Sha256 {
 
   std::array<std::uint32_t, 8> state_{0x6A09E667, 0xBB67AE85, 0x3C6EF372, 0xA54FF53A,
                                       0x510E527F, 0x9B05688C, 0x1F83D9AB, 0x5BE0CD19};
-  std::array<std::uint8_t, 64> waiting_{};  // the beginning of a block
+  std::array<std::uint8_t, 64> waiting_{};  // an incomplete block
   std::uint64_t size_ = 0;                  // bytes
 };
 

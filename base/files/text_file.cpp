@@ -28,7 +28,7 @@ namespace understudy {
 
 namespace {
 
-/// Opens a regular file, or sets `why`. It never waits, as opening a pipe without a writer would.
+/// Opens a regular file, or sets `why`. It never blocks, unlike opening a pipe that has no writer.
 Descriptor open_regular(const std::string& path, std::string& why) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status = {};
@@ -60,8 +60,7 @@ std::string name_beside(const std::string& path, int number) {
   return path + std::string(kBeside) + (number == 1 ? "" : "-" + std::to_string(number));
 }
 
-/// Returns true if `rest`, the part of a name after the file's own name, is an ending that name_beside()
-/// makes.
+/// Returns true if `rest` is a suffix that name_beside() appends to a file's name.
 bool is_beside(std::string_view rest) {
   if (!rest.starts_with(kBeside)) return false;
   rest.remove_prefix(kBeside.size());
@@ -75,7 +74,7 @@ bool is_still_there(int file, const std::string& name) {
          opened.st_dev == named.st_dev;
 }
 
-/// Creates a new file next to `path`, which is locked while it is written. An unlocked one was left by a
+/// Creates a new file next to `path`, and keeps it locked while it is written. An unlocked file was left by a
 /// writer that was killed.
 Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) {
   for (int number = 1;; ++number) {
@@ -87,7 +86,7 @@ Descriptor make_beside(const std::string& path, mode_t mode, std::string& name) 
   }
 }
 
-/// Writes the contents and waits for the disk. Returns 0 or the error number.
+/// Writes the contents and waits until they are on the disk. Returns 0 or the error number.
 int write_whole(int file, const std::string& contents) {
   const int error = write_all(file, contents);
   return error == 0 && ::fsync(file) != 0 ? errno : error;
@@ -159,7 +158,7 @@ std::string replace_text_file(const std::string& path, const std::string& conten
   }
   const std::optional<FileAccess> access = access_of(target);
   std::string beside;
-  // No other user may read the new file until it has the mode of the file that it replaces.
+  // Other users must not read the new file before it has the mode of the file that it replaces.
   const Descriptor file = make_beside(target, access ? 0600 : 0644, beside);
   if (!file) return std::strerror(errno);
   int error = write_whole(file.get(), contents);

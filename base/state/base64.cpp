@@ -55,7 +55,7 @@ std::optional<std::vector<std::byte>> from_base64(std::string_view text) {
       if (value < 0) return std::nullopt;
       group |= static_cast<std::uint32_t>(value) << (18 - 6 * j);
     }
-    // Bits that do not belong to a byte must be 0, so that the bytes have exactly one text.
+    // Bits beyond the last byte must be 0, so that each byte sequence has exactly one text.
     if ((group & (0xFFFFFFU >> (8 * (digits - 1)))) != 0) return std::nullopt;
     for (std::size_t j = 0; j + 1 < digits; ++j) {
       bytes.push_back(static_cast<std::byte>(group >> (16 - 8 * j)));

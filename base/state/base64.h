@@ -11,7 +11,7 @@
 namespace understudy {
 
 std::string to_base64(std::span<const std::byte> bytes);
-/// Returns nothing for text that to_base64() never returns.
+/// Returns nothing for text that to_base64() cannot produce.
 std::optional<std::vector<std::byte>> from_base64(std::string_view text);
 
 }  // namespace understudy

@@ -1,4 +1,4 @@
-// Finds where two values of one type differ, by the names of their fields.
+// Finds where two values of the same type differ, and names the fields.
 #pragma once
 
 #include <cstddef>
@@ -54,8 +54,8 @@ concept Row = requires(const T& value) {
   value[0];
 };
 
-/// Compares the elements of two sequences by their numbers. `name` gives an element's name; if it is null,
-/// the number is used.
+/// Compares the elements of two sequences by index. `name` returns an element's name; if it is null, the
+/// index is used.
 template <class T>
 std::string difference_in_row(const T& a, const T& b, const std::string& path, ElementName name) {
   const auto size_a = static_cast<std::size_t>(a.size());
@@ -132,7 +132,7 @@ std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>
 }
 
 /// Returns the first difference in the order of the fields: "drive.profile.segments[2].speed_u_s: 12 against
-/// 13". Empty if there is none. `path` is put in front of the names.
+/// 13". Empty if there is none. `path` precedes the names.
 template <class T>
 std::string first_difference(const T& a, const T& b, const std::string& path) {
   using namespace state_bytes;
@@ -173,7 +173,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
   }
 }
 
-/// Reads a saved value from each reader, and returns the first difference between the two.
+/// Reads a saved value from each reader, and returns the first difference between the values.
 template <class T>
 std::string difference_of_saved(StateReader& a, StateReader& b, const std::string& path = "") {
   const auto of_a = std::make_unique<T>();

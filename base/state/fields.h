@@ -1,5 +1,5 @@
-// Describes the parts of a value. Its fields are listed once, next to its type, and have their members'
-// names:
+// Describes the parts of a value. The fields are listed once, next to the type, and have the names of their
+// members:
 //
 //   template <>
 //   struct understudy::StateOf<Timer> {
@@ -11,11 +11,11 @@
 //     static constexpr Mode last = Mode::sync;  // for an enumeration: its last value
 //   };
 //
-// The list is used to save, restore and hash a value (state_bytes.h) and to compare two (difference.h). Its
-// order is the order of the bytes. It does not compile if a member is missing from the list. A class with
-// private fields makes its StateOf a friend. That StateOf names them in a structured binding (they cannot be
-// counted otherwise) and has two counts: `members`, the number of all members, and `apart`, the number of
-// those that are not state.
+// The list is used to save, restore and hash a value (state_bytes.h) and to compare two values
+// (difference.h). Its order is the order of the bytes. The code does not compile if a member is missing from
+// the list. A class with private fields makes its StateOf a friend. That StateOf names them in a structured
+// binding (they cannot be counted otherwise) and has two counts: `members`, the number of all members, and
+// `apart`, the number of members that are not state.
 //
 // A type whose saved form differs from its form in memory (a ring, a program kept as its lines) has a pair of
 // functions instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may also have `fields`,
@@ -33,28 +33,28 @@
 
 namespace understudy {
 
-/// Describes the fields of a state. It is specialised for each type that is a part of a state.
+/// Describes the fields of a state. It is specialised for each type that is part of a state.
 template <class T>
 struct StateOf;
 
-/// Returns the name of an array's element with that number.
+/// Returns the name of the array element with this index.
 using ElementName = std::string (*)(std::size_t number);
 
 template <class Owner, class T>
 struct NamedField {
   std::string_view name;
   T Owner::*at = nullptr;
-  ElementName element = nullptr;  // null: by its number
+  ElementName element = nullptr;  // null: the index is used
 };
 
-/// A field whose name differs from its member's.
+/// A field whose name differs from the name of its member.
 template <class Owner, class T>
 constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, ElementName element = nullptr) {
   return {name, at, element};
 }
 
-/// Returns the name of a member, without the underscore of a private one. Both compilers print it at the end
-/// of this function's name: "[with auto member = &Timer::since; ...]", "[member = &Timer::since]".
+/// Returns the name of a member, without the trailing underscore of a private member. Both compilers print it
+/// at the end of this function's name: "[with auto member = &Timer::since; ...]", "[member = &Timer::since]".
 template <auto member>
 constexpr std::string_view member_name() {
   constexpr std::string_view text = __PRETTY_FUNCTION__;
@@ -131,7 +131,7 @@ constexpr std::size_t apart_of() {
 
 }  // namespace state_fields
 
-/// The fields of a type. It is not a std::tuple because there are hundreds of these lists, and a tuple takes
+/// The fields of a type. This is not a std::tuple because there are hundreds of such lists, and tuples take
 /// much longer to compile.
 template <class... Field>
 struct FieldList : state_fields::NumberedFields<std::index_sequence_for<Field...>, Field...> {
@@ -145,7 +145,7 @@ concept HasFields = requires {
   StateOf<std::remove_cv_t<T>>::fields;
 };
 
-/// Returns all fields of a type. It does not compile if a member is missing from the list.
+/// Returns all fields of a type. The code does not compile if a member is missing from the list.
 template <HasFields T>
 constexpr const auto& fields_of() {
   using Fields = std::remove_cvref_t<decltype(StateOf<T>::fields)>;
@@ -163,8 +163,8 @@ constexpr void for_each_field(T& value, auto visit) {
   fields_of<std::remove_cv_t<T>>().apply([&](const auto&... named) { (visit(value.*named.at), ...); });
 }
 
-/// Copies only the fields of a value whose class cannot be copied. A restore reads into such a copy first,
-/// and assigns it once everything has been read.
+/// Copies only the fields of a value whose class cannot be copied. A restore first reads into such a copy,
+/// and assigns it after everything has been read.
 template <HasFields T>
 auto copy_fields(const T& value) {
   return fields_of<T>().apply([&](const auto&... named) { return std::tuple(value.*named.at...); });

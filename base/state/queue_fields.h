@@ -1,4 +1,4 @@
-// Saves a queue as part of a state. Only its present elements are saved, in the same form as a vector.
+// Saves a queue as part of a state. Only the current elements are saved, in the same form as a vector.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // An immutable text that is shared by its copies and can only be replaced as a whole. It suits large texts
-// that are rarely written (files, recipes, programs): copying, comparing and hashing one costs as much as for
-// a number.
+// that are rarely written (files, recipes, programs): copying, comparing and hashing one is as cheap as for a
+// number.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ class SharedText {
 
 using SharedTexts = std::vector<SharedText>;
 
-/// Saves the text itself. If the writer shares texts, it saves only the digest, and keeps the text beside the
-/// bytes (state_bytes.h).
+/// Saves the text itself. If the writer shares texts, it saves only the digest, and stores the text
+/// separately from the bytes (state_bytes.h).
 template <>
 struct StateOf<SharedText> {
   template <class Writer>

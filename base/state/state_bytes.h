@@ -1,5 +1,5 @@
-// Saves state as bytes that are the same on every machine: little-endian numbers, doubles by their bits, no
-// padding. A value is saved, restored and hashed by the fields that its StateOf (fields.h) lists.
+// Saves state as bytes that are the same on every machine: little-endian numbers, the bit patterns of
+// doubles, no padding. A value is saved, restored and hashed by the fields that its StateOf (fields.h) lists.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace understudy {
 class StateWriter;
 class StateReader;
 
-/// Returns the FNV-1a hash of `bytes`, continuing from `onto`.
+/// Returns the FNV-1a hash of `bytes`, continuing from the hash `onto`.
 std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto = 0xcbf29ce484222325);
 
 namespace state_bytes {
@@ -66,7 +66,7 @@ concept SavesItself = requires(const T& value, T& restored, StateWriter& writer,
 template <class T>
 concept Numeric = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Returns a number as an unsigned one of the same size.
+/// Returns a number as an unsigned number of the same size.
 template <class T>
 auto as_bits(T value) {
   if constexpr (std::is_same_v<T, double>) {
@@ -84,7 +84,7 @@ auto as_bits(T value) {
 template <class T>
 using Bits = decltype(as_bits(T{}));
 
-/// True for numbers for which every bit pattern is a value and whose saved bytes equal their memory on this
+/// True for numbers for which every bit pattern is valid and whose saved bytes equal their memory on this
 /// machine.
 template <class T>
 inline constexpr bool kIsAsInMemory =
@@ -94,7 +94,7 @@ inline constexpr bool kIsAsInMemory =
 
 class StateWriter {
  public:
-  /// If `shared` is given, shared texts are stored in it, and the bytes hold only their digests.
+  /// If `shared` is not null, shared texts are stored in it, and the bytes contain only their digests.
   explicit StateWriter(std::size_t expected_bytes = 0, SharedTexts* shared = nullptr) : shared_(shared) {
     bytes_.resize(expected_bytes);
   }
@@ -106,7 +106,7 @@ class StateWriter {
     write(value.digest());
     shared_->push_back(value);
   }
-  /// Appends bytes that are saved already.
+  /// Appends bytes that are already in saved form.
   void append(std::span<const std::byte> bytes) {
     if (!bytes.empty()) std::memcpy(room_for(bytes.size()), bytes.data(), bytes.size());
   }
@@ -152,18 +152,18 @@ class StateWriter {
     }
   }
 
-  // This has spare room at its end, because thousands of numbers are appended one by one.
+  // The vector has spare room at its end, because thousands of numbers are appended one by one.
   std::vector<std::byte> bytes_;
   std::size_t size_ = 0;
   SharedTexts* shared_ = nullptr;
 };
 
-/// Reads what a StateWriter wrote. Every member throws StateError if the bytes end too early or hold a value
-/// that the type cannot have (a bool of 7, an enumerator that does not exist).
+/// Reads what a StateWriter wrote. Every member function throws StateError if the bytes end too early or
+/// contain a value that the type cannot have (a bool of 7, an enumerator that does not exist).
 class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
-  /// Reads bytes of a writer that shared its texts. `shared` holds these texts in their order.
+  /// Reads bytes of a writer that shared its texts. `shared` contains these texts in their order.
   StateReader(std::span<const std::byte> bytes, std::span<const SharedText> shared)
       : rest_(bytes), shared_(shared) {}
 
@@ -255,7 +255,7 @@ struct StateHeldBy {
   static const auto& reported(const T& value) { return value.save(); }
 };
 
-// These functions are outside their classes so that a library can instantiate them once for its big types
+// These functions are outside their classes so that a library can instantiate them once for its large types
 // (motion/state_fields.h).
 
 template <class T>

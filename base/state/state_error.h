@@ -1,4 +1,4 @@
-// Thrown for bytes or values that are not a valid state of the object they are given to.
+// Thrown for bytes or values that are not a valid state of the object that they are meant for.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ inline void require_within(std::int64_t value, std::int64_t min, std::int64_t ma
   require_state(value >= min && value <= max, "a number is out of range");
 }
 
-/// Throws StateError if a count of pulses, ticks or nanoseconds is so large that sums and differences of a
-/// few of them may not fit 64 bits.
+/// Throws StateError if a count of pulses, ticks or nanoseconds is so large that the sum or difference of a
+/// few such counts may not fit in 64 bits.
 inline void require_reach(std::int64_t value) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
   require_within(value, -kFarthest, kFarthest);

@@ -7,13 +7,13 @@
 
 namespace understudy {
 
-/// A line without its line ending, and its number from 1.
+/// A line without its line ending, and its number, counted from 1.
 struct TextLine {
   std::string_view text;
   int number = 1;
 };
 
-/// A text to loop over line by line. A final line ending does not begin another line.
+/// A text that can be iterated line by line. A final line ending does not begin another line.
 class TextLines {
  public:
   explicit constexpr TextLines(std::string_view text) : text_(text) {}
@@ -46,7 +46,7 @@ class TextLines {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Editors on Windows write a byte order mark before a text in UTF-8. It is not part of the text.
+/// Windows editors write a byte order mark before UTF-8 text. It is not part of the text.
 constexpr std::string_view without_byte_order_mark(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   return text;

@@ -1,5 +1,5 @@
-// Limits how many mistakes of one text are reported. For a text full of mistakes, such as a log that is
-// loaded as a program, only the first ones are reported.
+// Limits how many mistakes are reported for a text. For a text that is full of mistakes, such as a log that
+// is loaded as a program, only the first ones are reported.
 #pragma once
 
 #include <algorithm>

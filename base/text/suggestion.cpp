@@ -52,11 +52,11 @@ std::size_t min_distance(std::string_view a, std::uint64_t letters_of_a, std::st
                    static_cast<std::size_t>(std::popcount(letters_of_b & ~letters_of_a))});
 }
 
-/// Returns the Levenshtein distance, with a swap of two neighbours as one change, or `limit` if the distance
-/// is at least that. Each row is for a prefix of `b`, each cell of a row for a prefix of `a`, which is in
-/// lower case.
+/// Returns the Levenshtein distance, counting a swap of two neighbours as one change, or `limit` if the
+/// distance is at least `limit`. Each row is for a prefix of `b`, and each cell of a row is for a prefix of
+/// `a`, which is in lower case.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
-  // A common prefix or suffix does not change the distance, and related names often share one.
+  // A common prefix or suffix does not change the distance, and related names often have one.
   const auto is_same = [](char x, char y) { return x == small(y); };
   const auto beginning = static_cast<std::size_t>(std::ranges::mismatch(a, b, is_same).in1 - a.begin());
   a.remove_prefix(beginning);
@@ -88,7 +88,7 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
       (*row)[j] = changes;
       min = std::min(min, changes);
     }
-    // The next rows are computed from these two.
+    // The next rows are computed from these two rows.
     if (std::min(min, min_above) >= limit) return limit;
     min_above = min;
     letter_before = letter;
@@ -119,7 +119,7 @@ std::optional<std::string> near_word(std::string_view word, std::span<const std:
     return std::min(min, candidate.size());  // at least one letter of a short word must match
   };
   if (!known.empty()) {
-    // Start with the most similar word: the others then seldom need the full computation.
+    // Start with the most similar word, because the other words then seldom need the full computation.
     const auto first = static_cast<std::size_t>(std::ranges::min_element(bounds) - bounds.begin());
     const std::size_t limit = limit_of(known[first]);
     if (bounds[first] >= min) return beginning_of(written, known);

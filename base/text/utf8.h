@@ -1,4 +1,4 @@
-// Checks that text is UTF-8.
+// Checks that text is valid UTF-8.
 #pragma once
 
 #include <cstddef>

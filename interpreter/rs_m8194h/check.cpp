@@ -26,15 +26,16 @@ std::size_t place_of(const CommandRow& row, std::string_view name) {
   return kMaxParameters;
 }
 
-/// Returns a parameter of the same command that decides whether another one is used; nothing if it is a
-/// variable.
+/// Returns the parameter of the same command that decides whether another parameter is used, or nothing if it
+/// is a variable.
 std::optional<std::uint32_t> deciding(const Command& command, std::string_view name) {
   const std::size_t place = place_of(command.row(), name);
   if (is_reference(command, place)) return std::nullopt;
   return command.values[place];
 }
 
-/// Returns true if a segment of a mixed stream uses a point: lines have an end, circles a centre, arcs both.
+/// Returns true if a segment of a mixed stream uses a point: lines have an end, circles have a centre, arcs
+/// have both.
 bool uses_point(const Command& command, std::string_view point) {
   const std::optional<std::uint32_t> shape = deciding(command, "nType");
   if (!shape) return false;
@@ -54,7 +55,7 @@ bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mas
   const bool may_store =
       !command.is_macro_line() || options.chose(option("initial_in_macros", "stored_when_the_line_runs"));
   if (row.kind == Kind::setting_axes && may_store) return mask < 2 * kInitial && (mask & kAllAxes) != 0;
-  if (command.verb() == Verb::line_scan && command.number(1) % 2 != 0) return mask == 1;  // uneven: X alone
+  if (command.verb() == Verb::line_scan && command.number(1) % 2 != 0) return mask == 1;  // odd: X alone
   return row.lists(mask);
 }
 
@@ -94,8 +95,8 @@ std::optional<std::size_t> bad_radius(const Command& command) {
   return std::nullopt;
 }
 
-/// Limits that are printed as numbers, whatever MAX_V is (3.4, 3.17, 7.1). Otherwise the device clamps the
-/// values.
+/// Limits that the manual prints as numbers, independent of MAX_V (3.4, 3.17, 7.1). Elsewhere, the device
+/// clamps the values.
 struct SpeedEnds {
   Verb verb;
   std::int64_t min;
@@ -130,7 +131,7 @@ std::optional<std::size_t> beyond_ends(const Command& command, std::size_t param
   return parameter;
 }
 
-/// Commands whose sections say that a variable may replace a constant (5.2.1, 9.3 to 9.8).
+/// Commands whose sections state that a variable may replace a constant (5.2.1, 9.3 to 9.8).
 constexpr Verb kSayReferences[] = {Verb::frnet_out, Verb::set_var, Verb::var_calculate,
                                    Verb::for_,      Verb::if_,     Verb::timer};
 
@@ -181,7 +182,7 @@ std::optional<std::size_t> bad_by_choice(const Command& command, const Options& 
   return std::nullopt;
 }
 
-/// Returns true if a rectangle whose corners do not fit its sides is refused here; otherwise, the machine
+/// Returns true if a rectangle whose corners do not fit its sides is refused here. Otherwise, the machine
 /// that executes it decides.
 bool corners_must_fit(const Options& options) {
   return options.chose(option("rectangle_radius", "exception_3")) &&
@@ -249,7 +250,7 @@ std::string expected_of(const Command& command, std::size_t parameter) {
     case Kind::point_if_used: break;
   }
   if (row.width == Width::real) return "a real number";
-  // The radius itself is in range, but does not fit the sides.
+  // The radius itself is in range, but it does not fit the sides.
   const bool is_radius = command.verb() == Verb::rectangle && row.name == "Rp";
   if (is_radius && row.lists(command.number(parameter)) && bad_radius(command)) {
     return "at most half of Lp and of Wp";

@@ -1,5 +1,5 @@
-// What the manual of the RS-M8194H leaves open about commands and macros, and what we chose. The model's
-// table has these rows, so a bench can override them and docs/fidelity/rs-m8194h.md lists them.
+// What the manual of the RS-M8194H leaves open about commands and macros, and what we chose. These rows are
+// part of the model's table, so a bench can override them and docs/fidelity/rs-m8194h.md lists them.
 #pragma once
 
 #include <array>

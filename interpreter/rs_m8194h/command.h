@@ -9,9 +9,8 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Values that are not parameters are 0. A signed number is in two's complement, a real number is stored as
-/// its bits. Comparison operators have the codes of operators.h, whichever order the host used for their
-/// letters.
+/// Values that are not parameters are 0. Signed numbers are in two's complement, real numbers are stored as
+/// their bits. Comparison operators have the codes of operators.h, whichever letter order the host used.
 struct Command {
   std::uint16_t code = 0;
   std::array<std::uint32_t, kMaxParameters> values = {};
@@ -22,7 +21,7 @@ struct Command {
   constexpr std::int32_t signed_value(std::size_t parameter) const {
     return static_cast<std::int32_t>(values[parameter]);
   }
-  /// Returns a parameter with the sign of its width.
+  /// Returns a parameter as a number, signed if its width is signed.
   constexpr std::int64_t number(std::size_t parameter) const {
     const bool has_sign = row().parameters[parameter].width == Width::signed_long;
     return has_sign ? std::int64_t{signed_value(parameter)} : std::int64_t{values[parameter]};
@@ -46,8 +45,8 @@ constexpr std::size_t byte_variable_number(std::uint32_t value) {
   return static_cast<std::size_t>(value - kByteVariable0);
 }
 
-/// Returns true if a parameter of a macro line is read from a variable when the line runs. Operands of
-/// program flow count, too.
+/// Returns true if a parameter of a macro line is read from a variable when the line runs. This includes
+/// operands of program flow.
 constexpr bool is_reference(const Command& command, std::size_t parameter) {
   if (!command.is_macro_line()) return false;
   const Parameter& row = command.row().parameters[parameter];

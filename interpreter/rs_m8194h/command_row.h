@@ -1,5 +1,5 @@
-// The parts of a row of RS-M8194H's command table. A row is a function of the manual. Its low byte makes a
-// real-time code (0x0Axx), a macro code (0x0Cxx), or both with the same parameters.
+// The parts of a row of the RS-M8194H's command table. A row is a function in the manual. Its low byte makes
+// a real-time code (0x0Axx), a macro code (0x0Cxx), or both with the same parameters.
 #pragma once
 
 #include <array>
@@ -22,16 +22,16 @@ enum class Width : std::uint8_t {
 /// The kind of a parameter, which determines its checks and its text.
 enum class Kind : std::uint8_t {
   number,         // within its range, or one of its list
-  speed,          // also accelerations and their rates: any value; the machine clamps it
+  speed,          // includes accelerations and their rates; any value, because the machine clamps it
   any_value,      // any value
   axes,           // a mask of X Y Z U, not empty
-  setting_axes,   // like axes; bit 4 in a real-time command: into the Initial Table
-  axis,           // one of X Y Z U; no axis twice
+  setting_axes,   // like axes; in a real-time command, bit 4 selects the Initial Table
+  axis,           // one of X Y Z U, each at most once
   axis_or_none,   // like axis, or 0
   variable,       // VARn, as a destination
   byte_variable,  // bVARn, as a destination
   memory,         // MDn
-  operand,        // a constant, or VARn that is read when the line runs
+  operand,        // a constant, or a VARn that is read when the line runs
   arithmetic,     // + - * / & |
   comparison,     // < <= > >= == !=
   isr_if_used,    // an ISR or 0; any value if the command's nINT is 0
@@ -47,7 +47,7 @@ struct Parameter {
   Width width = Width::byte;
   std::int64_t min = 0;
   std::int64_t max = 0;
-  std::uint32_t only = 0;  // if not 0, bit n is set if n is in the list
+  std::uint32_t only = 0;  // if not 0, bit n is set if n is allowed
   Reference reference = Reference::none;
   std::string_view values = {};  // the meanings of the numbers
 
@@ -61,8 +61,8 @@ struct Parameter {
 enum class RealTime : std::uint8_t {
   none,       // there is no real-time code
   queued,     // into the FIFO
-  immediate,  // acts on receipt and takes no block
-  stop,       // like immediate, or by choice queued
+  immediate,  // acts on receipt and uses no block
+  stop,       // like immediate, or queued (a choice)
 };
 
 /// Where a function is allowed, and how the FIFO and macros treat it.
@@ -70,7 +70,7 @@ struct Use {
   RealTime real_time = RealTime::none;
   bool in_mp = false;          // its macro code is allowed in an MP
   bool in_isr = false;         // its macro code is allowed in an ISR
-  bool initial = false;        // its real-time code also stores into the Initial Table
+  bool initial = false;        // its real-time code can also store into the Initial Table
   bool starts_motion = false;  // locks, holds and waits apply
   bool refused_while_mp_runs = false;
 };
@@ -80,11 +80,11 @@ using Parameters = std::array<Parameter, kMaxParameters>;
 
 struct CommandRow {
   Verb verb;
-  std::string_view real_time_name;  // as in the manual; empty: none
+  std::string_view real_time_name;  // as in the manual; empty if there is no such code
   std::string_view macro_name;
   Use use;
-  int cost;  // blocks of the FIFO or lines of a macro; immediate commands and the two CLOSE take none
-  Parameters parameters;  // parameters with a name
+  int cost;  // blocks of the FIFO or lines of a macro; 0 for immediate commands and the two CLOSE
+  Parameters parameters;  // parameters that have a name
   std::string_view section;
   std::string_view meaning;
 
@@ -111,11 +111,11 @@ inline constexpr int kByteVariableCount = 128;  // bVAR0 to bVAR127
 inline constexpr int kMemoryCount = 2048;       // MD0 to MD2047
 inline constexpr int kFirstRealMemory = 1024;
 inline constexpr int kLabelCount = 4;
-inline constexpr int kDeepest = 7;  // open IF, open FOR, levels of calls
-/// By choice, the started macro is not one of the levels of its calls.
+inline constexpr int kDeepest = 7;  // open IFs, open FORs, call levels
+/// A choice may exclude the first macro from the call levels.
 inline constexpr int kDeepestCall = kDeepest + 1;
 
-/// The values that stand for VAR0 and bVAR0 in a parameter.
+/// The values that represent VAR0 and bVAR0 in a parameter.
 inline constexpr std::int64_t kVariable0 = 0x7FFF0000;
 inline constexpr std::int64_t kByteVariable0 = 0x80;
 /// The range of positions, distances, times and constants.

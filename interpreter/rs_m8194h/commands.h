@@ -1,4 +1,5 @@
-// RS-M8194H's 229 command codes as data. The window, macros, their text and `describe` read these rows.
+// The RS-M8194H's 229 command codes as data. The window, the macros, their text and `describe` read these
+// rows.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +51,7 @@ constexpr bool is_macro_code(std::uint16_t code) { return (code & 0xFF00U) == kM
 constexpr Verb verb_of(std::uint16_t code) { return static_cast<Verb>(code & 0xFFU); }
 
 namespace commands_detail {
-/// Index of the function by low byte; -1: none.
+/// The index of the function for each low byte; -1: none.
 inline constexpr std::array<std::int16_t, 256> kPlaces = [] {
   std::array<std::int16_t, 256> places{};
   places.fill(-1);
@@ -100,7 +101,8 @@ inline constexpr std::array kReadVerbs = {
     Verb::get_error,  Verb::get_error_code, Verb::frnet_in,          Verb::frnet_read,
     Verb::get_latch};
 
-/// Macro lines that decide, for observers: a block is entered, repeated or skipped, or a wait ends at once.
+/// Macro lines that decide something, for observers: a block is entered, repeated or skipped, or a wait ends
+/// at once.
 inline constexpr std::array kDecidingVerbs = {Verb::for_, Verb::next, Verb::if_, Verb::stop_wait,
                                               Verb::frnet_wait};
 
@@ -109,7 +111,7 @@ constexpr bool is_one_of(Verb verb, const auto& verbs) {
 }
 
 namespace commands_detail {
-/// Returns true for a real-time command, or a macro line that neither reads nor is program flow.
+/// Returns true for a real-time command, or for a macro line that is neither a read nor program flow.
 constexpr bool is_of_device(const CommandRow& row) {
   if (is_one_of(row.verb, kDownloadVerbs)) return false;
   return !row.real_time_name.empty() ||

@@ -21,7 +21,7 @@ bool is_label(const Command& command, std::uint32_t number) {
   return command.verb() == Verb::label && command.values[0] == number;
 }
 
-/// The fault of a line in each kind of block; the innermost block counts.
+/// The fault of a line in each kind of block. The innermost block decides.
 struct BlockRule {
   Verb verb;
   Fault outside;

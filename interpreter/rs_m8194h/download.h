@@ -24,15 +24,15 @@ struct DownloadStatus {
   bool operator==(const DownloadStatus&) const = default;
 };
 
-/// A macro that is being downloaded. One error counts, the first or the last; a line with an error is not
-/// stored.
+/// A macro that is being downloaded. Only one error counts, the first or the last. A line with an error is
+/// not stored.
 struct Download {
   MacroName name = {};
   std::vector<Command> lines = {};
   Fault fault = Fault::none;  // the fault that counts
   std::uint16_t code = 0;     // code of its line, as it was sent
   std::uint16_t line = 0;     // number of its line
-  bool is_spoilt = false;     // a line was refused
+  bool is_spoilt = false;     // a line was refused, so nothing will be stored
 
   bool operator==(const Download&) const = default;
 };
@@ -40,7 +40,7 @@ struct Download {
 /// Returns how many lines still fit.
 int room_of(const Download& download, const Options& options);
 
-/// Adds a line that decode() accepts in this state. Returns the reason if it is refused, otherwise none.
+/// Adds a line that decode() accepts in this state. Returns the reason for a refusal, or none.
 Fault add(Download& download, const Command& command, const Options& options = {});
 /// Records a line that decode() has refused: undefined commands are download errors.
 void refuse(Download& download, std::uint16_t code, Fault fault, const Options& options = {});
@@ -49,10 +49,10 @@ struct Closed {
   Fault fault = Fault::none;        // of CLOSE itself
   std::optional<Macro> macro = {};  // replaces the old macro if there was no error
 };
-/// Ends the download. If there is an error, `download` contains it afterwards.
+/// Ends the download. If there was an error, `download` contains it afterwards.
 Closed close(Download& download, const Options& options = {});
 
-/// Returns what inputs 110 to 114 show after a CLOSE; the number of the other kind of macro does not change.
+/// Returns what inputs 110 to 114 show after a CLOSE. The number of the other kind of macro does not change.
 DownloadStatus status_of(const Download& closed, const DownloadStatus& before, const Options& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,5 +1,5 @@
-// The reasons why a request or a macro line is refused, in both numberings of input 102, with their
-// exceptions and with the download's error codes of input 114.
+// The reasons for refusing a request or a macro line, in both numberings of input 102, with their exceptions
+// and with the download error codes of input 114.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ enum class Fault : std::uint8_t {
 
 struct FaultRow {
   Fault fault;
-  std::uint8_t reason_4_16_2;   // shown in input 102; after the end of that list, as in the other numbering
+  std::uint8_t reason_4_16_2;   // in input 102; beyond that list, as in the other numbering
   std::uint8_t reason_12_1_12;  // the same in the other numbering
   std::uint8_t exception;       // Modbus
   std::uint8_t download_error;  // shown in input 114; 0: not a download error

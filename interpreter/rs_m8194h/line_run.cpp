@@ -21,12 +21,12 @@
 namespace understudy::interpreter::rs_m8194h {
 namespace {
 
-/// Packs what FRNET_WAIT waits for into one number.
+/// Packs the input and level that FRNET_WAIT awaits into one number.
 constexpr std::uint32_t packed(std::uint32_t group, std::uint32_t channel, std::uint32_t level) {
   return (level << 16U) | (group << 8U) | channel;
 }
 
-/// Runs one line of one run.
+/// Executes one line of a run.
 class LineRun {
  public:
   LineRun(Execution& execution, Run& run, std::int64_t now_ms, const Options& options, Machine& machine)
@@ -44,7 +44,8 @@ class LineRun {
 
  private:
   Level& level() { return run_.levels.back(); }
-  /// Tells an observer that the line begins, unless the machine has already made it wait.
+  /// Notifies the observer that the line begins, unless the line is being repeated because the machine made
+  /// it wait.
   void begin() {
     watched_part_ = part_of(name_of_level(run_, level()));
     watched_line_ = level().line;
@@ -61,7 +62,7 @@ class LineRun {
     return Ran::on;
   }
   Ran next_line() { return go_to(level().line + std::size_t{1}); }
-  /// Completes the line. From now on the run checks whether the wait is over.
+  /// Completes the line. From now on, the run checks whether the wait has ended.
   Ran wait(Hold what, std::int64_t until_ms, std::uint32_t awaited = 0) {
     next_line();
     hold(run_, what, until_ms, awaited);
@@ -225,7 +226,7 @@ class LineRun {
 
   Ran exit_macro(const Command&) {
     level().loops.clear();
-    level().line = UINT16_MAX;  // beyond the end of the macro, whatever its length
+    level().line = UINT16_MAX;  // beyond the end of any macro
     return Ran::on;
   }
 
@@ -320,7 +321,7 @@ bool is_over(Run& run, std::int64_t now_ms, const Options& options, Machine& mac
         return true;
       if (run.until_ms == kNever || now_ms < run.until_ms) return false;
       if (options.chose(option("frnet_wait_timeout", "execution_error"))) {
-        const Level& level = run.levels.back();  // it is already after the line
+        const Level& level = run.levels.back();  // already points to the next line
         machine.report({name_of_level(run, level), macro_code(Verb::frnet_wait),
                         static_cast<std::uint16_t>(level.line - 1), Fault::operand});
       }

@@ -158,7 +158,7 @@ class ListingReader {
   void end_macro() {
     if (!download_) return;
     Closed closed = close(*download_);
-    // After an earlier error, the reported line may not be the CLOSE, or may be one that was refused.
+    // After an earlier error, the reported line may not be the CLOSE, or may be a line that was refused.
     if (closed.fault != Fault::none && is_sound_) fail_structure(places_[download_->line], *download_);
     if (closed.macro) {
       listing_.macros.push_back({download_->name, std::move(*closed.macro)});

@@ -42,13 +42,13 @@ struct ListedMacro {
   bool operator==(const ListedMacro&) const = default;
 };
 struct ListedTrigger {
-  int channel = 0;  // 0 to 127, beginning with group 8
+  int channel = 0;  // 0 to 127; 0 is group 8, channel 0
   Trigger trigger = {};
 
   bool operator==(const ListedTrigger&) const = default;
 };
 
-/// The macros and triggers of a text, in the order of the text.
+/// The macros and triggers in a text, in their order.
 struct Listing {
   std::vector<ListedMacro> macros = {};
   std::vector<ListedTrigger> triggers = {};
@@ -57,7 +57,7 @@ struct Listing {
 };
 
 struct ParsedListing {
-  Listing listing = {};                           // only if there is no error
+  Listing listing = {};                           // empty if there is an error
   std::vector<std::vector<int>> text_lines = {};  // for each macro, the text line of each of its lines
   std::vector<TextError> errors = {};             // the first kMaxMistakes, in the order of the text
   std::optional<Token> first_trigger = {};        // first word of the first trigger in the text
@@ -66,9 +66,9 @@ ParsedListing parse_listing(std::string_view text, const Options& options = {});
 
 std::string text_of(const Listing& listing);
 std::string text_of(const MacroName& name, const Macro& macro);
-/// "TRIGGER 8.0 off_to_on MP21"
+/// Returns "TRIGGER 8.0 off_to_on MP21".
 std::string text_of(int channel, const Trigger& trigger);
-/// "8.0"
+/// Returns "8.0".
 std::string text_of_channel(int channel);
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,4 +1,4 @@
-// The controller on which a running macro acts, as an abstract machine.
+// The controller on which a running macro acts, as an abstract interface.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// The result of a line. A line that waits has not changed anything, and is given again at the next tick.
+/// The result of a line. A line that waits has not changed anything, and is repeated in the next tick.
 enum class Took : std::uint8_t { done, waits };
 
 /// A fault during execution, for inputs 115 to 119. The line is skipped.
@@ -33,21 +33,21 @@ class Machine : public Watched {
   /// Returns null for a macro that was never downloaded.
   virtual const Macro* macro(const MacroName& name) const = 0;
 
-  /// Access VAR0 to VAR511 and bVAR0 to bVAR127.
+  /// These access VAR0 to VAR511 and bVAR0 to bVAR127.
   virtual std::int32_t variable(std::size_t number) const = 0;
   virtual void set_variable(std::size_t number, std::int32_t value) = 0;
   virtual std::uint8_t byte_variable(std::size_t number) const = 0;
 
-  /// Executes one of kReadVerbs.
+  /// Executes one of kReadVerbs and returns the value.
   virtual std::int32_t read(const Command& command) const = 0;
-  /// For STOP_WAIT: returns true if all axes of a mask have stopped.
+  /// For STOP_WAIT: returns true if all axes in the mask have stopped.
   virtual bool stand(std::uint32_t axes) const = 0;
   /// For FRNET_WAIT: returns the input of group 8 to 15, channel 0 to 15.
   virtual bool frnet_input(std::uint32_t group, std::uint32_t channel) const = 0;
-  /// Executes all other lines. Returns `done` for a drive without effect.
+  /// Executes all other lines. Also returns `done` for a drive that has no effect.
   virtual Took carry_out(const Command& command) = 0;
 
-  /// Returns the number of the ISR whose turn it is, or 0. The ISR is then running.
+  /// Starts the next pending ISR and returns its number, or 0 if none is pending.
   virtual int take_isr() = 0;
   /// Called when the outermost MP has ended, except by MP_TERMINATE.
   virtual void mp_ended() = 0;

@@ -23,8 +23,8 @@ constexpr int count_of(bool is_isr) { return is_isr ? kIsrCount : kMpCount; }
 constexpr bool exists(const MacroName& name) {
   return name.number >= 1 && name.number <= count_of(name.is_isr);
 }
-/// Returns the number of the program's part for its observers (base/program_watch.h): MP1 to MP157, then ISR1
-/// to ISR20.
+/// Returns the number under which observers know the macro (base/program_watch.h): MP1 to MP157, then ISR1 to
+/// ISR20.
 constexpr int part_of(const MacroName& name) { return name.number + (name.is_isr ? kMpCount : 0); }
 /// Returns "MP21" or "ISR3".
 std::string to_string(const MacroName& name);
@@ -58,8 +58,9 @@ inline constexpr int kMaxLines = 512;
 
 struct Macro {
   std::vector<Command> lines = {};
-  /// Target of each line. IF: after its ELSE or END_IF. ELSE: after END_IF. FOR, EXIT_FOR: after NEXT. NEXT:
-  /// after its FOR. GOTO: its label. All others: the next line.
+  /// The target of each line. IF: the line after its ELSE or END_IF. ELSE: the line after END_IF. FOR,
+  /// EXIT_FOR: the line after NEXT. NEXT: the line after its FOR. GOTO: its label. All other lines: the next
+  /// line.
   std::vector<std::uint16_t> leads_to = {};
 
   std::size_t size() const { return lines.size(); }
@@ -69,7 +70,7 @@ struct Macro {
 /// Returns the sum of the commands' costs.
 int lines_used(const std::vector<Command>& lines);
 
-/// A block that is open after some lines; in Blocks the innermost is last.
+/// A block that is open after some lines. In Blocks, the innermost block is last.
 struct Block {
   Verb opener = Verb::if_;  // or for_
   std::uint16_t line = 0;
@@ -79,7 +80,7 @@ using Blocks = std::vector<Block>;
 Blocks blocks_behind(const std::vector<Command>& lines);
 int count_open(const Blocks& blocks, Verb opener);
 
-/// Links lines that a download has checked.
+/// Links the lines of a macro that has passed the checks of a download.
 Macro linked(std::vector<Command> lines);
 
 }  // namespace understudy::interpreter::rs_m8194h

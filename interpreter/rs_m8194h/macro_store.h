@@ -1,5 +1,5 @@
-// Keeps the macros of a memory, which holds them as texts, in compiled form. A macro is not compiled again
-// while its text stays the same.
+// Keeps compiled forms of the macros that a memory stores as text. A macro is compiled again only if its text
+// changes.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// Compiles the text of exactly one macro; returns nothing for any other text.
+/// Compiles a text that consists of exactly one macro. Returns nothing for any other text.
 std::optional<Macro> macro_of(const MacroName& name, std::string_view text);
 
 class MacroStore {
@@ -23,7 +23,7 @@ class MacroStore {
     SharedText text;
   };
 
-  /// Replaces the stored macros with these, each of which may appear only once. If a text is not a listing of
+  /// Replaces the stored macros with these. Each macro may appear only once. If a text is not a listing of
   /// its macro, find() returns null for that macro.
   void update(std::span<const Stored> stored);
 

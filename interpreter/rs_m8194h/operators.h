@@ -11,8 +11,8 @@ namespace understudy::interpreter::rs_m8194h {
 enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_equal, equal, not_equal };
 
 /// The codes of each operator. The manual's list and its frame write the two letters in different orders
-/// and the list has two operators that are not in the frame. Every form is accepted; the first one is
-/// written.
+/// and the list has two operators that are missing from the frame. All forms are accepted; the first
+/// form is used for output.
 struct ComparisonRow {
   Comparison comparison;
   std::string_view text;
@@ -56,8 +56,8 @@ constexpr bool is_arithmetic(std::uint32_t code) {
   return code < 0x80 && code != 0 && kArithmetic.find(static_cast<char>(code)) != std::string_view::npos;
 }
 
-/// Calculates with two 32-bit numbers; a division by 0 is not allowed. The caller wraps the result to 32 bits
-/// if necessary.
+/// Calculates with two 32-bit numbers. A division by 0 is not allowed. If necessary, the caller wraps the
+/// result to 32 bits.
 constexpr std::int64_t calculate_exactly(char arithmetic, std::int32_t left, std::int32_t right) {
   const auto a = std::int64_t{left};
   const auto b = std::int64_t{right};

@@ -1,4 +1,4 @@
-// The options in effect for commands and macros. The interpreter looks them up through this header.
+// The selected options for commands and macros. The interpreter looks them up through this header.
 #pragma once
 
 #include <string_view>

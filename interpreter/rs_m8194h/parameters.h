@@ -1,4 +1,4 @@
-// Functions with which the rows of the command table define their parameters.
+// Functions that define the parameters of the rows of the command table.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ constexpr Parameter axis_or_none(std::string_view name) {
   return {.name = name, .kind = Kind::axis_or_none, .min = 0, .max = 8};
 }
 
-/// A byte constant is below 0x80, so that bVARn can replace it in a macro.
+/// A byte whose constants are below 0x80, so that bVARn can replace it in a macro.
 constexpr Parameter byte(std::string_view name, std::int64_t min, std::int64_t max,
                          std::string_view values = {}) {
   return {.name = name, .min = min, .max = max, .reference = Reference::byte_variable, .values = values};
@@ -36,7 +36,7 @@ constexpr Parameter byte_of(std::string_view name, std::uint32_t only, std::stri
           .reference = Reference::byte_variable,
           .values = values};
 }
-/// A byte that is checked when a macro is stored, and that no variable may replace.
+/// A byte that is checked when a macro is stored, and that a variable cannot replace.
 constexpr Parameter constant_byte(std::string_view name, std::int64_t min, std::int64_t max) {
   return {.name = name, .min = min, .max = max};
 }

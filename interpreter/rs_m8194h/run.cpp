@@ -20,7 +20,7 @@ bool is_at_end(const Run& run, const Machine& machine) {
   return macro == nullptr || level.line >= macro->size();
 }
 
-/// Leaves levels whose macro has no more lines. A wait in the last line ends first.
+/// Leaves the levels whose macro has no more lines. A wait in the last line ends first.
 void leave_ended(Run& run, const Machine& machine) {
   while (run.is_alive() && run.hold == Hold::nothing && is_at_end(run, machine)) run.levels.pop_back();
 }
@@ -36,7 +36,7 @@ void settle(Execution& execution, Machine& machine) {
   machine.mp_ended();
 }
 
-/// Checks waits, even while an ISR runs.
+/// Checks the waits, even while an ISR runs.
 void watch(Execution& execution, std::int64_t now_ms, const Options& options, Machine& machine) {
   const auto look = [&](Run& run) {
     const bool is_watched = run.hold != Hold::nothing && run.hold != Hold::machine;
@@ -47,7 +47,7 @@ void watch(Execution& execution, std::int64_t now_ms, const Options& options, Ma
   settle(execution, machine);
 }
 
-/// Returns false if the run waits.
+/// Returns false if the run is waiting.
 bool run_line_of(Execution& execution, Run& run, std::int64_t now_ms, const Options& options,
                  Machine& machine) {
   if (!is_over(run, now_ms, options, machine)) return false;
@@ -72,7 +72,7 @@ Run started(bool is_isr, int number, std::int64_t first_ms) {
   return run;
 }
 
-/// Returns true if the loops of a level are those around its next line.
+/// Returns true if the open loops of a level are the loops around its next line.
 bool is_sound_level(const Run& run, const Level& level, const Machine& machine) {
   const MacroName name = name_of_level(run, level);
   const Macro* macro = exists(name) ? machine.macro(name) : nullptr;

@@ -1,4 +1,4 @@
-// The state fields of commands, downloads and running macros (base/state/fields.h), in the order of the
+// The state fields of commands, downloads and running macros (base/state/fields.h), in the order of the saved
 // bytes.
 #pragma once
 
@@ -34,12 +34,12 @@ struct StateOf<interpreter::rs_m8194h::TriggerEvent> {
   static constexpr auto last = interpreter::rs_m8194h::TriggerEvent::clear_stop;
 };
 
-/// A command is saved as the registers in which it is sent.
+/// A command is saved as the registers that the host would send.
 template <>
 struct StateOf<interpreter::rs_m8194h::Command> {
   static void write(const interpreter::rs_m8194h::Command& command, StateWriter& writer);
   static void read(interpreter::rs_m8194h::Command& command, StateReader& reader);
-  /// Describes the command, for differences between two states.
+  /// Returns the command as text, for comparing two states.
   static std::string reported(const interpreter::rs_m8194h::Command& command);
 };
 

@@ -54,7 +54,7 @@ std::string text_of_axes(std::uint32_t mask, bool takes_initial) {
   return is_initial ? "INITIAL_" + letters_of(mask & kAllAxes) : std::to_string(mask);
 }
 
-/// Formats a real. NaN and infinity are written as their bits.
+/// Formats a real number. NaN and infinity are written as their bits.
 std::string text_of_real(std::uint32_t bits) {
   const auto real = std::bit_cast<float>(bits);
   if (!std::isfinite(real)) return hexadecimal(bits);
@@ -107,7 +107,7 @@ std::string text_of_value(const Command& command, std::size_t parameter) {
 
 // --- text as values ----------------------------------------------------------------------------
 
-/// Returns the number after a name: 12 for "VAR12" and "VAR".
+/// Returns the number after a name: 12 for the text "VAR12" and the name "VAR".
 std::optional<std::int64_t> number_behind(std::string_view text, std::string_view name) {
   if (text.size() <= name.size() || !is_word(text.substr(0, name.size()), name)) return std::nullopt;
   const std::string_view digits = text.substr(name.size());
@@ -158,7 +158,7 @@ std::optional<std::int64_t> variable_of(std::string_view text, bool is_byte) {
   return *number + (is_byte ? kByteVariable0 : kVariable0);
 }
 
-/// Returns the value for the registers; the range is checked later.
+/// Returns the value for the registers. Its range is checked later.
 std::optional<std::int64_t> value_of(std::string_view text, const Parameter& row, bool is_macro_line) {
   if (row.width == Width::real) return real_of(text);
   switch (row.kind) {
@@ -232,8 +232,9 @@ std::optional<std::uint16_t> code_of(std::string_view name) {
   return found->second;
 }
 
-/// Returns the nearest names. All names share their beginning, so a name without it is still complete, and
-/// only the rest is compared. A name that contains the word is nearer than one with a similar spelling.
+/// Returns the nearest names. All names have the same prefix, so a name without the prefix is also accepted,
+/// and only the rest is compared. A name that contains the word is nearer than a name with a similar
+/// spelling.
 std::string nearest_names(const std::string& word) {
   constexpr std::string_view kBeginnings[] = {"RSM_MACRO_", "RSM_ABS_MACRO_", "RSM_ABS_", "RSM_"};
   std::string_view own = word;
@@ -313,7 +314,7 @@ ParsedCommand parse_command(std::span<const Token> tokens, const Options& option
   }
   if (const std::optional<std::size_t> bad = bad_parameter(command, options)) {
     if (bad_parameter(command)) return misfit(*bad);
-    // It is refused by a choice, not because of its range.
+    // A choice refuses the value, not its range.
     return failed(tokens[*bad + 1], "parameter " + std::string(row.parameters[*bad].name) + ": " +
                                         quoted(tokens[*bad + 1].text) +
                                         " is refused by a choice of the bench; expected " +

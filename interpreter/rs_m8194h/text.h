@@ -26,12 +26,12 @@ std::string text_of(const Command& command);
 
 struct ParsedCommand {
   std::optional<Command> command;
-  std::optional<TextError> error;  // if there is no command
+  std::optional<TextError> error;  // set if there is no command
 };
 
-/// Parses one line that decode() accepts in some state of the device. Operators are checked, too.
+/// Parses one line that decode() accepts in some state of the device. Operators are also checked.
 ParsedCommand parse_command(std::string_view text, const Options& options = {});
-/// Like parse_command(text), for at least one token.
+/// Like parse_command(text), but for tokens. There must be at least one token.
 ParsedCommand parse_command(std::span<const Token> tokens, const Options& options = {});
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,4 +1,4 @@
-// A mistake in a text, and its position.
+// A mistake in a text, with its position.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct TextError {
   bool operator==(const TextError&) const = default;
 };
 
-/// "4:9: parameter nMode: '9' does not fit; expected 0 to 5".
+/// Returns "4:9: parameter nMode: '9' does not fit; expected 0 to 5".
 std::string to_string(const TextError& error);
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,4 +1,4 @@
-// The trigger table: what each FRnet input starts without a request by the host.
+// The trigger table: what each FRnet input starts without a request from the host.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@ namespace understudy::interpreter::rs_m8194h {
 enum class TriggerCondition : std::uint8_t { none, on, off, off_to_on, on_to_off, change };
 enum class TriggerEvent : std::uint8_t {
   none,
-  call_mp,        // its argument is the number of the MP
-  hold,           // its argument is an axis
-  abort_command,  // aborts the command that is waiting
+  call_mp,        // the argument is the number of the MP
+  hold,           // the argument is an axis
+  abort_command,  // aborts the waiting command
   abort_macro,
   pause,
   clear_stop,
 };
 
-/// The conditions by their text.
+/// The text of each condition.
 struct ConditionRow {
   TriggerCondition condition;
   std::string_view text;
@@ -33,7 +33,7 @@ inline constexpr auto kTriggerConditions = std::to_array<ConditionRow>({
 });
 struct EventRow {
   TriggerEvent event;
-  std::string_view text;  // of a call: the text before the number
+  std::string_view text;  // for a call, the text before the number
 };
 inline constexpr auto kTriggerEvents = std::to_array<EventRow>({
     {TriggerEvent::call_mp, "MP"},

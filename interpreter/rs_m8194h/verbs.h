@@ -1,4 +1,4 @@
-// The 139 functions with a code. A verb is the low byte of its codes.
+// The 139 functions that have a code. A verb is the low byte of its codes.
 #pragma once
 
 #include <cstdint>

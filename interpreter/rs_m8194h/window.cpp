@@ -34,10 +34,10 @@ constexpr Pair parted(std::uint32_t value, WordOrder order) {
   return pair;
 }
 
-/// The codes that chapter 7 and table 12.3 give to each other's command.
+/// Pairs of codes that chapter 7 and table 12.3 swap.
 constexpr std::uint16_t kSwapped[][2] = {{0x0C81, 0x0CFC}, {0x0A84, 0x0AFD}, {0x0C84, 0x0CFD}};
 
-/// Printed in a frame of 7.4.8, and nowhere else.
+/// This code appears only in a frame of 7.4.8.
 constexpr std::uint16_t kMisprint = 0x0CB2;
 
 std::uint16_t meant_by(std::uint16_t code, const Options& options) {
@@ -51,7 +51,8 @@ std::uint16_t meant_by(std::uint16_t code, const Options& options) {
   return code;
 }
 
-/// Returns true for `<=`, `>=` and `!=`. Their first code has the frame's order, the second the table's.
+/// Returns true for `<=`, `>=` and `!=`. Their first code has the letter order of the frame, the second the
+/// order of the table.
 bool has_two_orders(const ComparisonRow& row) {
   return row.text.size() == 2 && row.comparison != Comparison::equal;
 }
@@ -71,7 +72,7 @@ std::uint32_t comparison_of(std::uint32_t sent, const Options& options) {
                                                                                             : row->codes[0];
 }
 
-/// The reverse of comparison_of(): returns the form that the options accept.
+/// The inverse of comparison_of(): returns the form that the options accept.
 std::uint32_t sent_as(std::uint32_t comparison, const Options& options) {
   const ComparisonRow* const row = find_comparison(comparison);
   const bool is_other = row != nullptr && comparison == row->codes[0] && has_two_orders(*row) &&

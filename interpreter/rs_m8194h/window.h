@@ -1,4 +1,4 @@
-// Converts the registers from 8000 on to a command, a code and its parameters, and back.
+// Converts the registers from 8000 on to a command (a code and its parameters), and back.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace understudy::interpreter::rs_m8194h {
 
-/// The state in input 100.
+/// The state that input 100 shows.
 enum class State : std::uint8_t { ready, mp_download, isr_download };
 
-/// The word order of 32-bit parameters, as in holding 14.
+/// The word order of 32-bit parameters, which holding register 14 selects.
 enum class WordOrder : std::uint8_t { high_first, low_first };
 
 struct Decoded {
@@ -26,9 +26,8 @@ struct Decoded {
   std::optional<std::size_t> parameter = {};  // the refused parameter
 };
 
-/// Decodes a message that begins at 8000, with the checks in the order of [1.3]: undefined code, class
-/// refused in this state, number of registers, parameters. The download may still refuse a macro line
-/// afterwards.
+/// Decodes a message that begins at 8000. The checks have the order of [1.3]: undefined code, class refused
+/// in this state, number of registers, parameters. Afterwards, the download may still refuse a macro line.
 Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder order = WordOrder::high_first,
                const Options& options = {});
 
